@@ -1,0 +1,1 @@
+#include "registers/mac.h"

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+
+namespace nplc::base {
+
+/// Low byte first, as FlexMAC, MacTalk and the sequence table have it.
+constexpr std::uint16_t load_u16(const std::uint8_t* p) {
+    return static_cast<std::uint16_t>(p[0] | (p[1] << 8));
+}
+
+constexpr void store_u16(std::uint8_t* p, std::uint16_t value) {
+    p[0] = static_cast<std::uint8_t>(value);
+    p[1] = static_cast<std::uint8_t>(value >> 8);
+}
+
+constexpr std::uint32_t load_u32(const std::uint8_t* p) {
+    return static_cast<std::uint32_t>(load_u16(p)) | (static_cast<std::uint32_t>(load_u16(p + 2)) << 16);
+}
+
+constexpr void store_u32(std::uint8_t* p, std::uint32_t value) {
+    store_u16(p, static_cast<std::uint16_t>(value));
+    store_u16(p + 2, static_cast<std::uint16_t>(value >> 16));
+}
+
+/// The inverse that follows each protected byte on the line.
+constexpr std::uint8_t inverse(std::uint8_t byte) { return static_cast<std::uint8_t>(~byte); }
+
+}  // namespace nplc::base

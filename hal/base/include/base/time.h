@@ -1,0 +1,17 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace nplc::base {
+
+using Microseconds = std::chrono::duration<std::int64_t, std::micro>;
+using Milliseconds = std::chrono::duration<std::int64_t, std::milli>;
+
+/// A point on the gateway's own monotonic time line; only differences mean anything.
+struct Monotonic {
+    using duration = Microseconds;
+};
+using Instant = std::chrono::time_point<Monotonic, Microseconds>;
+
+}  // namespace nplc::base

@@ -1,0 +1,64 @@
+# Compiler settings and the two ways to make a folder into a target.
+#
+#   nplc_core_module(NAME SOURCES ... DEPENDS ...)   firmware code: no exceptions, no RTTI, no heap
+#   nplc_host_module(NAME SOURCES ... DEPENDS ...)   tools and simulation: ordinary C++
+#
+# Each makes library nplc_NAME whose only public include path is the folder's own include/, so a folder can
+# include only what it names under DEPENDS.
+
+set(CMAKE_CXX_STANDARD 23)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+
+option(NPLC_WERROR "Treat warnings as errors" ON)
+option(NPLC_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
+option(NPLC_TESTS "Build the tests" ON)
+option(NPLC_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
+
+if(CMAKE_SYSTEM_NAME STREQUAL "Generic")
+  set(NPLC_HOSTED OFF)
+else()
+  set(NPLC_HOSTED ON)
+endif()
+
+add_library(nplc_options INTERFACE)
+target_compile_options(nplc_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor
+  -Wimplicit-fallthrough -Wdouble-promotion -Wundef)
+if(NPLC_WERROR)
+  target_compile_options(nplc_options INTERFACE -Werror)
+endif()
+if(NPLC_SANITIZE)
+  target_compile_options(nplc_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
+                                                -fno-omit-frame-pointer)
+  target_link_options(nplc_options INTERFACE -fsanitize=address,undefined)
+endif()
+if(NPLC_FUZZ)
+  target_compile_options(nplc_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined
+                                                -fno-sanitize-recover=all)
+  target_link_options(nplc_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+function(_nplc_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;OPTIONS" ${ARGN})
+  if(ARG_SOURCES)
+    add_library(nplc_${name} STATIC ${ARG_SOURCES})
+    target_include_directories(nplc_${name} PUBLIC include PRIVATE .)
+    target_link_libraries(nplc_${name} PUBLIC ${ARG_DEPENDS} PRIVATE nplc_options)
+    target_compile_options(nplc_${name} PRIVATE ${ARG_OPTIONS})
+  else()
+    add_library(nplc_${name} INTERFACE)
+    target_include_directories(nplc_${name} INTERFACE include)
+    target_link_libraries(nplc_${name} INTERFACE ${ARG_DEPENDS})
+  endif()
+endfunction()
+
+function(nplc_core_module name)
+  _nplc_module(${name} ${ARGN} OPTIONS -fno-exceptions -fno-rtti)
+endfunction()
+
+function(nplc_host_module name)
+  _nplc_module(${name} ${ARGN})
+endfunction()
