@@ -44,9 +44,9 @@ enum class Number : std::uint8_t {
 /// A command without its toggle bit: bits 6..0 of the byte on the line, as a sequence term holds it.
 struct Command {
     Mode mode = Mode::command;
-    Group group = Group::p;      ///< init, velocity, position mode
-    std::uint8_t index = 1;      ///< register of the group: P and V 1..8, the others 1..4
-    std::uint8_t number = 0;     ///< command mode: 0..31
+    Group group = Group::p;   ///< init, velocity, position mode
+    std::uint8_t index = 1;   ///< register of the group: P and V 1..8, the others 1..4
+    std::uint8_t number = 0;  ///< command mode: 0..31
     bool operator==(const Command&) const = default;
 };
 
@@ -69,14 +69,14 @@ constexpr std::uint8_t with_toggle(std::uint8_t command, bool toggle) {
 
 /// The byte that the motor repeats without pause (001 §5.2.1.6).
 struct Status {
-    bool toggle = false;      ///< of the last accepted command
+    bool toggle = false;  ///< of the last accepted command
     bool decelerating = false;
     bool accelerating = false;
     bool in_position = false;
-    bool flexmac = false;     ///< the motor receives FlexMAC
+    bool flexmac = false;        ///< the motor receives FlexMAC
     bool framing_error = false;  ///< the motor saw a character with a framing error
-    bool available = false;   ///< bit 1, unused by the manual, kept
-    bool error = false;       ///< follow, function, I2T or UIT error: ERR_STAT bits 0..3
+    bool available = false;      ///< bit 1, unused by the manual, kept
+    bool error = false;          ///< follow, function, I2T or UIT error: ERR_STAT bits 0..3
     bool operator==(const Status&) const = default;
 };
 
@@ -91,7 +91,10 @@ class CommandReceiver {
     std::optional<std::uint8_t> receive(std::uint8_t byte);
     void break_pair() { previous_.reset(); }
 
-    void set_safe(bool safe) { safe_ = safe; previous_.reset(); }
+    void set_safe(bool safe) {
+        safe_ = safe;
+        previous_.reset();
+    }
     bool safe() const { return safe_; }
     bool toggle() const { return toggle_; }
     /// One toggle for every message accepted, FlexMAC's included (001 §5.2.2).

@@ -43,16 +43,20 @@ Encoded encode(const Message& message);
 /// A motor's answer to `request` (a read): its header and block again, then the data with inverses.
 Encoded encode_reply(const Message& request, std::uint32_t value);
 
-/// Register behind a write or read index of 001 §5.2.2's tables; 0 for an index without one (read 14, 15, and 0).
+/// Register behind a write or read index of 001 §5.2.2's tables; 0 for an index without one (read 14, 15, and
+/// 0).
 std::uint8_t register_of_write_index(std::uint8_t index);
 std::uint8_t register_of_read_index(std::uint8_t index);
 
 /// Address of register `reg`: 0408h + 2 x reg. The inverse answers nothing for an odd or too low address.
-constexpr std::uint16_t address_of_register(std::uint8_t reg) { return static_cast<std::uint16_t>(0x0408 + 2 * reg); }
+constexpr std::uint16_t address_of_register(std::uint8_t reg) {
+    return static_cast<std::uint16_t>(0x0408 + 2 * reg);
+}
 std::optional<std::uint8_t> register_of_address(std::uint16_t address);
 
-/// The motor's receiving end, a byte at a time. Wrong header repeats and wrong inverses drop the message; the byte
-/// that broke it may begin the next. The caller calls `abandon` at a framing error and at a pause of two characters.
+/// The motor's receiving end, a byte at a time. Wrong header repeats and wrong inverses drop the message; the
+/// byte that broke it may begin the next. The caller calls `abandon` at a framing error and at a pause of two
+/// characters.
 class RequestDecoder {
   public:
     std::optional<Message> receive(std::uint8_t byte);
@@ -64,8 +68,8 @@ class RequestDecoder {
     std::uint8_t count_ = 0;
 };
 
-/// The master's receiving end. The motor's bytes are status bytes, and replies to reads, told apart by bits 6..5
-/// (never both set in a status byte).
+/// The master's receiving end. The motor's bytes are status bytes, and replies to reads, told apart by
+/// bits 6..5 (never both set in a status byte).
 class ReplyDecoder {
   public:
     struct Event {
