@@ -26,15 +26,15 @@ Gateway::Gateway(const Ports& ports, const Settings& settings, StartCause cause)
 }
 
 sequencer::Table::LoadResult Gateway::load(std::span<const std::uint8_t> bytes, base::Instant now) {
-    if (run_state_ != RunState::stopped) return {.fault = {base::Error::not_stopped, 0}};
+    if (run_state_ != RunState::stopped) return {.ok = false, .table = {}, .fault = {base::Error::not_stopped, 0}};
     const auto result = sequencer::Table::load(bytes);
     table_ = result.table;
     engine_.reset();
-    if (!result.ok || table_.empty()) {
+    if (!result.ok) {
         enter_safe_state(SafeReason::corrupt_table, now);
-        return result;
+    } else if (autostart_) {
+        static_cast<void>(run());
     }
-    if (autostart_) static_cast<void>(run());
     autostart_ = false;
     return result;
 }
@@ -72,7 +72,7 @@ void Gateway::poll(base::Instant now) {
 }
 
 bool Gateway::enabled() const {
-    return !settings_.enable_input || ((debouncer_.levels() >> *settings_.enable_input) & 1U) != 0;
+    return !settings_.enable_input || ((unsigned{debouncer_.levels()} >> *settings_.enable_input) & 1U) != 0;
 }
 
 void Gateway::start_when_ready(base::Instant now) {
@@ -182,7 +182,7 @@ void Gateway::count_timer(base::Instant now) {
     const auto elapsed = static_cast<std::uint32_t>((now - ticked_).count());
     const std::uint32_t milliseconds = elapsed / 1000U;
     if (milliseconds == 0) return;
-    ticked_ += base::Microseconds(milliseconds * 1000U);
+    ticked_ += base::Milliseconds(milliseconds);
     engine_.elapse(milliseconds);
 }
 
