@@ -36,7 +36,7 @@ void JvlLink::send_flexmac(const protocol::flexmac::Message& message, base::Inst
 }
 
 void JvlLink::leave_flexmac(base::Instant now) {
-    send_flexmac({.read = true, .target = protocol::flexmac::kReadIndexUseFastMac}, now);
+    send_flexmac(protocol::flexmac::kUseFastMac, now);
     expect_ = Expect::leave_flexmac;
 }
 

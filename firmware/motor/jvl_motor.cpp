@@ -171,7 +171,7 @@ void JvlMotor::command(Sending what, std::uint8_t command, base::Instant now) {
 }
 
 std::uint8_t JvlMotor::on_the_wire(std::uint8_t command) const {
-    return settings_.old_register_codes ? in_old_code(command) : command;
+    return recoded(command, settings_.register_code);
 }
 
 void JvlMotor::send(const Order& order) {

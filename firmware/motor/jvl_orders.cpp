@@ -10,24 +10,6 @@ using protocol::fastmac::Group;
 using protocol::fastmac::Mode;
 using protocol::fastmac::Number;
 
-constexpr std::uint8_t old_base(Group group) {
-    switch (group) {
-        case Group::a:
-            return 0b00000;
-        case Group::t:
-            return 0b00100;
-        case Group::l:
-            return 0b01000;
-        case Group::z:
-            return 0b01100;
-        case Group::v:
-            return 0b10000;
-        case Group::p:
-            return 0b11000;
-    }
-    return 0;
-}
-
 bool number_moves(Number number) {
     switch (number) {
         case Number::clear_p_ist:
@@ -53,10 +35,8 @@ bool makes_in_position_stale(const Order& order) {
     return command.group != Group::p;
 }
 
-std::uint8_t in_old_code(std::uint8_t command) {
-    const Command decoded = protocol::fastmac::decode_command(command);
-    if (decoded.mode == Mode::command) return command;
-    return static_cast<std::uint8_t>((command & 0x60) | old_base(decoded.group) | (decoded.index - 1));
+std::uint8_t recoded(std::uint8_t command, protocol::fastmac::RegisterCode code) {
+    return protocol::fastmac::encode_command(protocol::fastmac::decode_command(command), code);
 }
 
 }  // namespace nplc::motor

@@ -16,8 +16,8 @@ class JvlMotor final : public Motor {
     struct Settings {
         JvlLink::Settings link;
         bool safe_communication = true;  ///< 0Bh at start; one-byte commands have no other protection
-        bool old_register_codes =
-            false;  ///< A 000xx, V 10xxx, P 11xxx, as the example of 001 §5.2.1.5 has it
+        /// `older_example`: as the example of 001 §5.2.1.5 was written.
+        protocol::fastmac::RegisterCode register_code = protocol::fastmac::RegisterCode::format_list;
         bool registers_are_32_bit = false;        ///< MAC800
         base::Microseconds sample_period{1'920};  ///< of the motor's outer loop; MAC800: 1'299
     };

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "motor/motor.h"
+#include "protocol/fastmac.h"
 
 namespace nplc::motor {
 
@@ -11,8 +12,7 @@ namespace nplc::motor {
 /// else that can move it, only at its next sample. Our own reading.
 bool makes_in_position_stale(const Order& order);
 
-/// The same register selection in the older code that the example of 001 §5.2.1.5 was written in: A 000xx, T
-/// 001xx, L 010xx, Z 011xx, V 10xxx, P 11xxx. Command mode is the same in both.
-std::uint8_t in_old_code(std::uint8_t command);
+/// The same command with its register selection in another code.
+std::uint8_t recoded(std::uint8_t command, protocol::fastmac::RegisterCode code);
 
 }  // namespace nplc::motor
