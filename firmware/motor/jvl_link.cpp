@@ -57,7 +57,9 @@ void JvlLink::rewind(base::Instant now) {
     sent_ = 0;
     on_the_line_ = false;
     old_shown_ = 0;
-    next_byte_ = std::max(now, quiet_until_);
+    const bool is_flexmac = size_ > 2;
+    next_byte_ = is_flexmac ? std::max(now, quiet_until_) : now;
+    transmit(now);
 }
 
 void JvlLink::adopt() {

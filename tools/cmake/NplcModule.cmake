@@ -31,7 +31,7 @@ if(NPLC_WERROR)
   target_compile_options(nplc_options INTERFACE -Werror)
 endif()
 if(NPLC_SANITIZE)
-  target_compile_options(nplc_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
+  target_compile_options(nplc_options INTERFACE -fsanitize=address,undefined -fno-sanitize=vptr -fno-sanitize-recover=all
                                                 -fno-omit-frame-pointer)
   target_link_options(nplc_options INTERFACE -fsanitize=address,undefined)
 endif()

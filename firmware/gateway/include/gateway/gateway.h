@@ -24,7 +24,7 @@ struct Settings {
     std::uint8_t safe_outputs = 0;  ///< levels in the safe state and before the first scan
     OnStart on_start = OnStart::stop;
     bool autostart = true;                       ///< run() is not needed after a power-up with a good table
-    std::optional<std::uint8_t> enable_input;    ///< input that must be 1 to run; losing it is a safe state
+    std::optional<std::uint8_t> enable_input{};  ///< input that must be 1 to run; losing it is a safe state
     base::Microseconds debounce{3'000};          ///< an input counts once it has been steady for this long
     base::Microseconds longest_wait{1'000'000};  ///< of a scan for the motor to take or finish its orders
 };
@@ -65,6 +65,8 @@ class Gateway {
     };
 
     Gateway(const Ports& ports, const Settings& settings, StartCause cause);
+    Gateway(const Gateway&) = delete;
+    Gateway& operator=(const Gateway&) = delete;
 
     /// Makes a table the current one; only while stopped. The bytes must stay where they are. On a fault the
     /// safe state is entered with corrupt_table, and nothing can run until a good table is loaded.

@@ -14,7 +14,7 @@ namespace nplc::motor {
 class JvlMotor final : public Motor {
   public:
     struct Settings {
-        JvlLink::Settings link;
+        JvlLink::Settings link{};
         bool safe_communication = true;  ///< 0Bh at start; one-byte commands have no other protection
         /// `older_example`: as the example of 001 §5.2.1.5 was written.
         protocol::fastmac::RegisterCode register_code = protocol::fastmac::RegisterCode::format_list;
