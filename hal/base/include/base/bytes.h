@@ -24,6 +24,8 @@ constexpr void store_u32(std::uint8_t* p, std::uint32_t value) {
 }
 
 /// The inverse that follows each protected byte on the line.
-constexpr std::uint8_t inverse(std::uint8_t byte) { return static_cast<std::uint8_t>(~byte); }
+constexpr std::uint8_t inverse(std::uint8_t byte) {
+    return static_cast<std::uint8_t>(~byte);
+}
 
 }  // namespace nplc::base

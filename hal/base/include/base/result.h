@@ -8,8 +8,8 @@ namespace nplc::base {
 template <class T>
 class [[nodiscard]] Result {
   public:
-    constexpr Result(T value) : value_(value), ok_(true) {}           // NOLINT: implicit by purpose
-    constexpr Result(Error error) : error_(error), ok_(false) {}      // NOLINT: implicit by purpose
+    constexpr Result(T value) : value_(value), ok_(true) {}       // NOLINT: implicit by purpose
+    constexpr Result(Error error) : error_(error), ok_(false) {}  // NOLINT: implicit by purpose
     constexpr bool ok() const { return ok_; }
     constexpr explicit operator bool() const { return ok_; }
     constexpr const T& value() const { return value_; }
@@ -25,7 +25,7 @@ template <>
 class [[nodiscard]] Result<void> {
   public:
     constexpr Result() = default;
-    constexpr Result(Error error) : error_(error), ok_(false) {}      // NOLINT: implicit by purpose
+    constexpr Result(Error error) : error_(error), ok_(false) {}  // NOLINT: implicit by purpose
     constexpr bool ok() const { return ok_; }
     constexpr explicit operator bool() const { return ok_; }
     constexpr Error error() const { return error_; }

@@ -5,7 +5,8 @@
 
 namespace nplc::base {
 
-/// First in, first out, in storage of its own. `push` answers false when full; `front` and `pop` need `!empty()`.
+/// First in, first out, in storage of its own. `push` answers false when full; `front` and `pop` need
+/// `!empty()`.
 template <class T, std::size_t Capacity>
 class Ring {
   public:
@@ -32,7 +33,9 @@ class Ring {
     constexpr void clear() { count_ = 0; }
 
   private:
-    static constexpr std::size_t wrap(std::size_t index) { return index >= Capacity ? index - Capacity : index; }
+    static constexpr std::size_t wrap(std::size_t index) {
+        return index >= Capacity ? index - Capacity : index;
+    }
 
     std::array<T, Capacity> items_{};
     std::size_t head_ = 0;
