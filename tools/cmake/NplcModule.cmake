@@ -57,6 +57,7 @@ endfunction()
 
 function(nplc_core_module name)
   _nplc_module(${name} ${ARGN} OPTIONS -fno-exceptions -fno-rtti)
+  set_property(GLOBAL APPEND PROPERTY NPLC_CORE_MODULES nplc_${name})
 endfunction()
 
 function(nplc_host_module name)
