@@ -62,7 +62,10 @@ TEST(Term, EveryEightBytesComeBackUnchanged) {
     for (int i = 0; i < 200'000; ++i) {
         std::uint64_t value = random();
         TermBytes bytes;
-        for (auto& b : bytes) { b = static_cast<std::uint8_t>(value); value >>= 8; }
+        for (auto& b : bytes) {
+            b = static_cast<std::uint8_t>(value);
+            value >>= 8;
+        }
         ASSERT_EQ(encode(decode(bytes)), bytes) << "seed 1, round " << i;
     }
 }

@@ -35,21 +35,21 @@ struct Condition {
 /// Bytes 3..7 with CMD_FORMAT = 0 (001 §6.1.7).
 struct FastStatement {
     std::uint8_t next_step = kNoSwitch;
-    bool presets_counter = false;     ///< CNT_TIME: `preset` is for the counter, else for the timer
-    bool sends = false;               ///< FAST_DIS = 0
-    std::uint8_t command = 0;         ///< FastMAC command without the toggle bit; 7 bits, kept when not sent
-    std::uint8_t outputs = 0;         ///< 4 bits
-    bool clears_counter = false;      ///< CLR_CNT
-    bool counts_down = false;         ///< CNT_DWN
-    std::uint16_t preset = 0;         ///< milliseconds or counts; 0 presets nothing
-    bool available_next_bit7 = false;       ///< unused by the manual, kept
-    std::uint8_t available_outputs = 0;     ///< OUTPUT bits 5..4, unused by the manual, kept; 2 bits
+    bool presets_counter = false;      ///< CNT_TIME: `preset` is for the counter, else for the timer
+    bool sends = false;                ///< FAST_DIS = 0
+    std::uint8_t command = 0;          ///< FastMAC command without the toggle bit; 7 bits, kept when not sent
+    std::uint8_t outputs = 0;          ///< 4 bits
+    bool clears_counter = false;       ///< CLR_CNT
+    bool counts_down = false;          ///< CNT_DWN
+    std::uint16_t preset = 0;          ///< milliseconds or counts; 0 presets nothing
+    bool available_next_bit7 = false;  ///< unused by the manual, kept
+    std::uint8_t available_outputs = 0;  ///< OUTPUT bits 5..4, unused by the manual, kept; 2 bits
     bool operator==(const FastStatement&) const = default;
 };
 
 /// Bytes 3..7 with CMD_FORMAT = 1 (001 §6.1.8).
 struct FlexStatement {
-    std::uint8_t reg = 0;        ///< 1..127
+    std::uint8_t reg = 0;  ///< 1..127
     bool longword = false;
     std::uint16_t low_word = 0;
     std::uint16_t high_word = 0;  ///< sent only with `longword`, kept otherwise
@@ -70,6 +70,8 @@ Term decode(TermView bytes);
 /// Fields wider than their bits are cut to them.
 TermBytes encode(const Term& term);
 
-constexpr bool is_end(TermView bytes) { return (bytes[0] & 0x3F) == kEndOfTable; }
+constexpr bool is_end(TermView bytes) {
+    return (bytes[0] & 0x3F) == kEndOfTable;
+}
 
 }  // namespace nplc::sequencer

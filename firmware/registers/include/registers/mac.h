@@ -7,15 +7,57 @@
 
 namespace nplc::registers {
 
-/// Register numbers of MAC50/95/140/141 (001 §3.2) that the firmware and its tools name. 1..88 hold for the MAC800 too.
+/// Register numbers of MAC50/95/140/141 (001 §3.2) that the firmware and its tools name. 1..88 hold for the
+/// MAC800 too.
 enum Number : std::uint8_t {
-    PROG_VERSION = 1, MODE_REG = 2, P_SOLL = 3, V_SOLL = 5, A_SOLL = 6, T_SOLL = 7, P_FNC = 8, P_IST = 10,
-    V_IST = 12, KVOUT = 13, GEARF1 = 14, GEARF2 = 15, I2T = 16, I2TLIM = 17, UIT = 18, UITLIM = 19, FLWERR = 20,
-    FLWERRMAX = 22, FNCERR = 24, FNCERRMAX = 26, MIN_P_IST = 28, MAX_P_IST = 30, ACC_EMERG = 32, INPOSWIN = 33,
-    INPOSCNT = 34, ERR_STAT = 35, CNTRL_BITS = 36, STARTMODE = 37, P_HOME = 38, V_HOME = 40, T_HOME = 41,
-    HOME_MODE = 42, P_REG_P = 43, V_REG_P = 44, A_REG_P = 45, T_REG_P = 46, L_REG_P = 47, Z_REG_P = 48,
-    P1 = 49, V1 = 65, A1 = 73, T1 = 77, L1 = 81, Z1 = 85,
-    FNC_OUT = 117, V_EXT = 120, VF_OUT = 121, ANINP = 122,
+    PROG_VERSION = 1,
+    MODE_REG = 2,
+    P_SOLL = 3,
+    V_SOLL = 5,
+    A_SOLL = 6,
+    T_SOLL = 7,
+    P_FNC = 8,
+    P_IST = 10,
+    V_IST = 12,
+    KVOUT = 13,
+    GEARF1 = 14,
+    GEARF2 = 15,
+    I2T = 16,
+    I2TLIM = 17,
+    UIT = 18,
+    UITLIM = 19,
+    FLWERR = 20,
+    FLWERRMAX = 22,
+    FNCERR = 24,
+    FNCERRMAX = 26,
+    MIN_P_IST = 28,
+    MAX_P_IST = 30,
+    ACC_EMERG = 32,
+    INPOSWIN = 33,
+    INPOSCNT = 34,
+    ERR_STAT = 35,
+    CNTRL_BITS = 36,
+    STARTMODE = 37,
+    P_HOME = 38,
+    V_HOME = 40,
+    T_HOME = 41,
+    HOME_MODE = 42,
+    P_REG_P = 43,
+    V_REG_P = 44,
+    A_REG_P = 45,
+    T_REG_P = 46,
+    L_REG_P = 47,
+    Z_REG_P = 48,
+    P1 = 49,
+    V1 = 65,
+    A1 = 73,
+    T1 = 77,
+    L1 = 81,
+    Z1 = 85,
+    FNC_OUT = 117,
+    V_EXT = 120,
+    VF_OUT = 121,
+    ANINP = 122,
 };
 
 enum class Format : std::uint8_t { word, integer, long_int, fixed4, fixed8, fixed16, fixed24 };
@@ -23,12 +65,12 @@ enum class Format : std::uint8_t { word, integer, long_int, fixed4, fixed8, fixe
 /// What the number counts; `none` for bits, pointers and plain numbers.
 enum class Unit : std::uint8_t {
     none,
-    counts,               ///< encoder counts
-    counts_16,            ///< 1/16 encoder counts
-    velocity_16,          ///< 1/16 counts/sample
-    velocity,             ///< counts/sample
-    acceleration_16,      ///< 1/16 counts/sample^2
-    torque,               ///< 1023 = full torque
+    counts,           ///< encoder counts
+    counts_16,        ///< 1/16 encoder counts
+    velocity_16,      ///< 1/16 counts/sample
+    velocity,         ///< counts/sample
+    acceleration_16,  ///< 1/16 counts/sample^2
+    torque,           ///< 1023 = full torque
     samples,
 };
 
@@ -42,10 +84,10 @@ struct Scale {
 
 struct Register {
     std::uint8_t number;
-    std::string_view name;     ///< as in the manual
+    std::string_view name;  ///< as in the manual
     Format format;
     Unit unit;
-    std::int64_t min;          ///< raw, as written to the line
+    std::int64_t min;  ///< raw, as written to the line
     std::int64_t max;
     bool dangerous;            ///< a change may damage the motor or upset its control
     std::string_view section;  ///< of the manual

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "base/ring.h"
+#include "motor/jvl_link.h"
+#include "motor/motor.h"
+
+namespace nplc::motor {
+
+/// A JVL MAC motor on its FastMAC/FlexMAC port (001 §5.2). Keeps the motor in FastMAC between orders;
+/// switches to FlexMAC for register writes. See this folder's README for the rules.
+class JvlMotor final : public Motor {
+  public:
+    struct Settings {
+        JvlLink::Settings link;
+        bool safe_communication = true;  ///< 0Bh at start; one-byte commands have no other protection
+        /// `older_example`: as the example of 001 §5.2.1.5 was written.
+        protocol::fastmac::RegisterCode register_code = protocol::fastmac::RegisterCode::format_list;
+        bool registers_are_32_bit = false;        ///< MAC800
+        base::Microseconds sample_period{1'920};  ///< of the motor's outer loop; MAC800: 1'299
+    };
+
+    struct Counters {
+        std::uint32_t orders = 0;     ///< executed
+        std::uint32_t discarded = 0;  ///< not delivered because the link was not up
+        std::uint32_t link_losses = 0;
+    };
+
+    JvlMotor(ports::SerialPort& port, const Settings& settings);
+
+    void poll(base::Instant now) override;
+    bool settled() const override;
+    bool has_room() const override { return !orders_.full(); }
+    void send(const Order& order) override;
+    void stop() override;
+    bool in_position() const override;
+    bool error() const override;
+    Link link() const override;
+    std::uint32_t resent() const { return link_.resent(); }
+    const Counters& counters() const { return counters_; }
+
+  private:
+    enum class Phase : std::uint8_t { down, look, first_nop, second_nop, choose_safety, up };
+    enum class Sending : std::uint8_t { nothing, start_up, link_command, order, stop };
+
+    void lose_link(base::Instant now);
+    void on_accepted(base::Instant now);
+    void on_executed(const Order& order, base::Instant now);
+    void start_up(base::Instant now);
+    void free_the_line(base::Instant now);
+    void work(base::Instant now);
+    void write_register(Sending what, const Order& order, base::Instant now);
+    void command(Sending what, std::uint8_t command, base::Instant now);
+    std::uint8_t on_the_wire(std::uint8_t command) const;
+    void hold_in_position(base::Instant now);
+    void update_hold(base::Instant now);
+
+    JvlLink link_;
+    Settings settings_;
+    base::Ring<Order, 8> orders_;
+    Order current_;  ///< what the message under way carries, when sending_ is `order`
+    Sending sending_ = Sending::nothing;
+    Phase phase_ = Phase::down;
+    bool safe_now_ = false;  ///< the motor wants two equal bytes
+    bool slowed_ = false;    ///< 13h has been sent
+    bool stop_wanted_ = false;
+    bool link_error_ = false;
+    bool was_up_ = false;
+    bool holds_ = false;  ///< IN_POS reads 0 until the motor has worked it out anew
+    base::Instant hold_until_{};
+    std::uint32_t hold_count_ = 0;
+    base::Instant next_blind_{};
+    Counters counters_;
+};
+
+}  // namespace nplc::motor

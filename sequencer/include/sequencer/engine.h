@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "sequencer/state.h"
+#include "sequencer/table.h"
+
+namespace nplc::sequencer {
+
+/// What a finished scan did. A scan that did nothing would do nothing again with the same Key in the same
+/// step.
+struct ScanEffect {
+    bool changed = false;  ///< wrote step, outputs, counter or timer with something new
+    bool sent = false;     ///< at least one order
+    bool timer_preset = false;
+    bool any() const { return changed || sent; }
+};
+
+/// Runs a Table in place (001 §6.1.9). The scan's four steps are four calls, so that it can halt between
+/// orders while the motor's queue is full:
+///
+///     engine.begin(image);                         // 1: freezes HW_INP, timer = 0 and counter = 0
+///     while (auto order = engine.next()) send(*order);   // 2
+///     engine.finish();                             // 3: step, counter, timer preset; outputs() are new
+///     engine.elapse(ms);                           // 4: may also be called while the scan is halted
+class Engine {
+  public:
+    explicit Engine(const Table& table) : table_(&table) {}
+
+    /// Power-up: step 0, timer, counter and outputs 0.
+    void reset() { state_ = {}; }
+    void restore(const State& state) { state_ = state; }
+    const State& state() const { return state_; }
+    const Table& table() const { return *table_; }
+
+    void begin(InputImage image) {
+        range_ = table_->terms_of(state_.step);
+        key_ = key_of(image, state_);
+        pending_ = {};
+        sent_ = false;
+    }
+
+    /// The next order of a true term, in table order; nothing once all terms have been evaluated.
+    std::optional<MotorOrder> next() {
+        while (range_.begin != range_.end) {
+            const TermView term = table_->term(range_.begin++);
+            if ((term[0] & 0x3F) != state_.step || !is_true(term, key_)) continue;
+            const bool is_flex = (term[2] & 0x80) != 0;
+            if (!is_flex) pending_.fold(term);
+            if (is_flex || (term[4] & 0x80) == 0) {
+                sent_ = true;
+                return order_of(term);
+            }
+        }
+        return std::nullopt;
+    }
+
+    ScanEffect finish() {
+        const bool changed = apply(pending_, state_);
+        return {.changed = changed, .sent = sent_, .timer_preset = pending_.timer_preset != 0};
+    }
+
+    void elapse(std::uint32_t milliseconds) { sequencer::elapse(state_, milliseconds); }
+
+    Key key(InputImage image) const { return key_of(image, state_); }
+
+    /// Steps 1 to 3 at once, for a motor that never halts the scan. `sink(const MotorOrder&)` is called in
+    /// table order.
+    template <class Sink>
+    ScanEffect scan(InputImage image, Sink&& sink) {
+        begin(image);
+        while (const auto order = next()) sink(*order);
+        return finish();
+    }
+
+  private:
+    const Table* table_;
+    State state_;
+    Table::Range range_;
+    Key key_ = 0;
+    bool sent_ = false;
+    Pending pending_;
+};
+
+}  // namespace nplc::sequencer

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "base/result.h"
+#include "sequencer/engine.h"
+
+namespace nplc::sequencer {
+
+/// A Table worked out in advance for all 1024 keys of every step: a scan is two look-ups, however many terms
+/// a step has. It lives in storage of the caller's (about 130 kB for a full table), for hosts where that is
+/// no concern.
+class PreparedTable {
+  public:
+    /// What all true terms of one step under one key amount to.
+    struct Action {
+        Pending pending;
+        std::uint16_t order_count = 0;
+        std::uint32_t first_order = 0;  ///< in Storage::orders
+    };
+
+    struct Storage {
+        std::span<std::uint16_t> cells;  ///< 63 x kKeys; index of an action
+        std::span<Action> actions;       ///< one for each different outcome of a step, at the most 65,535
+        std::span<MotorOrder> orders;
+    };
+    static constexpr std::size_t kCells = 63 * kKeys;
+
+    /// Fails with no_space when a span is too short; then the storage holds nothing of use.
+    base::Status prepare(const Table& table, const Storage& storage);
+
+    const Action& action(std::uint8_t step, Key key) const {
+        return storage_.actions[storage_.cells[step * kKeys + key]];
+    }
+    std::span<const MotorOrder> orders(const Action& action) const {
+        return storage_.orders.subspan(action.first_order, action.order_count);
+    }
+
+  private:
+    struct Fill;
+    Storage storage_;
+};
+
+/// Engine's scan on a PreparedTable; the same state, effects and orders.
+class PreparedEngine {
+  public:
+    explicit PreparedEngine(const PreparedTable& table) : table_(&table) {}
+
+    void reset() { state_ = {}; }
+    void restore(const State& state) { state_ = state; }
+    const State& state() const { return state_; }
+
+    template <class Sink>
+    ScanEffect scan(InputImage image, Sink&& sink) {
+        const PreparedTable::Action& action = table_->action(state_.step, key_of(image, state_));
+        if (action.order_count != 0) {
+            for (const MotorOrder& order : table_->orders(action)) sink(order);
+        }
+        const bool changed = apply(action.pending, state_);
+        return {.changed = changed,
+                .sent = action.order_count != 0,
+                .timer_preset = action.pending.timer_preset != 0};
+    }
+
+    void elapse(std::uint32_t milliseconds) { sequencer::elapse(state_, milliseconds); }
+
+  private:
+    const PreparedTable* table_;
+    State state_;
+};
+
+}  // namespace nplc::sequencer
