@@ -100,7 +100,7 @@ constexpr bool is_32_bit(Format format) {
 /// The map of a model, in ascending order of number. Registers 1..127 at the least.
 std::span<const Register> map_of(Model model);
 const Register* find(Model model, std::uint8_t number);
-/// Case counts not.
+/// Case counts not. On a MAC800 the names of 001 §3.2 are found too, up to register 88 (P1 is its POS0).
 const Register* find(Model model, std::string_view name);
 Scale scale_of(Model model);
 std::optional<Model> model_of(std::string_view name);
