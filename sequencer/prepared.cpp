@@ -1,70 +1,100 @@
 #include "sequencer/prepared.h"
 
-#include <algorithm>
+#include <array>
 
 namespace nplc::sequencer {
 
-/// Fills a Storage front to back.
+/// Fills a Storage front to back, step by step.
 struct PreparedTable::Fill {
     const Table& table;
     const Storage& storage;
     std::size_t actions = 0;
     std::size_t orders = 0;
+    std::array<std::uint16_t, kMaxTerms> own{};  ///< the terms of the step in hand
+    std::size_t own_count = 0;
 
-    bool collect(std::uint8_t step, Key key, Action& action) {
-        action.first_order = static_cast<std::uint32_t>(orders);
-        std::size_t end = orders;
-        const Table::Range range = table.terms_of(step);
-        for (std::size_t i = range.begin; i != range.end; ++i) {
-            const TermView term = table.term(i);
-            if ((term[0] & 0x3F) != step || !is_true(term, key)) continue;
-            const bool is_flex = (term[2] & 0x80) != 0;
-            if (!is_flex) action.pending.fold(term);
-            if (!is_flex && (term[4] & 0x80) != 0) continue;
-            if (end == storage.orders.size()) return false;
-            storage.orders[end++] = order_of(term);
+    static bool has_order(TermView term) { return (term[2] & 0x80) != 0 || (term[4] & 0x80) == 0; }
+
+    /// Calls `visit(term)` for each true term until it answers false.
+    template <class Visit>
+    bool each_true(Key key, Visit&& visit) const {
+        for (std::size_t i = 0; i != own_count; ++i) {
+            const TermView term = table.term(own[i]);
+            if (is_true(term, key) && !visit(term)) return false;
         }
-        action.order_count = static_cast<std::uint16_t>(end - orders);
         return true;
     }
 
-    bool same(const Action& a, const Action& b) const {
-        return a.pending == b.pending && a.order_count == b.order_count &&
-               std::equal(&storage.orders[a.first_order], &storage.orders[a.first_order] + a.order_count,
-                          &storage.orders[b.first_order]);
-    }
-
-    /// Index of `action`, which is stored if the step has none like it yet. Nothing when there is no room.
-    std::size_t intern(const Action& action, std::size_t first_of_step) {
-        for (std::size_t i = first_of_step; i < actions; ++i) {
-            if (same(storage.actions[i], action)) return i;
+    void list_own_terms(std::uint8_t step) {
+        own_count = 0;
+        const Table::Range range = table.terms_of(step);
+        for (std::uint16_t i = range.begin; i != range.end; ++i) {
+            if ((table.term(i)[0] & 0x3F) == step) own[own_count++] = i;
         }
-        if (actions == storage.actions.size() || actions > 0xFFFF) return storage.actions.size();
-        orders += action.order_count;
-        storage.actions[actions] = action;
-        return actions++;
     }
 
-    bool step(std::uint8_t step) {
+    Action outcome(Key key) const {
+        Action action;
+        each_true(key, [&](TermView term) {
+            if ((term[2] & 0x80) == 0) action.pending.fold(term);
+            if (has_order(term)) ++action.order_count;
+            return true;
+        });
+        return action;
+    }
+
+    bool sends(Key key, const Action& stored) const {
+        std::size_t next = stored.first_order;
+        return each_true(
+            key, [&](TermView term) { return !has_order(term) || storage.orders[next++] == order_of(term); });
+    }
+
+    bool same(const Action& stored, const Action& action, Key key) const {
+        return stored.pending == action.pending && stored.order_count == action.order_count &&
+               (action.order_count == 0 || sends(key, stored));
+    }
+
+    bool store(Action action, Key key) {
+        if (actions == storage.actions.size()) return false;
+        if (storage.orders.size() - orders < action.order_count) return false;
+        action.first_order = static_cast<std::uint32_t>(orders);
+        each_true(key, [&](TermView term) {
+            if (has_order(term)) storage.orders[orders++] = order_of(term);
+            return true;
+        });
+        storage.actions[actions++] = action;
+        return true;
+    }
+
+    bool fill_step(std::uint8_t step) {
+        list_own_terms(step);
+        const auto cells = storage.cells.subspan(step * kKeys, kKeys);
         const std::size_t first_of_step = actions;
         for (Key key = 0; key < kKeys; ++key) {
-            Action action;
-            if (!collect(step, key, action)) return false;
-            const std::size_t index = intern(action, first_of_step);
-            if (index == storage.actions.size()) return false;
-            storage.cells[step * kKeys + key] = static_cast<std::uint16_t>(index);
+            const Action action = outcome(key);
+            std::size_t index = kNothing;
+            if (!same(storage.actions[kNothing], action, key)) {
+                index = first_of_step;
+                while (index != actions && !same(storage.actions[index], action, key)) ++index;
+                if (index == actions && !store(action, key)) return false;
+            }
+            cells[key] = static_cast<std::uint16_t>(index);
         }
         return true;
     }
 };
 
 base::Status PreparedTable::prepare(const Table& table, const Storage& storage) {
-    if (storage.cells.size() < kCells) return base::Error::no_space;
-    Fill fill{table, storage};
+    if (storage.cells.size() < kCells || storage.actions.empty()) return base::Error::no_space;
+    Fill fill{.table = table, .storage = storage};
+    storage.actions[kNothing] = {};
+    fill.actions = 1;
     for (std::uint8_t step = 0; step <= kLastStep; ++step) {
-        if (!fill.step(step)) return base::Error::no_space;
+        if (!fill.fill_step(step)) return base::Error::no_space;
     }
     storage_ = storage;
+    actions_used_ = fill.actions;
+    orders_used_ = fill.orders;
     return {};
 }
 

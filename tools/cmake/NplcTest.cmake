@@ -3,7 +3,10 @@
 # Makes program test_NAME of GoogleTest cases and gives every case to CTest as NAME.Suite.Case. Tier `quick` (the
 # default) is what one runs while working; `full` cases run in the full test run only.
 
-find_package(GTest REQUIRED)
+find_package(GTest)
+if(NOT GTest_FOUND)
+  message(FATAL_ERROR "GoogleTest is missing. Run tools/setup, or build without the tests: -DNPLC_TESTS=OFF")
+endif()
 include(GoogleTest)
 
 function(nplc_test name)

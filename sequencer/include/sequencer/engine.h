@@ -28,9 +28,16 @@ class Engine {
   public:
     explicit Engine(const Table& table) : table_(&table) {}
 
-    /// Power-up: step 0, timer, counter and outputs 0.
-    void reset() { state_ = {}; }
-    void restore(const State& state) { state_ = state; }
+    /// Power-up: step 0, timer, counter and outputs 0. A scan under way is dropped.
+    void reset() { restore({}); }
+
+    /// Goes on from `state` (step 0..62). A scan under way is dropped.
+    void restore(const State& state) {
+        state_ = state;
+        range_ = {};
+        pending_ = {};
+        sent_ = false;
+    }
     const State& state() const { return state_; }
     const Table& table() const { return *table_; }
 

@@ -22,14 +22,20 @@ class PreparedTable {
 
     struct Storage {
         std::span<std::uint16_t> cells;  ///< 63 x kKeys; index of an action
-        std::span<Action> actions;       ///< one for each different outcome of a step, at the most 65,535
-        std::span<MotorOrder> orders;
+        std::span<Action> actions;       ///< "nothing", and one for each different outcome of a step
+        std::span<MotorOrder> orders;    ///< those of all actions
     };
     static constexpr std::size_t kCells = 63 * kKeys;
+    static constexpr std::size_t kMaxActions = kCells + 1;  ///< no table needs more
 
-    /// Fails with no_space when a span is too short; then the storage holds nothing of use.
+    /// Fails with no_space when a span is too short; then the storage holds nothing of use. On success the
+    /// storage belongs to this object; `table` is no longer needed.
     base::Status prepare(const Table& table, const Storage& storage);
 
+    std::size_t actions_used() const { return actions_used_; }
+    std::size_t orders_used() const { return orders_used_; }
+
+    /// Only after a prepare() that did not fail; `step` is 0..62.
     const Action& action(std::uint8_t step, Key key) const {
         return storage_.actions[storage_.cells[step * kKeys + key]];
     }
@@ -39,7 +45,11 @@ class PreparedTable {
 
   private:
     struct Fill;
+    static constexpr std::size_t kNothing = 0;  ///< index of the action that all steps share
+
     Storage storage_;
+    std::size_t actions_used_ = 0;
+    std::size_t orders_used_ = 0;
 };
 
 /// Engine's scan on a PreparedTable; the same state, effects and orders.
@@ -47,7 +57,9 @@ class PreparedEngine {
   public:
     explicit PreparedEngine(const PreparedTable& table) : table_(&table) {}
 
-    void reset() { state_ = {}; }
+    void reset() { restore({}); }
+
+    /// Goes on from `state` (step 0..62).
     void restore(const State& state) { state_ = state; }
     const State& state() const { return state_; }
 

@@ -7,7 +7,8 @@
 
 namespace nplc::gateway {
 
-/// Six inputs, each taken over once it has been steady for the debounce time. The first reading is taken as it is.
+/// Six inputs, each taken over once it has been steady for the debounce time. The first reading is taken as
+/// it is.
 class Debouncer {
   public:
     explicit Debouncer(base::Microseconds steady) : steady_(steady) {}

@@ -21,12 +21,12 @@ enum class OnStart : std::uint8_t {
 };
 
 struct Settings {
-    std::uint8_t safe_outputs = 0;                 ///< levels in the safe state and before the first scan
+    std::uint8_t safe_outputs = 0;  ///< levels in the safe state and before the first scan
     OnStart on_start = OnStart::stop;
-    bool autostart = true;                         ///< run() is not needed after a power-up with a good table
-    std::optional<std::uint8_t> enable_input;      ///< input that must be 1 to run; losing it is a safe state
-    base::Microseconds debounce{3'000};            ///< an input counts once it has been steady for this long
-    base::Microseconds longest_wait{1'000'000};    ///< of a scan for the motor to take or finish its orders
+    bool autostart = true;                       ///< run() is not needed after a power-up with a good table
+    std::optional<std::uint8_t> enable_input{};  ///< input that must be 1 to run; losing it is a safe state
+    base::Microseconds debounce{3'000};          ///< an input counts once it has been steady for this long
+    base::Microseconds longest_wait{1'000'000};  ///< of a scan for the motor to take or finish its orders
 };
 
 enum class StartCause : std::uint8_t { power_up, watchdog };
@@ -42,18 +42,19 @@ enum class SafeReason : std::uint8_t {
     none,
     not_started,
     stop_command,
-    link_down,      ///< ends when the link is up again and the sequence has sent "reset error"
-    motor_stuck,    ///< a scan waited longer than Settings::longest_wait
+    link_down,    ///< ends when the link is up again and the sequence has sent "reset error"
+    motor_stuck,  ///< a scan waited longer than Settings::longest_wait
     corrupt_table,
     watchdog,
     enable_lost,
 };
 
-/// The loop of the NanoPLC (001 §6.1.9) on ports: debounced inputs, scan, orders, outputs, timer. `poll` never blocks;
-/// a scan that waits for the motor goes on at a later poll.
+/// The loop of the NanoPLC (001 §6.1.9) on ports: debounced inputs, scan, orders, outputs, timer. `poll`
+/// never blocks; a scan that waits for the motor goes on at a later poll.
 ///
-/// Outputs have their safe values from construction to the end of the first scan and whenever safe_reason() is not
-/// `none`. Whatever stops the sequence other than link_down needs run() to start it again, from step 0.
+/// Outputs have their safe values from construction to the end of the first scan and whenever safe_reason()
+/// is not `none`. Whatever stops the sequence other than link_down needs run() to start it again, from step
+/// 0.
 class Gateway {
   public:
     struct Ports {
@@ -64,9 +65,11 @@ class Gateway {
     };
 
     Gateway(const Ports& ports, const Settings& settings, StartCause cause);
+    Gateway(const Gateway&) = delete;
+    Gateway& operator=(const Gateway&) = delete;
 
-    /// Makes a table the current one; only while stopped. The bytes must stay where they are. On a fault the safe
-    /// state is entered with corrupt_table, and nothing can run until a good table is loaded.
+    /// Makes a table the current one; only while stopped. The bytes must stay where they are. On a fault the
+    /// safe state is entered with corrupt_table, and nothing can run until a good table is loaded.
     sequencer::Table::LoadResult load(std::span<const std::uint8_t> bytes, base::Instant now);
 
     /// Errors: no_table; not_stopped when it runs already.
@@ -82,16 +85,19 @@ class Gateway {
     SafeReason safe_reason() const { return safe_reason_; }
     base::Instant safe_since() const { return safe_since_; }  ///< when safe_reason() took hold
     const sequencer::State& state() const { return engine_.state(); }
-    sequencer::InputImage image() const { return image_; }    ///< HW_INP of the last scan
-    std::uint32_t scans() const { return scans_; }            ///< finished, skipped ones included
+    sequencer::InputImage image() const { return image_; }  ///< HW_INP of the last scan
+    std::uint32_t scans() const {
+        return scans_;
+    }  ///< finished, those skipped because nothing could change included
 
   private:
     void enter_safe_state(SafeReason reason, base::Instant now);
+    void set_safe_reason(SafeReason reason, base::Instant now);
     void start_when_ready(base::Instant now);
     void watch_link(base::Instant now);
-    bool enabled(std::uint8_t inputs) const;
-    void scan(base::Instant now);
-    void begin_scan();
+    bool enabled() const;
+    void work(base::Instant now);
+    bool begin_scan(base::Instant now);
     bool send_orders(base::Instant now);
     void finish_scan(base::Instant now);
     void count_timer(base::Instant now);
@@ -108,15 +114,16 @@ class Gateway {
     SafeReason safe_reason_ = SafeReason::not_started;
     base::Instant safe_since_{};
     bool autostart_;
-    bool stop_ordered_ = false;
-    bool motor_restart_ = false;
+    bool stop_ordered_ = false;     ///< since run()
+    bool stop_after_loss_ = false;  ///< the motor is to be stopped once the link delivers again
 
     bool in_scan_ = false;
-    std::optional<sequencer::MotorOrder> held_;
-    base::Instant progress_{};
-    base::Instant ticked_{};
+    std::optional<sequencer::MotorOrder> held_;  ///< order that found no room
+    sequencer::State before_;                    ///< as the scan under way found it
+    base::Instant progress_{};                   ///< last time a scan did not have to wait
+    base::Instant ticked_{};                     ///< the timer has been counted up to here
     sequencer::InputImage image_ = 0;
-    std::optional<sequencer::Key> quiet_key_;
+    std::optional<sequencer::Key> quiet_key_;  ///< a scan with this key would do nothing
     std::uint32_t scans_ = 0;
     std::optional<std::uint8_t> written_;
 };

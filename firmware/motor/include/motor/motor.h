@@ -6,8 +6,8 @@
 
 namespace nplc::motor {
 
-/// What a sequence asks of a drive: a FastMAC command (bits 6..0) or a register write in FlexMAC's terms. Drives that
-/// speak another language translate.
+/// What a sequence asks of a drive: a FastMAC command (bits 6..0) or a register write in FlexMAC's terms.
+/// Drives that speak another language translate.
 struct Order {
     bool is_register_write = false;
     std::uint8_t command = 0;
@@ -18,10 +18,16 @@ struct Order {
 };
 
 enum class Link : std::uint8_t {
-    down,      ///< nothing can be ordered; orders are discarded
-    starting,  ///< the drive answers and is being brought in step; orders are discarded
+    down,            ///< no answer; orders are discarded
+    starting,        ///< the drive answers and is being brought in step; orders are discarded
+    unacknowledged,  ///< works again after it was down; error() stays until "reset error" (01h) has been
+                     ///< executed
     up,
 };
+
+constexpr bool delivers(Link link) {
+    return link == Link::unacknowledged || link == Link::up;
+}
 
 /// A drive as the gateway sees it. Nothing blocks; time is passed in.
 class Motor {
@@ -29,24 +35,24 @@ class Motor {
     /// Moves bytes and time limits on. To be called at least once a millisecond.
     virtual void poll(base::Instant now) = 0;
 
-    /// Every order has been executed or given up and in_position() and error() are newer than the last of them: a scan
-    /// may begin. Also true while the link is down (the scan then sees error()).
+    /// Every order has been executed or given up and in_position() and error() are newer than the last of
+    /// them: a scan may begin. Also true while the link is down (the scan then sees error()).
     virtual bool settled() const = 0;
 
     /// Room for one more order.
     virtual bool has_room() const = 0;
 
-    /// Takes an order; needs has_room(). Orders are executed in the order given. Discarded while the link is not up:
-    /// no order is ever delivered late.
+    /// Takes an order; needs has_room(). Orders are executed in the order given. Discarded unless the link
+    /// delivers: no order is ever delivered late.
     virtual void send(const Order& order) = 0;
 
-    /// Drops the waiting orders and tells the drive to stop (INIT) before anything else; as soon as the link is up.
+    /// Drops the waiting orders and tells the drive to stop (INIT) before anything else; as soon as the link
+    /// delivers.
     virtual void stop() = 0;
 
     virtual bool in_position() const = 0;
 
-    /// The drive's own error, or a link that went down: that one stays until the link is up again and a "reset error"
-    /// (01h) has been executed.
+    /// The drive's own error, or a link that went down and is not acknowledged yet.
     virtual bool error() const = 0;
 
     virtual Link link() const = 0;

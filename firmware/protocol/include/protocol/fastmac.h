@@ -50,14 +50,19 @@ struct Command {
     bool operator==(const Command&) const = default;
 };
 
+/// How bits 4..0 name a register. The list of 001 §5.2.1.4 is what the project follows. The bytes of the
+/// example in §5.2.1.5 fit another, older code: A 000xx, V 10xxx, P 11xxx; it shows no T, L or Z (its one T
+/// byte fits neither code), which are put at 001xx, 010xx and 011xx here.
+enum class RegisterCode : std::uint8_t { format_list, older_example };
+
 inline constexpr std::uint8_t kToggle = 0x80;
 inline constexpr std::uint8_t kCommandBits = 0x7F;
 
-/// All 128 values mean something. Bit 7 is ignored.
-Command decode_command(std::uint8_t byte);
+/// All 128 values mean something. Bit 7 is ignored. Fields that the mode does not use keep their defaults.
+Command decode_command(std::uint8_t byte, RegisterCode code = RegisterCode::format_list);
 
 /// Bit 7 is 0. Out-of-range fields are cut to their bits.
-std::uint8_t encode_command(const Command& command);
+std::uint8_t encode_command(const Command& command, RegisterCode code = RegisterCode::format_list);
 
 constexpr std::uint8_t command_byte(Number number) {
     return static_cast<std::uint8_t>(0x60 | static_cast<std::uint8_t>(number));
@@ -81,24 +86,38 @@ struct Status {
 };
 
 Status decode_status(std::uint8_t byte);
+
+/// A motor never sets `decelerating` and `accelerating` together: such a byte would look like a FlexMAC
+/// header.
 std::uint8_t encode_status(const Status& status);
 
-/// The motor's receiving end: toggle rule and safe communication (two equal bytes in a row).
-/// A framing error or a pause breaks the pair.
+/// The motor's receiving end: toggle rule and safe communication (001 §5.2.1.3, §5.2.1.4).
+///
+/// At power-up the toggle is 0 and communication rapid. A byte is accepted only if its toggle bit differs
+/// from that of the last accepted message, so a repeat does nothing. With safe communication the byte must
+/// also equal the one just before it. A third equal byte is a pair too, but its toggle is the accepted one by
+/// then: it does nothing.
 class CommandReceiver {
   public:
     /// The command to execute, without its toggle bit, if this byte completes a new one.
     std::optional<std::uint8_t> receive(std::uint8_t byte);
+
+    /// To be called at a framing error and at a pause between two bytes: the byte before no longer counts.
     void break_pair() { previous_.reset(); }
 
     void set_safe(bool safe) {
         safe_ = safe;
-        previous_.reset();
+        break_pair();
     }
     bool safe() const { return safe_; }
     bool toggle() const { return toggle_; }
-    /// One toggle for every message accepted, FlexMAC's included (001 §5.2.2).
-    void accept_other() { toggle_ = !toggle_; }
+
+    /// For each FlexMAC message accepted, which switches the same toggle (001 §5.2.2). Breaks the pair: a
+    /// byte from before the message is not the first half of one after it.
+    void accept_other() {
+        toggle_ = !toggle_;
+        break_pair();
+    }
 
   private:
     bool toggle_ = false;

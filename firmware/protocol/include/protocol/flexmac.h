@@ -24,9 +24,15 @@ struct Message {
     bool operator==(const Message&) const = default;
 };
 
-/// Read indices 14 and 15 command the protocol (001 §5.2.2).
+/// Read indices 14 and 15 command the protocol (001 §5.2.2); they are words and have no reply. Their longword
+/// headers FEh and FFh are no messages here (R): FFh is what a spike on an idle line looks like.
 inline constexpr std::uint8_t kReadIndexUseFastMac = 14;
 inline constexpr std::uint8_t kReadIndexUseFlexMac = 15;
+inline constexpr Message kUseFastMac{.read = true, .target = kReadIndexUseFastMac};
+inline constexpr Message kUseFlexMac{.read = true, .target = kReadIndexUseFlexMac};
+
+/// 7Eh x3 or 7Fh x3: a command to the link, not a read.
+bool is_protocol_command(const Message& message);
 
 /// Longest message: 3 header, 2 register, 4 address, 8 data bytes.
 inline constexpr std::size_t kMaxBytes = 17;
@@ -38,30 +44,37 @@ struct Encoded {
 };
 
 /// Header, register or address block, data; low byte first, each protected byte followed by its inverse.
+/// A word write sends the low 16 bits of `value`. Empty for a message that no header can say: index 0 or over
+/// 15 (index 0 opens the register form), register 0 or over 255, a protocol command as longword.
 Encoded encode(const Message& message);
 
-/// A motor's answer to `request` (a read): its header and block again, then the data with inverses.
+/// A motor's answer to `request`: its header and block again, then the data with inverses (R: 001 §5.2.2 says
+/// only that header bytes tell it from a status byte). Empty if the request has no answer: writes, protocol
+/// commands.
 Encoded encode_reply(const Message& request, std::uint32_t value);
 
-/// Register behind a write or read index of 001 §5.2.2's tables; 0 for an index without one (read 14, 15, and
-/// 0).
+/// Register of 001 §3.2 behind a write or read index of §5.2.2's tables; 0 for an index without one (read 14,
+/// 15, any index 0 or over 15). Those above 88 are numbered otherwise on MAC800.
 std::uint8_t register_of_write_index(std::uint8_t index);
 std::uint8_t register_of_read_index(std::uint8_t index);
 
-/// Address of register `reg`: 0408h + 2 x reg. The inverse answers nothing for an odd or too low address.
+/// Address of register `reg`: 0408h + 2 x reg (R: from the two addresses in 001 §5.2.2). The inverse answers
+/// nothing for an odd address and for one outside registers 1..255.
 constexpr std::uint16_t address_of_register(std::uint8_t reg) {
     return static_cast<std::uint16_t>(0x0408 + 2 * reg);
 }
 std::optional<std::uint8_t> register_of_address(std::uint16_t address);
 
-/// The motor's receiving end, a byte at a time. Wrong header repeats and wrong inverses drop the message; the
-/// byte that broke it may begin the next. The caller calls `abandon` at a framing error and at a pause of two
-/// characters.
+/// The motor's receiving end, a byte at a time. A wrong header repeat or a wrong inverse drops the message;
+/// the byte that broke it may begin the next (R). The caller calls `abandon` at a framing error and at a
+/// pause of two characters; without such pauses a lost byte can turn two messages into a wrong one (see the
+/// folder's README).
 class RequestDecoder {
   public:
+    /// The message that this byte completes.
     std::optional<Message> receive(std::uint8_t byte);
-    void abandon();
-    bool in_message() const;
+    void abandon() { count_ = 0; }
+    bool in_message() const { return count_ != 0; }
 
   private:
     std::array<std::uint8_t, kMaxBytes> bytes_{};
@@ -70,6 +83,11 @@ class RequestDecoder {
 
 /// The master's receiving end. The motor's bytes are status bytes, and replies to reads, told apart by
 /// bits 6..5 (never both set in a status byte).
+///
+/// A byte with both bits set that is not part of a whole reply raises doubt: bytes of a broken reply may look
+/// like status bytes, even two equal ones in a row (an inverse and the next data byte). In doubt status bytes
+/// are held back until the third equal one in a row, which data with inverses cannot contain, or until a
+/// reply is whole. A stray byte thus costs the two status bytes after it.
 class ReplyDecoder {
   public:
     struct Event {
@@ -78,11 +96,19 @@ class ReplyDecoder {
         Message reply{};  ///< read = true, value = data
     };
     Event receive(std::uint8_t byte);
+
+    /// To be called at a framing error or an overrun. Not at a pause: a motor told to transmit slowly pauses
+    /// between the bytes of a reply too.
     void abandon();
 
   private:
+    Event outside_reply(std::uint8_t byte);
+
     std::array<std::uint8_t, kMaxBytes> bytes_{};
     std::uint8_t count_ = 0;
+    bool doubt_ = false;
+    std::uint8_t run_ = 0;   // in doubt: equal status bytes in a row
+    std::uint8_t last_ = 0;  // in doubt: the byte they are equal to
 };
 
 }  // namespace nplc::protocol::flexmac

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "base/time.h"
+#include "motor/status_filter.h"
+#include "ports/serial.h"
+#include "protocol/flexmac.h"
+
+namespace nplc::motor {
+
+/// One message at a time to a JVL motor, until the motor's status bytes show that it was taken (001 §5.2). It
+/// sends a message again only on proof that the motor did not take it.
+class JvlLink {
+  public:
+    struct Settings {
+        std::uint32_t baud = 19'200;
+        base::Microseconds silence{20'000};           ///< no status byte for this long: the line is dead
+        base::Microseconds longest_message{250'000};  ///< from its first byte to its echo, resends included
+        std::uint8_t most_resends = 3;
+        /// Status bytes in a row, received after the whole message, that must show the old toggle before it
+        /// is sent again. The first of them may have been on its way already, so 2 is the least.
+        std::uint8_t proof_bytes = 3;
+    };
+
+    enum class Result : std::uint8_t {
+        none,
+        accepted,
+        refused,  ///< not taken after all resends, or longest_message passed
+        silent,
+        out_of_step,  ///< the motor's toggle or protocol is not what the last message left
+    };
+
+    JvlLink(ports::SerialPort& port, const Settings& settings);
+
+    Result poll(base::Instant now);
+
+    bool busy() const { return expect_ != Expect::nothing; }
+    /// `copies`: 2 for safe communication.
+    void send_command(std::uint8_t command, int copies, base::Instant now);
+    void send_flexmac(const protocol::flexmac::Message& message, base::Instant now);
+    /// 7Eh three times; done when status bit 3 is clear, with the toggle read anew.
+    void leave_flexmac(base::Instant now);
+    /// Bytes without any expectation.
+    void send_blind(std::span<const std::uint8_t> bytes, base::Instant now);
+
+    /// Takes the motor's toggle and protocol as they are now; needs known().
+    void adopt();
+    /// Drops the message under way and all belief; the next two equal status bytes begin anew.
+    void forget(base::Instant now);
+
+    bool known() const { return filter_.known(); }
+    const protocol::fastmac::Status& status() const { return filter_.status(); }
+    bool toggle() const { return toggle_; }
+    bool flexmac() const { return flexmac_; }
+    std::uint32_t status_count() const { return status_count_; }
+    std::uint32_t resent() const { return resent_; }
+    bool framing_error_seen() const { return framing_seen_; }
+    void clear_framing_error() { framing_seen_ = false; }
+
+  private:
+    enum class Expect : std::uint8_t { nothing, toggle, enter_flexmac, leave_flexmac };
+
+    void start(std::span<const std::uint8_t> bytes, Expect expect, base::Instant now);
+    void rewind(base::Instant now);
+    void transmit(base::Instant now);
+    void receive(base::Instant now);
+    void on_status(std::uint8_t byte, base::Instant now);
+    bool shows_old(const protocol::fastmac::Status& status) const;
+    bool is_done() const;
+    void settle();
+    bool in_step(const protocol::fastmac::Status& status) const;
+    Result judge(base::Instant now);
+    Result judge_message(base::Instant now);
+
+    ports::SerialPort& port_;
+    Settings settings_;
+    base::Microseconds character_;
+    StatusFilter filter_;
+    protocol::flexmac::ReplyDecoder replies_;
+
+    std::array<std::uint8_t, protocol::flexmac::kMaxBytes> message_{};
+    std::uint8_t size_ = 0;
+    std::uint8_t sent_ = 0;
+    std::uint8_t resends_ = 0;
+    Expect expect_ = Expect::nothing;
+    bool on_the_line_ = false;        ///< the last byte has left
+    std::uint8_t old_shown_ = 0;      ///< status bytes in a row that show the message was not taken
+    std::uint8_t strange_shown_ = 0;  ///< status bytes in a row that no message explains
+    bool accepted_ = false;
+    bool adopted_ = false;
+    bool toggle_ = false;
+    bool flexmac_ = false;
+    bool framing_seen_ = false;
+    base::Instant next_byte_{};
+    base::Instant quiet_until_{};
+    base::Instant started_{};
+    base::Instant last_status_{};
+    std::uint32_t status_count_ = 0;
+    std::uint32_t resent_ = 0;
+};
+
+}  // namespace nplc::motor

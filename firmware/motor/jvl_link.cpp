@@ -1,0 +1,188 @@
+#include "motor/jvl_link.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace nplc::motor {
+namespace {
+
+using protocol::fastmac::Status;
+
+constexpr std::uint8_t kStrangeBytes = 4;
+constexpr int kReadsPerPoll = 8;
+
+constexpr std::uint8_t bump(std::uint8_t count) {
+    return count == 0xFF ? count : static_cast<std::uint8_t>(count + 1);
+}
+
+base::Microseconds character_time(std::uint32_t baud) {
+    return base::Microseconds((10'000'000U + baud - 1) / baud);
+}
+
+}  // namespace
+
+JvlLink::JvlLink(ports::SerialPort& port, const Settings& settings)
+    : port_(port), settings_(settings), character_(character_time(settings.baud)) {}
+
+void JvlLink::send_command(std::uint8_t command, int copies, base::Instant now) {
+    const std::uint8_t byte = protocol::fastmac::with_toggle(command, !toggle_);
+    const std::array<std::uint8_t, 2> bytes{byte, byte};
+    const bool enters = command == protocol::fastmac::command_byte(protocol::fastmac::Number::use_flexmac);
+    start(std::span(bytes).first(copies == 2 ? 2 : 1), enters ? Expect::enter_flexmac : Expect::toggle, now);
+}
+
+void JvlLink::send_flexmac(const protocol::flexmac::Message& message, base::Instant now) {
+    start(protocol::flexmac::encode(message).view(), Expect::toggle, now);
+}
+
+void JvlLink::leave_flexmac(base::Instant now) {
+    send_flexmac(protocol::flexmac::kUseFastMac, now);
+    expect_ = Expect::leave_flexmac;
+}
+
+void JvlLink::send_blind(std::span<const std::uint8_t> bytes, base::Instant now) {
+    start(bytes, Expect::nothing, now);
+}
+
+void JvlLink::start(std::span<const std::uint8_t> bytes, Expect expect, base::Instant now) {
+    std::copy(bytes.begin(), bytes.end(), message_.begin());
+    size_ = static_cast<std::uint8_t>(bytes.size());
+    expect_ = expect;
+    resends_ = 0;
+    started_ = now;
+    rewind(now);
+}
+
+void JvlLink::rewind(base::Instant now) {
+    sent_ = 0;
+    on_the_line_ = false;
+    old_shown_ = 0;
+    const bool is_flexmac = size_ > 2;
+    next_byte_ = is_flexmac ? std::max(now, quiet_until_) : now;
+    transmit(now);
+}
+
+void JvlLink::adopt() {
+    toggle_ = status().toggle;
+    flexmac_ = status().flexmac;
+    adopted_ = true;
+    strange_shown_ = 0;
+}
+
+void JvlLink::forget(base::Instant now) {
+    filter_.forget();
+    replies_.abandon();
+    expect_ = Expect::nothing;
+    accepted_ = adopted_ = false;
+    size_ = sent_ = 0;
+    strange_shown_ = 0;
+    last_status_ = now;
+}
+
+JvlLink::Result JvlLink::poll(base::Instant now) {
+    transmit(now);
+    receive(now);
+    return judge(now);
+}
+
+void JvlLink::transmit(base::Instant now) {
+    while (sent_ < size_ && now >= next_byte_) {
+        const bool pauses = known() && status().framing_error;
+        const std::size_t wanted = pauses ? 1 : size_ - sent_;
+        const std::size_t taken = port_.write(std::span(message_).subspan(sent_, wanted));
+        sent_ = static_cast<std::uint8_t>(sent_ + taken);
+        if (pauses) next_byte_ = now + 2 * character_;
+        if (taken == 0) return;
+    }
+    if (!on_the_line_ && size_ != 0 && sent_ == size_ && port_.transmitter_idle()) {
+        on_the_line_ = true;
+        quiet_until_ = now + 3 * character_;  // two characters of pause end a message for the motor
+    }
+}
+
+void JvlLink::receive(base::Instant now) {
+    std::array<ports::ReceivedByte, 16> bytes;
+    for (int i = 0; i < kReadsPerPoll; ++i) {
+        const std::size_t count = port_.read(bytes);
+        for (const auto& byte : std::span(bytes).first(count)) {
+            if (byte.framing_error) {
+                framing_seen_ = true;
+                filter_.break_pair();
+                replies_.abandon();
+                continue;
+            }
+            const auto event = replies_.receive(byte.value);
+            if (event.kind == protocol::flexmac::ReplyDecoder::Event::Kind::status)
+                on_status(event.status, now);
+        }
+        if (count < bytes.size()) return;
+    }
+}
+
+void JvlLink::on_status(std::uint8_t byte, base::Instant now) {
+    last_status_ = now;
+    ++status_count_;
+    filter_.receive(byte);
+    const Status seen = protocol::fastmac::decode_status(byte);
+    old_shown_ = busy() && on_the_line_ && shows_old(seen) ? bump(old_shown_) : std::uint8_t{0};
+    strange_shown_ = in_step(seen) ? std::uint8_t{0} : bump(strange_shown_);
+    if (is_done()) settle();
+}
+
+bool JvlLink::shows_old(const Status& seen) const {
+    return expect_ == Expect::leave_flexmac ? seen.flexmac : seen.toggle == toggle_;
+}
+
+bool JvlLink::is_done() const {
+    if (!known() || sent_ == 0) return false;
+    switch (expect_) {
+        case Expect::nothing:
+            return false;
+        case Expect::toggle:
+            return status().toggle != toggle_;
+        case Expect::enter_flexmac:
+            return status().toggle != toggle_ && status().flexmac;
+        case Expect::leave_flexmac:
+            return !status().flexmac;
+    }
+    return false;
+}
+
+void JvlLink::settle() {
+    adopt();
+    expect_ = Expect::nothing;
+    accepted_ = true;
+}
+
+bool JvlLink::in_step(const Status& seen) const {
+    switch (expect_) {
+        case Expect::nothing:
+            return seen.toggle == toggle_ && seen.flexmac == flexmac_;
+        case Expect::toggle:
+            return seen.flexmac == flexmac_;
+        case Expect::enter_flexmac:
+        case Expect::leave_flexmac:
+            return true;
+    }
+    return true;
+}
+
+JvlLink::Result JvlLink::judge(base::Instant now) {
+    if (std::exchange(accepted_, false)) return Result::accepted;
+    if (!adopted_) return Result::none;
+    if (now - last_status_ > settings_.silence) return Result::silent;
+    if (strange_shown_ >= kStrangeBytes) return Result::out_of_step;
+    return busy() ? judge_message(now) : Result::none;
+}
+
+JvlLink::Result JvlLink::judge_message(base::Instant now) {
+    if (now - started_ > settings_.longest_message) return Result::refused;
+    if (old_shown_ < settings_.proof_bytes) return Result::none;
+    if (resends_ == settings_.most_resends) return Result::refused;
+    ++resends_;
+    ++resent_;
+    rewind(now);
+    return Result::none;
+}
+
+}  // namespace nplc::motor

@@ -1,0 +1,223 @@
+#include "motor/jvl_motor.h"
+
+#include <utility>
+
+#include "motor/jvl_orders.h"
+
+namespace nplc::motor {
+namespace {
+
+using protocol::fastmac::command_byte;
+using protocol::fastmac::Number;
+
+constexpr std::uint8_t kModeReg = 2;
+constexpr base::Microseconds kBlindPause{100'000};
+
+}  // namespace
+
+JvlMotor::JvlMotor(ports::SerialPort& port, const Settings& settings)
+    : link_(port, settings.link), settings_(settings) {}
+
+void JvlMotor::poll(base::Instant now) {
+    switch (link_.poll(now)) {
+        case JvlLink::Result::none:
+            break;
+        case JvlLink::Result::accepted:
+            on_accepted(now);
+            break;
+        case JvlLink::Result::refused:
+        case JvlLink::Result::silent:
+        case JvlLink::Result::out_of_step:
+            lose_link(now);
+            break;
+    }
+    update_hold(now);
+    if (link_.busy()) return;
+    if (phase_ == Phase::up) {
+        work(now);
+    } else {
+        start_up(now);
+    }
+}
+
+void JvlMotor::lose_link(base::Instant now) {
+    counters_.discarded +=
+        static_cast<std::uint32_t>(orders_.size()) + (sending_ == Sending::order ? 1U : 0U);
+    orders_.clear();
+    if (was_up_) {
+        link_error_ = true;
+        ++counters_.link_losses;
+    }
+    was_up_ = safe_now_ = slowed_ = holds_ = false;
+    sending_ = Sending::nothing;
+    phase_ = Phase::down;
+    link_.forget(now);
+}
+
+void JvlMotor::on_accepted(base::Instant now) {
+    const Sending done = std::exchange(sending_, Sending::nothing);
+    switch (done) {
+        case Sending::nothing:
+        case Sending::link_command:
+            break;
+        case Sending::start_up:
+            phase_ = static_cast<Phase>(static_cast<int>(phase_) + 1);
+            break;
+        case Sending::order:
+            on_executed(current_, now);
+            break;
+        case Sending::stop:
+            stop_wanted_ = false;
+            hold_in_position(now);
+            break;
+    }
+    if (phase_ == Phase::up && !was_up_) {
+        was_up_ = true;
+        safe_now_ = settings_.safe_communication;
+        link_.clear_framing_error();
+    }
+}
+
+void JvlMotor::on_executed(const Order& order, base::Instant now) {
+    ++counters_.orders;
+    if (makes_in_position_stale(order)) hold_in_position(now);
+    if (order.is_register_write) return;
+    if (order.command == command_byte(Number::reset_error)) link_error_ = false;
+    if (order.command == command_byte(Number::rapid_communication)) safe_now_ = false;
+    if (order.command == command_byte(Number::safe_communication)) safe_now_ = true;
+    if (order.command == command_byte(Number::transmit_slowly)) slowed_ = true;
+}
+
+void JvlMotor::start_up(base::Instant now) {
+    switch (phase_) {
+        case Phase::down:
+            if (link_.known()) {
+                link_.adopt();
+                phase_ = Phase::look;
+            } else {
+                free_the_line(now);
+            }
+            return;
+        case Phase::look:
+            if (link_.flexmac()) {
+                sending_ = Sending::link_command;
+                link_.leave_flexmac(now);
+                return;
+            }
+            phase_ = Phase::first_nop;
+            [[fallthrough]];
+        case Phase::first_nop:
+        case Phase::second_nop:
+            return command(Sending::start_up, command_byte(Number::nop), now);
+        case Phase::choose_safety:
+            return command(Sending::start_up,
+                           command_byte(settings_.safe_communication ? Number::safe_communication
+                                                                     : Number::rapid_communication),
+                           now);
+        case Phase::up:
+            return;
+    }
+}
+
+/// A stream without a pause may never come in step: "transmit slowly" with either toggle, twice for safe
+/// communication.
+void JvlMotor::free_the_line(base::Instant now) {
+    if (!link_.framing_error_seen() || now < next_blind_) return;
+    constexpr std::uint8_t slowly = command_byte(Number::transmit_slowly);
+    constexpr std::uint8_t other = protocol::fastmac::with_toggle(slowly, true);
+    constexpr std::uint8_t bytes[]{slowly, slowly, other, other};
+    link_.clear_framing_error();
+    link_.send_blind(bytes, now);
+    next_blind_ = now + kBlindPause;
+}
+
+void JvlMotor::work(base::Instant now) {
+    const bool in_flexmac = link_.flexmac();
+    const bool writes = stop_wanted_ || (!orders_.empty() && orders_.front().is_register_write);
+    if (in_flexmac && !writes) {
+        sending_ = Sending::link_command;
+        return link_.leave_flexmac(now);
+    }
+    if (!in_flexmac && link_.framing_error_seen() && !slowed_) {
+        slowed_ = true;
+        return command(Sending::link_command, command_byte(Number::transmit_slowly), now);
+    }
+    if (!in_flexmac && writes) return command(Sending::link_command, command_byte(Number::use_flexmac), now);
+    if (stop_wanted_) {
+        return write_register(
+            Sending::stop,
+            {.is_register_write = true, .reg = kModeReg, .longword = settings_.registers_are_32_bit}, now);
+    }
+    if (orders_.empty()) return;
+    current_ = orders_.front();
+    orders_.pop();
+    if (current_.is_register_write) return write_register(Sending::order, current_, now);
+    command(Sending::order, current_.command, now);
+}
+
+void JvlMotor::write_register(Sending what, const Order& order, base::Instant now) {
+    sending_ = what;
+    link_.send_flexmac({.longword = order.longword,
+                        .level = protocol::flexmac::Level::reg,
+                        .target = order.reg,
+                        .value = order.value},
+                       now);
+}
+
+void JvlMotor::command(Sending what, std::uint8_t command, base::Instant now) {
+    sending_ = what;
+    const bool twice = safe_now_ || phase_ != Phase::up;
+    link_.send_command(on_the_wire(command), twice ? 2 : 1, now);
+}
+
+std::uint8_t JvlMotor::on_the_wire(std::uint8_t command) const {
+    return recoded(command, settings_.register_code);
+}
+
+void JvlMotor::send(const Order& order) {
+    if (phase_ != Phase::up || !orders_.push(order)) ++counters_.discarded;
+}
+
+void JvlMotor::stop() {
+    counters_.discarded += static_cast<std::uint32_t>(orders_.size());
+    orders_.clear();
+    stop_wanted_ = true;
+}
+
+bool JvlMotor::settled() const {
+    if (phase_ != Phase::up) return true;
+    const bool wants_slow = link_.framing_error_seen() && !slowed_;
+    return !link_.busy() && orders_.empty() && !stop_wanted_ && !link_.flexmac() && !wants_slow;
+}
+
+bool JvlMotor::in_position() const {
+    return phase_ == Phase::up && !holds_ && !link_error_ && link_.status().in_position;
+}
+
+bool JvlMotor::error() const {
+    return link_error_ || (phase_ == Phase::up && link_.status().error);
+}
+
+Link JvlMotor::link() const {
+    if (phase_ == Phase::down) return Link::down;
+    if (phase_ != Phase::up) return Link::starting;
+    return link_error_ ? Link::unacknowledged : Link::up;
+}
+
+void JvlMotor::hold_in_position(base::Instant now) {
+    holds_ = true;
+    hold_until_ = now + 2 * settings_.sample_period;
+    hold_count_ = 0;
+}
+
+/// Two motor samples, then one status byte more.
+void JvlMotor::update_hold(base::Instant now) {
+    if (!holds_ || now < hold_until_) return;
+    if (hold_count_ == 0) {
+        hold_count_ = link_.status_count();
+    } else if (link_.status_count() != hold_count_) {
+        holds_ = false;
+    }
+}
+
+}  // namespace nplc::motor

@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+"""Who may include whom. Reads the #include lines of all sources and reports those that cross a wall.
+
+usage: layering.py [ROOT]
+"""
+
+import os
+import re
+import sys
+from dataclasses import dataclass
+
+import sources
+
+ANY = "any module"
+
+
+@dataclass(frozen=True)
+class Module:
+    folder: str
+    prefix: str | None  # its public headers are included as "prefix/..."
+    may: tuple | str  # prefixes of the modules it may include beside itself
+    core: bool = False  # no heap, no I/O: a short list of standard headers only
+    os: bool = False  # may include headers of the operating system or the chip's vendor
+    clock: bool = False  # may read a clock
+
+
+# The longest folder that holds a file decides.
+MODULES = [
+    Module("hal/base", "base", (), core=True),
+    Module("hal/ports", "ports", ("base",), core=True),
+    Module("hal/linux", "hal_linux", ("base", "ports"), os=True, clock=True),
+    Module("hal/mcu", "hal_mcu", ("base", "ports"), core=True, os=True, clock=True),
+    Module("sequencer", "sequencer", ("base",), core=True),
+    Module("firmware/protocol", "protocol", ("base",), core=True),
+    Module("firmware/registers", "registers", ("base",), core=True),
+    Module("firmware/motor", "motor", ("base", "ports", "protocol", "registers"), core=True),
+    Module(
+        "firmware/gateway",
+        "gateway",
+        ("base", "ports", "sequencer", "protocol", "registers", "motor"),
+        core=True,
+    ),
+    Module("firmware/boards", None, ANY, os=True, clock=True),
+    Module("host-sim", "sim", ("base", "ports", "protocol", "registers"), os=True),
+    Module("host-sim/board", "sim", ANY, os=True, clock=True),
+    Module("host-sim/nanoplc_sim", None, ANY, os=True, clock=True),
+    Module("tools/seqc", "seqc", ("base", "sequencer", "protocol", "registers"), os=True),
+    Module("tools/macreg", "macreg", ("base", "sequencer", "protocol", "registers"), os=True),
+    Module("tests", None, ANY, os=True),
+]
+
+# Composition roots name concrete parts and the clock: the boards, the simulated one included (the rows that may
+# include any module), and in host-sim and tools the programs' main files.
+ROOT_FILE = re.compile(r"^(host-sim|tools)/(.*/)?(main|\w+_main)\.cpp$")
+ROOT_MAY = {"host-sim": ANY, "tools": ("ports", "hal_linux")}
+
+# What works without an operating system and never allocates.
+CORE_STANDARD = set(
+    """algorithm array atomic bit cassert cctype charconv chrono climits compare concepts cstddef cstdint cstdlib
+    cstring initializer_list iterator limits new numeric optional ranges ratio span string_view tuple type_traits
+    utility variant version""".split()
+)
+# Standard headers that others may have and the core may not; named so that the message can say why.
+HOSTED_STANDARD = set(
+    """any barrier bitset cerrno cfenv cfloat cinttypes clocale cmath codecvt complex condition_variable coroutine
+    csetjmp csignal cstdarg cstdio ctime cuchar cwchar cwctype deque exception execution expected filesystem format
+    forward_list fstream functional future iomanip ios iosfwd iostream istream iterator latch list locale map memory
+    memory_resource mutex numbers ostream queue random regex scoped_allocator semaphore set shared_mutex
+    source_location spanstream sstream stack stacktrace stdexcept stop_token streambuf string strstream syncstream
+    system_error thread typeindex typeinfo unordered_map unordered_set valarray vector""".split()
+)
+LIBRARIES = ("gtest/", "gmock/", "benchmark/", "fmt/", "CLI/")
+
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
+COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
+CLOCK = re.compile(
+    r"\b(?:\w+_clock\s*::\s*now|(?:std\s*::\s*)?chrono\s*::\s*\w+_clock|(?:steady|system|high_resolution)_clock"
+    r"|clock_gettime|gettimeofday|timespec_get|std\s*::\s*time\s*\()"
+)
+
+
+def module_of(path):
+    inside = [m for m in MODULES if path.startswith(m.folder + "/")]
+    return max(inside, key=lambda m: len(m.folder), default=None)
+
+
+def line_of(text, position):
+    return text.count("\n", 0, position) + 1
+
+
+class Checker:
+    def __init__(self, root):
+        self.root = root
+        self.findings = []
+
+    def find(self, path, line, kind, message):
+        self.findings.append(f"{path}:{line}: {kind}: {message}")
+
+    def check(self, path):
+        module = module_of(path)
+        if module is None:
+            self.find(path, 1, "no module", "no row of MODULES in tests/checks/layering.py holds this folder")
+            return
+        text = sources.read(self.root, path)
+        for match in INCLUDE.finditer(blank_comments(text, strings=False)):
+            self.check_include(path, module, line_of(text, match.start()), match.group(1), match.group(2))
+        if not module.clock and not ROOT_FILE.match(path):
+            for match in CLOCK.finditer(blank_comments(text, strings=True)):
+                self.find(path, line_of(text, match.start()), "clock",
+                          f"`{match.group(0)}`: time is a parameter; only hal/* and composition roots read a clock")
+
+    def check_include(self, path, module, line, bracket, header):
+        prefix = header.split("/")[0] if "/" in header else None
+        if prefix in {m.prefix for m in MODULES if m.prefix}:
+            self.check_own(path, module, line, header, prefix)
+        elif bracket == '"':
+            if module.may != ANY and not self.is_private(path, module, header):
+                self.find(path, line, "unknown include",
+                          f'"{header}" is neither beside this file nor a public header ("module/name.h") of ours')
+        else:
+            self.check_foreign(path, module, line, header)
+
+    def check_own(self, path, module, line, header, prefix):
+        may = module.may
+        if ROOT_FILE.match(path) and may != ANY:
+            more = ROOT_MAY[path.split("/")[0]]
+            may = ANY if more == ANY else may + more
+        if may != ANY and prefix != module.prefix and prefix not in may:
+            allowed = ", ".join(may) or "nothing of ours"
+            self.find(path, line, "layering", f'{module.folder} may not include "{header}" (it may include: {allowed})')
+
+    def is_private(self, path, module, header):
+        folders = (os.path.dirname(path), module.folder)
+        for folder in folders:
+            target = os.path.normpath(os.path.join(folder, header))
+            if os.path.isfile(os.path.join(self.root, target)) and target.startswith(module.folder + "/"):
+                return module_of(target) is module
+        return False
+
+    def check_foreign(self, path, module, line, header):
+        if header in CORE_STANDARD:
+            return
+        if header in HOSTED_STANDARD or header.startswith(LIBRARIES):
+            if module.core:
+                self.find(path, line, "heap or I/O", f"<{header}>: {module.folder} is core, which has no heap, no I/O, "
+                          "no threads, no exceptions, no floating point and no libraries")
+        elif not module.os:
+            self.find(path, line, "OS or vendor header",
+                      f"<{header}> belongs in hal/linux, hal/mcu, firmware/boards, host-sim or tools (if it is standard "
+                      "and works without an OS, add it to CORE_STANDARD in tests/checks/layering.py)")
+
+
+def blank_comments(text, strings):
+    """The text with comments (and string literals) blanked, its lines and columns kept."""
+
+    def blank(match):
+        if match.group(0).startswith('"') and not strings:
+            return match.group(0)
+        return re.sub(r"[^\n]", " ", match.group(0))
+
+    return COMMENT_OR_STRING.sub(blank, text)
+
+
+def check_tree(root):
+    checker = Checker(root)
+    paths = sources.cxx(root)
+    for path in paths:
+        checker.check(path)
+    return checker.findings, len(paths)
+
+
+if __name__ == "__main__":
+    tree = sys.argv[1] if len(sys.argv) > 1 else os.path.join(os.path.dirname(__file__), "..", "..")
+    sources.report(*check_tree(tree), "source files")

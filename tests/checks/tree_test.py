@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+"""The checks on the tree must find what they are there to find."""
+
+import os
+import tempfile
+import unittest
+
+import tree
+
+
+class Tree(unittest.TestCase):
+    def findings(self, check, content, executable=()):
+        with tempfile.TemporaryDirectory() as root:
+            for name, text in content.items():
+                file = os.path.join(root, name)
+                os.makedirs(os.path.dirname(file), exist_ok=True)
+                with open(file, "w", encoding="utf-8") as out:
+                    out.write(text)
+                if name in executable:
+                    os.chmod(file, 0o755)
+            return check(root)[0]
+
+    def test_readmes(self):
+        good = {"CMakeLists.txt": "", "README.md": "tools/demo tools/test [a](a)", "a/CMakeLists.txt": "", "a/README.md": ""}
+        self.assertEqual(self.findings(tree.readmes, good), [])
+        without = {name: text for name, text in good.items() if name != "a/README.md"}
+        self.assertRegex(self.findings(tree.readmes, without)[0], "^a/README.md: missing")
+        self.assertRegex(self.findings(tree.readmes, {"CMakeLists.txt": ""})[0], "^README.md: missing")
+        self.assertEqual(
+            self.findings(tree.readmes, good | {"README.md": "tools/demo [a](a/b.md) [c](https://example.org)"}),
+            ["README.md: does not name tools/test", "README.md: dead link: a/b.md"],
+        )
+
+    def test_file_length(self):
+        self.assertEqual(self.findings(tree.file_length, {"a.cpp": "\n" * 500, "a.csv": "\n" * 501}), [])
+        self.assertRegex(self.findings(tree.file_length, {"a.cpp": "\n" * 501})[0], "^a.cpp: 501 lines")
+        self.assertRegex(self.findings(tree.file_length, {"run": "#!/usr/bin/env bash\n" + "\n" * 500})[0], "^run: 501")
+
+    def test_scripts(self):
+        helpful = '#!/usr/bin/env bash\necho "usage: a"\n'
+        self.assertEqual(self.findings(tree.scripts, {"tools/a": helpful}, ["tools/a"]), [])
+        self.assertRegex(self.findings(tree.scripts, {"tools/a": helpful})[0], "^tools/a: not executable")
+        silent = "#!/usr/bin/env bash\n"
+        self.assertRegex(self.findings(tree.scripts, {"tools/a": silent}, ["tools/a"])[0], "^tools/a: --help must")
+        broken = "#!/usr/bin/env bash\nif true; then\n"
+        self.assertRegex(self.findings(tree.scripts, {".ci/a": broken}, [".ci/a"])[0], "syntax error")
+        self.assertRegex(self.findings(tree.scripts, {"tools/a.sh": "case\n"})[0], "syntax error")
+        self.assertRegex(self.findings(tree.scripts, {"a.py": "def f(:\n"})[0], "^a.py:1: ")
+
+
+if __name__ == "__main__":
+    unittest.main()

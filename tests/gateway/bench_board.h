@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gateway/gateway.h"
+
+namespace nplc::gateway {
+
+/// A board whose pins and motor are the test's own variables. Starts at a time other than 0.
+struct BenchBoard final : ports::DigitalInputs,
+                          ports::DigitalOutputs,
+                          ports::Watchdog,
+                          motor::Motor,
+                          Observer {
+    std::uint8_t read() override { return in; }
+    void write(std::uint8_t levels) override {
+        out = levels;
+        out_since = now;
+        ++writes;
+    }
+    void feed() override { ++feeds; }
+
+    void poll(base::Instant) override {}
+    bool settled() const override { return is_settled; }
+    bool has_room() const override { return room != 0; }
+    void send(const motor::Order& order) override {
+        sent.push_back(order);
+        if (room > 0) --room;
+    }
+    void stop() override { ++stops; }
+    bool in_position() const override { return in_pos; }
+    bool error() const override { return err || link_state != motor::Link::up; }
+    motor::Link link() const override { return link_state; }
+
+    void ordered(base::Instant, const sequencer::MotorOrder&) override { ++orders_seen; }
+    void scanned(base::Instant, const sequencer::State& before, sequencer::InputImage image,
+                 const sequencer::State& after) override {
+        scans_seen.push_back({before, image, after});
+    }
+
+    Gateway::Ports ports() { return {*this, *this, *this, *this}; }
+
+    /// Polls every 250 us.
+    void run(Gateway& gateway, base::Microseconds duration) {
+        const auto end = now + duration;
+        while (now < end) {
+            now += base::Microseconds(250);
+            gateway.poll(now);
+        }
+    }
+
+    struct Scan {
+        sequencer::State before;
+        sequencer::InputImage image;
+        sequencer::State after;
+    };
+
+    base::Instant now{base::Milliseconds(1234)};
+    std::uint8_t in = 0;
+    std::uint8_t out = 0xFF;
+    base::Instant out_since{};
+    int writes = 0;
+    int feeds = 0;
+    int stops = 0;
+    int room = 8;
+    int orders_seen = 0;
+    bool is_settled = true;
+    bool in_pos = false;
+    bool err = false;
+    motor::Link link_state = motor::Link::up;
+    std::vector<motor::Order> sent;
+    std::vector<Scan> scans_seen;
+};
+
+using namespace std::chrono_literals;
+
+/// A table written down byte by byte; STATE C0h: neither timer nor counter is looked at.
+class Bytes {
+  public:
+    Bytes(std::initializer_list<sequencer::TermBytes> terms) {
+        for (const auto& term : terms) bytes_.insert(bytes_.end(), term.begin(), term.end());
+        bytes_.insert(bytes_.end(), {0x3F, 0, 0, 0, 0, 0, 0, 0});
+    }
+    operator std::span<const std::uint8_t>() const { return bytes_; }  // NOLINT: as the call takes it
+
+  private:
+    std::vector<std::uint8_t> bytes_;
+};
+
+}  // namespace nplc::gateway

@@ -1,0 +1,182 @@
+// What the gateway must never do, as far as its loop goes; the link's part is in tests/motor.
+
+#include <gtest/gtest.h>
+
+#include "bench_board.h"
+#include "gateway/gateway.h"
+
+namespace nplc::gateway {
+namespace {
+
+const Bytes kOutputsOn{{0xC0, 0x00, 0x00, 0x3E, 0x80, 0x0F, 0, 0}};
+
+struct Safety : testing::Test {
+    BenchBoard board;
+    const Settings settings{.safe_outputs = 0x02};
+
+    void expect_safe(const Gateway& gateway, SafeReason reason) const {
+        EXPECT_EQ(gateway.safe_reason(), reason);
+        EXPECT_EQ(board.out, 0x02);
+    }
+};
+
+TEST_F(Safety, OutputsAreSafeFromConstructionToTheFirstScan) {
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    expect_safe(gateway, SafeReason::not_started);
+    board.link_state = motor::Link::down;
+    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
+    board.run(gateway, 1s);
+    expect_safe(gateway, SafeReason::not_started);
+    EXPECT_EQ(gateway.run_state(), RunState::waiting_for_motor);
+    EXPECT_EQ(gateway.scans(), 0U);
+    board.link_state = motor::Link::up;
+    board.run(gateway, 1ms);
+    EXPECT_EQ(board.out, 0x0F);
+    EXPECT_EQ(gateway.safe_reason(), SafeReason::none);
+}
+
+TEST_F(Safety, TheMotorIsStoppedBeforeTheFirstScanAfterAnyStart) {
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
+    board.is_settled = false;
+    board.run(gateway, 100ms);
+    EXPECT_EQ(board.stops, 1);
+    EXPECT_EQ(gateway.scans(), 0U) << "not before the motor has taken it";
+    board.is_settled = true;
+    board.run(gateway, 1ms);
+    EXPECT_GT(gateway.scans(), 0U);
+    gateway.stop(board.now);
+    EXPECT_EQ(board.stops, 2);
+    ASSERT_TRUE(gateway.run().ok());
+    board.run(gateway, 1ms);
+    EXPECT_EQ(board.stops, 3);
+}
+
+TEST_F(Safety, TheMotorIsLeftAloneWithOnStartKeep) {
+    Gateway gateway(board.ports(), {.on_start = OnStart::keep}, StartCause::power_up);
+    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
+    board.run(gateway, 10ms);
+    EXPECT_EQ(board.stops, 0);
+    EXPECT_GT(gateway.scans(), 0U);
+}
+
+TEST_F(Safety, AfterAWatchdogResetTheSequenceDoesNotStartByItself) {
+    Gateway gateway(board.ports(), settings, StartCause::watchdog);
+    EXPECT_EQ(board.stops, 1);
+    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
+    board.run(gateway, 1s);
+    expect_safe(gateway, SafeReason::watchdog);
+    EXPECT_EQ(gateway.scans(), 0U);
+    ASSERT_TRUE(gateway.run().ok());
+    board.run(gateway, 1ms);
+    EXPECT_EQ(board.out, 0x0F);
+}
+
+TEST_F(Safety, ALostLinkIsTheSafeStateUntilTheSequenceHasAcknowledged) {
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
+    board.run(gateway, 10ms);
+    board.stops = 0;
+    board.link_state = motor::Link::down;
+    const auto lost = board.now;
+    board.run(gateway, 10ms);
+    expect_safe(gateway, SafeReason::link_down);
+    EXPECT_LE(board.out_since - lost, 10ms);
+    EXPECT_EQ(gateway.safe_since(), board.out_since);
+    EXPECT_EQ(gateway.run_state(), RunState::running) << "the sequence sees ERROR and can react";
+    EXPECT_NE(gateway.image() & sequencer::kError, 0);
+    EXPECT_EQ(board.stops, 0);
+    board.link_state = motor::Link::unacknowledged;
+    board.run(gateway, 10ms);
+    expect_safe(gateway, SafeReason::link_down);
+    EXPECT_EQ(board.stops, 1) << "told to stop as soon as the line works";
+    board.link_state = motor::Link::up;
+    board.run(gateway, 1ms);
+    EXPECT_EQ(gateway.safe_reason(), SafeReason::none);
+    EXPECT_EQ(board.out, 0x0F);
+}
+
+TEST_F(Safety, StopCommandIsTheSafeStateAtOnce) {
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
+    board.run(gateway, 10ms);
+    board.stops = 0;
+    gateway.stop(board.now);
+    expect_safe(gateway, SafeReason::stop_command);
+    EXPECT_EQ(board.stops, 1);
+    const auto scans = gateway.scans();
+    board.run(gateway, 1s);
+    EXPECT_EQ(gateway.scans(), scans);
+    expect_safe(gateway, SafeReason::stop_command);
+}
+
+TEST_F(Safety, LosingTheEnableInputStops) {
+    Gateway gateway(board.ports(), {.safe_outputs = 0x02, .enable_input = 5}, StartCause::power_up);
+    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
+    board.run(gateway, 100ms);
+    EXPECT_EQ(gateway.run_state(), RunState::waiting_for_motor) << "not without it";
+    board.in = 0x20;
+    board.run(gateway, 10ms);
+    EXPECT_EQ(board.out, 0x0F);
+    board.in = 0;
+    const auto lost = board.now;
+    board.run(gateway, 10ms);
+    expect_safe(gateway, SafeReason::enable_lost);
+    EXPECT_LE(board.out_since - lost, 10ms);
+    board.in = 0x20;
+    board.run(gateway, 100ms);
+    expect_safe(gateway, SafeReason::enable_lost);
+    ASSERT_TRUE(gateway.run().ok());
+    board.run(gateway, 1ms);
+    EXPECT_EQ(board.out, 0x0F);
+}
+
+TEST_F(Safety, ABadTableIsTheSafeStateAndNothingRuns) {
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    const Bytes bad{{0xC0, 0, 0, 0x3F, 0x80, 0, 0, 0}};
+    const auto result = gateway.load(bad, board.now);
+    EXPECT_FALSE(result.ok);
+    EXPECT_EQ(result.fault.error, base::Error::bad_next_step);
+    EXPECT_EQ(result.fault.term, 0);
+    expect_safe(gateway, SafeReason::corrupt_table);
+    EXPECT_EQ(gateway.run().error(), base::Error::no_table);
+    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
+    board.run(gateway, 100ms);
+    EXPECT_EQ(gateway.run_state(), RunState::stopped) << "a good table after a bad one needs run()";
+}
+
+TEST_F(Safety, EveryWaitForTheMotorEnds) {
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
+    board.run(gateway, 10ms);
+    board.is_settled = false;
+    board.run(gateway, 990ms);
+    EXPECT_EQ(gateway.run_state(), RunState::running);
+    board.run(gateway, 20ms);
+    expect_safe(gateway, SafeReason::motor_stuck);
+    EXPECT_EQ(gateway.run_state(), RunState::stopped);
+}
+
+TEST_F(Safety, AHaltedScanEndsToo) {
+    const Bytes sends{{0xC0, 0x00, 0x00, 0x3E, 0x60, 0x0F, 0, 0}};
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    board.room = 0;
+    ASSERT_TRUE(gateway.load(sends, board.now).ok);
+    board.run(gateway, 1100ms);
+    expect_safe(gateway, SafeReason::motor_stuck);
+    EXPECT_TRUE(board.sent.empty());
+}
+
+TEST_F(Safety, OnlyAFinishedScanFeedsTheWatchdogOfARunningSequence) {
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
+    board.run(gateway, 10ms);
+    EXPECT_EQ(board.feeds, 40) << "a feed a poll: waiting, scanned or nothing to scan";
+    board.is_settled = false;
+    board.feeds = 0;
+    board.run(gateway, 100ms);
+    EXPECT_EQ(board.feeds, 0);
+}
+
+}  // namespace
+}  // namespace nplc::gateway

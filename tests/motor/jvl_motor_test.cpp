@@ -1,0 +1,333 @@
+#include "motor/jvl_motor.h"
+
+#include <gtest/gtest.h>
+
+#include "scripted_line.h"
+
+namespace nplc::motor {
+namespace {
+
+Order command(std::uint8_t byte) {
+    return {.command = byte};
+}
+Order write(std::uint8_t reg, std::uint16_t value) {
+    return {.is_register_write = true, .reg = reg, .value = value};
+}
+
+struct MotorTest : testing::Test {
+    ScriptedLine line;
+    JvlMotor driver{line, {}};
+    Script<JvlMotor> motor{line, driver};
+
+    /// Lets the motor answer `before` until the driver has sent `bytes`, then `after` twice.
+    void exchange(const Bytes& bytes, std::uint8_t before, std::uint8_t after) {
+        for (int i = 0; i < 20 && line.sent.size() < bytes.size(); ++i) motor.hear(before);
+        EXPECT_EQ(line.take(), bytes);
+        for (std::size_t i = 0; i < bytes.size() && line.in_transmitter != 0; ++i) motor.hear(before);
+        motor.hear(after);
+        motor.hear(after);
+    }
+    void start() {
+        motor.hear(0x00);
+        motor.hear(0x00);
+        exchange({0xE0, 0xE0}, 0x00, 0x80);
+        exchange({0x60, 0x60}, 0x80, 0x00);
+        exchange({0xEB, 0xEB}, 0x00, 0x80);
+        ASSERT_EQ(driver.link(), Link::up);
+        ASSERT_TRUE(driver.settled());
+    }
+};
+
+TEST_F(MotorTest, StartsWithANopInEachPolarityAndSafeCommunication) {
+    start();
+}
+
+TEST_F(MotorTest, StartsFromAnyToggle) {
+    motor.hear(0x80);
+    motor.hear(0x80);
+    exchange({0x60, 0x60}, 0x80, 0x00);
+    exchange({0xE0, 0xE0}, 0x00, 0x80);
+    exchange({0x6B, 0x6B}, 0x80, 0x00);
+    EXPECT_EQ(driver.link(), Link::up);
+}
+
+TEST_F(MotorTest, AMotorLeftInFlexMacIsBroughtBackFirst) {
+    motor.hear(0x08);
+    motor.hear(0x08);
+    exchange({0x7E, 0x7E, 0x7E}, 0x08, 0x80);
+    exchange({0x60, 0x60}, 0x80, 0x00);
+    exchange({0xE0, 0xE0}, 0x00, 0x80);
+    exchange({0x6B, 0x6B}, 0x80, 0x00);
+    EXPECT_EQ(driver.link(), Link::up);
+}
+
+TEST_F(MotorTest, RapidCommunicationIsASetting) {
+    JvlMotor rapid(line, {.safe_communication = false});
+    Script<JvlMotor> peer{line, rapid};
+    peer.hear_times(3, 0x00);
+    EXPECT_EQ(line.take(), (Bytes{0xE0, 0xE0}));
+    peer.hear_times(4, 0x80);
+    EXPECT_EQ(line.take(), (Bytes{0x60, 0x60}));
+    peer.hear_times(4, 0x00);
+    EXPECT_EQ(line.take(), (Bytes{0xEA, 0xEA}));
+    peer.hear_times(4, 0x80);
+    ASSERT_EQ(rapid.link(), Link::up);
+    rapid.send(command(0x42));
+    peer.hear(0x80);
+    EXPECT_EQ(line.take(), (Bytes{0x42})) << "one byte";
+}
+
+// The moves of 001 §5.2.1.5 by the list of §5.2.1.4: 14h|A.. as T2 = 10101, A4 = 10011, V4 = 01011, P6 =
+// 00101.
+TEST_F(MotorTest, OrdersGoOutInOrderWithAlternatingToggle) {
+    start();
+    for (const int byte : {0x63, 0x15, 0x13, 0x0B, 0x45})
+        driver.send(command(static_cast<std::uint8_t>(byte)));
+    EXPECT_FALSE(driver.settled());
+    exchange({0x63, 0x63}, 0x80, 0x00);
+    exchange({0x95, 0x95}, 0x00, 0x80);
+    exchange({0x13, 0x13}, 0x80, 0x00);
+    exchange({0x8B, 0x8B}, 0x00, 0x80);
+    exchange({0x45, 0x45}, 0x80, 0x00);
+    EXPECT_TRUE(driver.settled());
+}
+
+TEST_F(MotorTest, TheOlderRegisterCodeIsASetting) {
+    JvlMotor older(line, {.register_code = protocol::fastmac::RegisterCode::older_example});
+    Script<JvlMotor> peer{line, older};
+    peer.hear_times(3, 0x00);
+    peer.hear_times(4, 0x80);
+    peer.hear_times(4, 0x00);
+    peer.hear_times(4, 0x80);
+    ASSERT_EQ(older.link(), Link::up);
+    line.take();
+    older.send(command(0x45));  // position mode, P6: 5Dh in the manual's example
+    peer.hear(0x80);
+    EXPECT_EQ(line.take(), (Bytes{0x5D, 0x5D}));
+}
+
+TEST_F(MotorTest, InPositionOfBeforeACommandIsNotUsed) {
+    start();
+    motor.hear_times(4, 0x90);
+    EXPECT_TRUE(driver.in_position());
+    driver.send(command(0x45));
+    EXPECT_FALSE(driver.settled()) << "the scan waits";
+    motor.hear_times(3, 0x90);  // still the old toggle, still in position
+    EXPECT_FALSE(driver.settled());
+    motor.hear(0x00);
+    EXPECT_FALSE(driver.settled());
+    motor.hear(0x00);
+    EXPECT_TRUE(driver.settled());
+    EXPECT_FALSE(driver.in_position());
+}
+
+TEST_F(MotorTest, AMoveThatDoesNotClearInPositionAtOnceReadsZeroForTwoSamplesAndOneByteMore) {
+    start();
+    motor.hear_times(2, 0x90);
+    driver.send(command(0x71));  // 11h: P_SOLL = P_IST + P7 - FLWERR
+    motor.hear_times(4, 0x90);
+    motor.hear(0x10);
+    motor.hear(0x10);
+    ASSERT_TRUE(driver.settled());
+    const auto executed = motor.now;
+    while (!driver.in_position() && motor.now - executed < base::Milliseconds(50)) motor.hear(0x10);
+    EXPECT_TRUE(driver.in_position());
+    EXPECT_GE(motor.now - executed, base::Microseconds(2 * 1920));
+    EXPECT_LT(motor.now - executed, base::Microseconds(2 * 1920) + 3 * Script<JvlMotor>::kCharacter);
+}
+
+// P_SOLL in the register form: 60h|80h = E0h, register 3, low byte first: 230,000 = 38270h as in 002's
+// example.
+TEST_F(MotorTest, ARegisterWriteGoesThroughFlexMacAndBack) {
+    start();
+    driver.send({.is_register_write = true, .reg = 3, .longword = true, .value = 230'000});
+    exchange({0x7F, 0x7F}, 0x80, 0x08);
+    exchange({0xE0, 0xE0, 0xE0, 0x03, 0xFC, 0x70, 0x8F, 0x82, 0x7D, 0x03, 0xFC, 0x00, 0xFF}, 0x08, 0x88);
+    EXPECT_FALSE(driver.settled());
+    exchange({0x7E, 0x7E, 0x7E}, 0x88, 0x00);
+    EXPECT_TRUE(driver.settled());
+}
+
+TEST_F(MotorTest, WritesInARowStayInFlexMac) {
+    start();
+    driver.send(write(5, 0x0547));
+    driver.send(write(6, 100));
+    driver.send(command(0x45));
+    exchange({0x7F, 0x7F}, 0x80, 0x08);
+    exchange({0x60, 0x60, 0x60, 0x05, 0xFA, 0x47, 0xB8, 0x05, 0xFA}, 0x08, 0x88);
+    exchange({0x60, 0x60, 0x60, 0x06, 0xF9, 0x64, 0x9B, 0x00, 0xFF}, 0x88, 0x08);
+    exchange({0x7E, 0x7E, 0x7E}, 0x08, 0x80);
+    exchange({0x45, 0x45}, 0x80, 0x00);
+    EXPECT_TRUE(driver.settled());
+}
+
+TEST_F(MotorTest, StopDropsTheQueueAndWritesModeRegZero) {
+    start();
+    driver.send(command(0x45));
+    driver.send(command(0x46));
+    motor.hear(0x80);
+    EXPECT_EQ(line.take(), (Bytes{0x45, 0x45}));
+    driver.stop();
+    motor.hear_times(2, 0x80);
+    motor.hear_times(2, 0x00);
+    exchange({0xFF, 0xFF}, 0x00, 0x88);
+    exchange({0x60, 0x60, 0x60, 0x02, 0xFD, 0x00, 0xFF, 0x00, 0xFF}, 0x88, 0x08);
+    exchange({0x7E, 0x7E, 0x7E}, 0x08, 0x80);
+    EXPECT_TRUE(driver.settled());
+    EXPECT_EQ(driver.counters().discarded, 1U);
+}
+
+TEST_F(MotorTest, StopOfAMac800IsALongword) {
+    JvlMotor mac800(line, {.registers_are_32_bit = true});
+    Script<JvlMotor> peer{line, mac800};
+    mac800.stop();
+    peer.hear_times(3, 0x00);
+    peer.hear_times(4, 0x80);
+    peer.hear_times(4, 0x00);
+    peer.hear_times(4, 0x80);
+    ASSERT_EQ(mac800.link(), Link::up);
+    line.take();
+    peer.hear_times(4, 0x08);
+    const Bytes sent = line.take();
+    ASSERT_GE(sent.size(), 13U);
+    EXPECT_EQ(Bytes(sent.begin(), sent.begin() + 5), (Bytes{0xE0, 0xE0, 0xE0, 0x02, 0xFD}));
+}
+
+struct LostLink : MotorTest {
+    void lose() {
+        start();
+        motor.hear_times(2, 0x90);
+        for (int i = 0; i < 45; ++i) motor.silence();
+    }
+    void restart() {
+        motor.hear_times(2, 0x90);
+        exchange({0x60, 0x60}, 0x90, 0x10);
+        exchange({0xE0, 0xE0}, 0x10, 0x90);
+        exchange({0x6B, 0x6B}, 0x90, 0x10);
+    }
+};
+
+TEST_F(LostLink, ReadsErrorAndNotInPosition) {
+    lose();
+    EXPECT_EQ(driver.link(), Link::down);
+    EXPECT_TRUE(driver.error());
+    EXPECT_FALSE(driver.in_position());
+    EXPECT_TRUE(driver.settled()) << "the sequence runs on and sees the error";
+}
+
+TEST_F(LostLink, DiscardsEveryOrderAndDeliversNoneLate) {
+    lose();
+    driver.send(command(0x45));
+    driver.send(command(0x61));
+    restart();
+    motor.hear_times(10, 0x10);
+    EXPECT_TRUE(line.sent.empty());
+    EXPECT_EQ(driver.counters().discarded, 2U);
+}
+
+TEST_F(LostLink, OrdersThatWaitedWhenItWasLostAreGone) {
+    start();
+    driver.send(command(0x45));
+    driver.send(command(0x46));
+    for (int i = 0; i < 45; ++i) motor.silence();
+    line.take();
+    line.in_transmitter = 0;
+    restart();
+    motor.hear_times(10, 0x10);
+    EXPECT_TRUE(line.sent.empty());
+    EXPECT_EQ(driver.counters().discarded, 2U);
+}
+
+TEST_F(LostLink, ErrorStaysUntilResetErrorIsExecuted) {
+    lose();
+    restart();
+    EXPECT_EQ(driver.link(), Link::unacknowledged);
+    motor.hear_times(10, 0x10);
+    EXPECT_TRUE(driver.error());
+    EXPECT_FALSE(driver.in_position());
+    driver.send(command(0x61));
+    exchange({0xE1, 0xE1}, 0x10, 0x90);
+    EXPECT_FALSE(driver.error());
+    EXPECT_EQ(driver.link(), Link::up);
+    EXPECT_TRUE(driver.in_position());
+}
+
+TEST_F(LostLink, AStopOrderedMeanwhileIsTheFirstThingDelivered) {
+    lose();
+    driver.stop();
+    restart();
+    exchange({0xFF, 0xFF}, 0x10, 0x98);
+    exchange({0x60, 0x60, 0x60, 0x02, 0xFD, 0x00, 0xFF, 0x00, 0xFF}, 0x98, 0x18);
+}
+
+TEST_F(MotorTest, AnUnconfirmedWriteIsALostLink) {
+    start();
+    driver.send(write(5, 100));
+    exchange({0x7F, 0x7F}, 0x80, 0x08);
+    motor.hear_times(150, 0x08);
+    EXPECT_TRUE(driver.error());
+    EXPECT_EQ(driver.counters().link_losses, 1U);
+}
+
+TEST_F(MotorTest, TheMotorsOwnErrorShows) {
+    start();
+    motor.hear(0x81);
+    EXPECT_FALSE(driver.error()) << "one byte is not believed";
+    motor.hear(0x81);
+    EXPECT_TRUE(driver.error());
+    motor.hear_times(2, 0x80);
+    EXPECT_FALSE(driver.error());
+}
+
+TEST_F(MotorTest, AFramingErrorSeenHereAsksForSlowTransmissionOnce) {
+    start();
+    motor.hear(0x80, true);
+    EXPECT_FALSE(driver.settled());
+    exchange({0x73, 0x73}, 0x80, 0x00);
+    EXPECT_TRUE(driver.settled());
+    motor.hear(0x00, true);
+    motor.hear_times(10, 0x00);
+    EXPECT_TRUE(line.sent.empty());
+}
+
+TEST_F(MotorTest, AStreamThatNeverComesInStepIsAskedToSlowDownBlindly) {
+    for (int i = 0; i < 3; ++i) motor.hear(0x55, true);
+    EXPECT_EQ(line.take(), (Bytes{0x73, 0x73, 0xF3, 0xF3}))
+        << "13h with either toggle, twice for safe communication";
+}
+
+// A table may hold any command: the driver keeps its own idea of the link true.
+TEST_F(MotorTest, UseFlexMacFromATableDoesNotLeaveTheLinkThere) {
+    start();
+    driver.send(command(0x7F));
+    driver.send(command(0x45));
+    exchange({0x7F, 0x7F}, 0x80, 0x08);
+    exchange({0x7E, 0x7E, 0x7E}, 0x08, 0x80);
+    exchange({0x45, 0x45}, 0x80, 0x00);
+}
+
+TEST_F(MotorTest, RapidAndSafeFromATableAreFollowed) {
+    start();
+    driver.send(command(0x6A));
+    exchange({0x6A, 0x6A}, 0x80, 0x00);
+    driver.send(command(0x45));
+    exchange({0xC5}, 0x00, 0x80);
+    driver.send(command(0x6B));
+    exchange({0x6B}, 0x80, 0x00);
+    driver.send(command(0x45));
+    exchange({0xC5, 0xC5}, 0x00, 0x80);
+}
+
+TEST_F(MotorTest, MyAddrInPlaceOfAStatusByteUpsetsNothing) {
+    start();
+    driver.send(command(0x7D));
+    exchange({0x7D, 0x7D}, 0x80, 0x00);
+    motor.hear(0x17);  // MYADDR as in 001 §5.1's example
+    motor.hear_times(4, 0x00);
+    EXPECT_EQ(driver.link(), Link::up);
+    EXPECT_FALSE(driver.error());
+    EXPECT_TRUE(driver.settled());
+}
+
+}  // namespace
+}  // namespace nplc::motor
