@@ -26,7 +26,8 @@ Gateway::Gateway(const Ports& ports, const Settings& settings, StartCause cause)
 }
 
 sequencer::Table::LoadResult Gateway::load(std::span<const std::uint8_t> bytes, base::Instant now) {
-    if (run_state_ != RunState::stopped) return {.ok = false, .table = {}, .fault = {base::Error::not_stopped, 0}};
+    if (run_state_ != RunState::stopped)
+        return {.ok = false, .table = {}, .fault = {base::Error::not_stopped, 0}};
     const auto result = sequencer::Table::load(bytes);
     table_ = result.table;
     engine_.reset();

@@ -201,7 +201,6 @@ ReplyDecoder::Event ReplyDecoder::outside_reply(std::uint8_t byte) {
     if (begins_reply(byte)) {
         bytes_[0] = byte;
         count_ = 1;
-        run_ = 0;
         return {};
     }
     if (has_header_mark(byte)) {

@@ -68,10 +68,10 @@ class JvlLink {
     void transmit(base::Instant now);
     void receive(base::Instant now);
     void on_status(std::uint8_t byte, base::Instant now);
-    bool shows_old(const protocol::fastmac::Status& status) const;
+    bool shows_old(const protocol::fastmac::Status& seen) const;
     bool is_done() const;
     void settle();
-    bool in_step(const protocol::fastmac::Status& status) const;
+    bool in_step(const protocol::fastmac::Status& seen) const;
     Result judge(base::Instant now);
     Result judge_message(base::Instant now);
 

@@ -102,7 +102,9 @@ class CommandReceiver {
     /// The command to execute, without its toggle bit, if this byte completes a new one.
     std::optional<std::uint8_t> receive(std::uint8_t byte);
 
-    /// To be called at a framing error and at a pause between two bytes: the byte before no longer counts.
+    /// To be called at a framing error and at a pause of two characters: the byte before no longer counts. (A
+    /// master that slows down after status bit 2 leaves one character free between the two bytes; that is
+    /// still a pair.)
     void break_pair() { previous_.reset(); }
 
     void set_safe(bool safe) {

@@ -1,0 +1,126 @@
+// Any bytes from the motor's line, at any time, among any orders: the driver stays bounded, delivers nothing
+// while the link is not up, and settles once the line is steady.
+
+#include <cstdlib>
+#include <deque>
+
+#include "motor/jvl_motor.h"
+
+using namespace nplc;
+
+namespace {
+
+void require(bool holds) {
+    if (!holds) std::abort();
+}
+
+bool belongs_to_the_link(std::uint8_t byte) {
+    switch (byte & 0x7F) {
+        case 0x60:
+        case 0x6A:
+        case 0x6B:
+        case 0x73:
+            return true;
+        default:
+            return byte == 0x7E;
+    }
+}
+
+struct Line final : ports::SerialPort {
+    std::size_t write(std::span<const std::uint8_t> bytes) override {
+        for (const std::uint8_t byte : bytes)
+            require(motor::delivers(driver->link()) || belongs_to_the_link(byte));
+        return bytes.size() < room ? bytes.size() : room;
+    }
+    std::size_t read(std::span<ports::ReceivedByte> out) override {
+        std::size_t count = 0;
+        while (count < out.size() && !received.empty()) {
+            out[count++] = received.front();
+            received.pop_front();
+        }
+        return count;
+    }
+    bool transmitter_idle() override { return idle; }
+
+    std::deque<ports::ReceivedByte> received;
+    std::size_t room = 64;
+    bool idle = true;
+    const motor::Motor* driver = nullptr;
+};
+
+class Run {
+  public:
+    Run() {
+        line_.driver = &driver_;
+        for (const int echo : {0x00, 0x80, 0x00, 0x80}) {
+            for (int i = 0; i < 4; ++i) hear(static_cast<std::uint8_t>(echo), false);
+        }
+        require(driver_.link() == motor::Link::up);
+    }
+
+    void act(std::uint8_t what, std::uint8_t value) {
+        switch (what % 8) {
+            case 0:
+            case 1:
+            case 2:
+            case 3:
+                return hear(value, false);
+            case 4:
+                return hear(value, value % 16 == 0);
+            case 5:
+                line_.idle = value % 4 != 0;
+                line_.room = value % 8;
+                return poll(base::Microseconds(value * 100));
+            case 6:
+                if (driver_.has_room()) {
+                    driver_.send({.is_register_write = value % 3 == 0,
+                                  .command = static_cast<std::uint8_t>(value & 0x7F),
+                                  .reg = static_cast<std::uint8_t>(value % 127 + 1),
+                                  .longword = value % 2 != 0,
+                                  .value = value * 0x01010101U});
+                }
+                return poll(base::Microseconds(100));
+            default:
+                if (value % 8 == 0) driver_.stop();
+                return poll(base::Microseconds(100));
+        }
+    }
+
+    /// Nine orders and a stop, each three messages of 250 ms at the most.
+    void settle(std::uint8_t steady) {
+        line_.idle = true;
+        line_.room = 64;
+        for (int i = 0; i < 16'000 && !driver_.settled(); ++i) hear(steady, false);
+        require(driver_.settled());
+    }
+
+  private:
+    void hear(std::uint8_t byte, bool framing_error) {
+        line_.received.push_back({byte, framing_error});
+        poll(base::Microseconds(521));
+    }
+
+    void poll(base::Microseconds step) {
+        now_ += step;
+        driver_.poll(now_);
+        require(driver_.link() == motor::Link::up || driver_.link() == motor::Link::starting || !ever_up_ ||
+                driver_.error());
+        if (driver_.link() == motor::Link::up) ever_up_ = true;
+        require(!driver_.in_position() || driver_.link() == motor::Link::up);
+    }
+
+    Line line_;
+    motor::JvlMotor driver_{line_, {}};
+    base::Instant now_{};
+    bool ever_up_ = false;
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    if (size > 4096) return 0;
+    Run run;
+    for (std::size_t i = 0; i + 1 < size; i += 2) run.act(data[i], data[i + 1]);
+    run.settle(size == 0 ? std::uint8_t{0} : data[size - 1]);
+    return 0;
+}
