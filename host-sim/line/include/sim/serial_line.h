@@ -93,6 +93,9 @@ class VirtualSerialLine {
     /// received.
     bool service(Time now);
 
+    /// The gateway has characters that have not left yet.
+    bool has_waiting() const { return !port_.waiting.empty(); }
+
     /// Both directions.
     void cut();
     void restore();
