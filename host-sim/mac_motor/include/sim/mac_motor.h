@@ -1,0 +1,152 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/time.h"
+#include "registers/mac.h"
+#include "sim/error_bits.h"
+#include "sim/fastmac_slave.h"
+#include "sim/motor_memory.h"
+#include "sim/plant.h"
+#include "sim/profile.h"
+#include "sim/regulator.h"
+
+namespace nplc::sim {
+
+/// MODE_REG (001 §3.2.2). Those not named here are not simulated yet.
+enum class MotorMode : std::uint16_t { init = 0, velocity = 1, position = 2, stop = 11, safe = 15 };
+
+struct MacMotorOptions {
+    std::uint8_t address = 1;  ///< MYADDR
+    std::int32_t baud = 19200;
+    /// The register codes of the example in 001 §5.2.1.5 in place of §5.2.1.4's list.
+    bool old_register_codes = false;
+    std::size_t order_limit = 100'000;
+    Load load{};
+};
+
+/// A virtual MAC motor with its user interface set to FastMAC/FlexMAC. It has no clock: the caller gives it
+/// bytes with their times, fetches bytes when the line is free, and calls `sample` once every
+/// `sample_period`. Deterministic: the same calls give the same motion on every machine.
+class MacMotor final : private LinkTarget {
+  public:
+    explicit MacMotor(registers::Model model, const MacMotorOptions& options = {});
+
+    registers::Model model() const { return memory_.model(); }
+    std::int32_t counts_per_revolution() const;
+    /// Of the outer loop: exactly 15 / 7812.5 Hz on MAC50-141, 1 / 770 Hz (to the nanosecond) on MAC800.
+    std::chrono::nanoseconds sample_period() const;
+
+    /// One outer sample: shaft, encoder, profile, regulator, flags, monitoring (001 §4).
+    void sample();
+
+    /// The user interface, see FastMacSlave. Dead if CNTRL_BITS chose another use of the pins at power-up.
+    void receive(std::uint8_t byte, bool framing_error, base::Instant now);
+    std::optional<std::uint8_t> transmit(base::Instant now);
+    const FastMacSlave& link() const { return link_; }
+
+    /// FastMAC commands and FlexMAC writes in the order in which they were accepted.
+    const std::deque<Order>& orders() const { return link_.orders(); }
+    void clear_orders() { link_.clear_orders(); }
+
+    /// A register by its own width and sign; unknown ones as unsigned words (MAC800: longwords).
+    std::int32_t read(std::uint8_t reg) const;
+    /// As a line writes it, with all effects: MODE_REG asks for a mode, P_REG_P ... Z_REG_P act.
+    void write(std::uint8_t reg, std::int32_t value, bool longword);
+    /// The same by the register's own width.
+    void write(std::uint8_t reg, std::int32_t value);
+
+    std::uint16_t mode() const;  ///< MODE_REG
+    bool is_mode(MotorMode mode) const { return this->mode() == static_cast<std::uint16_t>(mode); }
+    std::int32_t p_ist() const { return memory_.get(cell::P_IST); }
+    std::int32_t v_ist() const { return memory_.get(cell::V_IST); }
+    double rpm() const;
+    bool in_position() const { return (error_status() & err::IN_POS) != 0; }
+    std::uint32_t err_stat() const { return error_status(); }
+
+    /// What the motor was asked for and cannot do yet, as a sentence; empty if nothing. Stays until a mode
+    /// that is simulated is asked for.
+    std::string_view unsupported() const { return unsupported_; }
+
+    /// 001 §4.4.16: only over MacTalk, so not over the user interface. False: refused (not in INIT, not in
+    /// SAFE).
+    bool enter_safe_mode();
+    bool leave_safe_mode();
+
+    /// Keeps the present registers over `power_cycle`, as a write to flash does.
+    void store_registers() { stored_ = memory_; }
+    /// Off and on: stored registers, P_IST and P_FNC 0, toggle 0, STARTMODE. The shaft stays where it is.
+    void power_cycle();
+
+    /// Load and mechanical stops, changeable in motion.
+    Plant& plant() { return plant_; }
+
+  private:
+    // LinkTarget, and what FastMAC commands do: motor_commands.cpp
+    void execute(const protocol::fastmac::Command& command) override;
+    std::uint32_t read_register(std::uint8_t reg, bool longword) const override;
+    void write_register(std::uint8_t reg, std::uint32_t value, bool longword) override;
+    std::uint32_t error_status() const override;
+    void show_framing_error(bool seen) override;
+    bool in_safe_mode() const override { return is_mode(MotorMode::safe); }
+    std::uint8_t my_address() const override;
+    void execute_number(protocol::fastmac::Number number);
+    void select(protocol::fastmac::Group group, int index);
+    void select_position(int index);
+    void select_set(int index);
+    void act_on_pointers();
+    void copy(Cell from, Cell to) { memory_.set(to, memory_.get(from)); }
+    void set_relative(bool p_soll, bool p_fnc);
+    void clear_in_position();
+
+    // Modes and monitoring: motor_modes.cpp
+    void request_mode(std::uint16_t mode);
+    void request_home();
+    void set_mode(std::uint16_t mode) { memory_.set(cell::MODE_REG, mode); }
+    void begin_stop(std::uint16_t then, bool emergency);
+    bool error_forbids_motion() const;
+    bool is_driven() const;
+    bool below_300_rpm() const;
+    void begin_position_mode();
+    void monitor();
+    void fail(std::uint32_t error);
+
+    // One sample: mac_motor.cpp
+    void measure();
+    void resynchronise();
+    void stay_passive();
+    void run_profile();
+    void regulate(std::int32_t fnc_out);
+    void show_profile(std::int32_t fnc_out, std::int32_t torque);
+    void judge_in_position();
+    bool within_window() const;
+    std::int64_t distance_16() const;
+    std::int32_t acceleration() const;
+    std::int32_t v_soll() const;
+    void set_error_bits(std::uint32_t mask, bool on);
+    const FamilyBits& bits() const { return family_bits(model()); }
+
+    MotorMemory memory_;
+    MotorMemory stored_;
+    Plant plant_;
+    Regulator regulator_;
+    FastMacSlave link_;
+
+    bool link_on_ = true;
+    std::int64_t last_counts_ = 0;
+    std::int32_t torque_ = 0;
+    std::int32_t v_old_ = 0;            // V_OLD, 1/16 counts/sample
+    std::int64_t follow_error_16_ = 0;  // FLWERR, 1/16 counts
+    std::int32_t samples_within_ = 0;
+    std::uint16_t mode_after_stop_ = 0;
+    bool emergency_ = false;
+    std::deque<std::int32_t> v_history_;
+    std::string unsupported_;
+};
+
+}  // namespace nplc::sim

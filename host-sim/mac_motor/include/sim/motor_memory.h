@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "registers/mac.h"
+
+namespace nplc::sim {
+
+constexpr bool is_mac800(registers::Model model) {
+    return model == registers::Model::mac800;
+}
+
+/// A register as the motor's program uses it: where it stands on either family, and how it is read.
+struct Cell {
+    enum class Kind : std::uint8_t { word, integer, long_int };
+    std::uint8_t small;  ///< number on MAC50-141 (001 §3.2); 0: that family has none
+    std::uint8_t big;    ///< number on MAC800 (004)
+    Kind kind;           ///< on MAC50-141; every MAC800 register is a signed longword
+
+    /// The n-th of a row of registers, from 0. LongInts take two numbers each.
+    constexpr Cell operator[](int n) const {
+        const auto step = static_cast<std::uint8_t>(n * (kind == Kind::long_int ? 2 : 1));
+        return {static_cast<std::uint8_t>(small + step), static_cast<std::uint8_t>(big + step), kind};
+    }
+};
+
+namespace cell {
+constexpr Cell word(std::uint8_t small, std::uint8_t big) {
+    return {small, big, Cell::Kind::word};
+}
+constexpr Cell integer(std::uint8_t small, std::uint8_t big) {
+    return {small, big, Cell::Kind::integer};
+}
+constexpr Cell long_int(std::uint8_t small, std::uint8_t big) {
+    return {small, big, Cell::Kind::long_int};
+}
+
+inline constexpr Cell PROG_VERSION = word(1, 1), MODE_REG = word(2, 2), P_SOLL = long_int(3, 3),
+                      V_SOLL = integer(5, 5), A_SOLL = word(6, 6), T_SOLL = word(7, 7),
+                      P_FNC = long_int(8, 8), P_IST = long_int(10, 10), V_IST = integer(12, 12),
+                      KVOUT = word(13, 13), GEARF1 = integer(14, 14), GEARF2 = word(15, 15),
+                      I2T = word(16, 16), I2TLIM = word(17, 17), UIT = word(18, 18), UITLIM = word(19, 19),
+                      FLWERR = long_int(20, 20), FLWERRMAX = long_int(22, 22), FNCERR = long_int(24, 24),
+                      FNCERRMAX = long_int(26, 26), MIN_P_IST = long_int(28, 28),
+                      MAX_P_IST = long_int(30, 30), ACC_EMERG = word(32, 32), INPOSWIN = word(33, 33),
+                      INPOSCNT = word(34, 34), ERR_STAT = word(35, 35), CNTRL_BITS = word(36, 36),
+                      STARTMODE = word(37, 37), P_HOME = long_int(38, 38), V_HOME = integer(40, 40),
+                      T_HOME = integer(41, 41), HOME_MODE = word(42, 42), P_REG_P = word(43, 43),
+                      V_REG_P = word(44, 44), A_REG_P = word(45, 45), T_REG_P = word(46, 46),
+                      L_REG_P = word(47, 47), Z_REG_P = word(48, 48), P1 = long_int(49, 49),
+                      V1 = integer(65, 65), A1 = word(73, 73), T1 = word(77, 77), L1 = word(81, 81),
+                      Z1 = word(85, 85), FNC_OUT = integer(117, 166), V_EXT = integer(120, 163),
+                      VF_OUT = integer(121, 169), ANINP = integer(122, 170), MYADDR = word(156, 202),
+                      P_NEW = long_int(163, 4), V_IST_16 = integer(0, 11);
+}  // namespace cell
+
+/// All registers of one motor. MAC50-141: 16-bit words by register number, a LongInt takes its number (low
+/// word) and the next (001 §3.1, §3.2). MAC800: a longword each (004). Registers nobody wrote read 0; nothing
+/// is refused.
+class MotorMemory {
+  public:
+    explicit MotorMemory(registers::Model model) : model_(model) {}
+
+    registers::Model model() const { return model_; }
+
+    /// Value by the cell's kind; a cell that the model lacks reads 0 and is not written.
+    std::int32_t get(Cell cell) const;
+    /// Cut to the cell's width.
+    void set(Cell cell, std::int32_t value);
+
+    /// As the line sees it: 16 bits, or with `longword` 32. MAC50-141: a longword is `reg` and the number
+    /// after it. MAC800: a word is the register's low half.
+    std::uint32_t read(std::uint8_t reg, bool longword) const;
+    void write(std::uint8_t reg, std::uint32_t value, bool longword);
+
+  private:
+    std::uint8_t number_of(Cell cell) const { return is_mac800(model_) ? cell.big : cell.small; }
+
+    registers::Model model_;
+    std::array<std::uint32_t, 257> cells_{};  // one more, so that 255 has a next
+};
+
+/// The values of a motor from its box; ours, see the folder's README.
+void write_defaults(MotorMemory& memory, std::uint8_t address);
+
+}  // namespace nplc::sim

@@ -1,0 +1,197 @@
+#include "sim/mac_motor.h"
+
+namespace nplc::sim {
+
+namespace fastmac = protocol::fastmac;
+
+void MacMotor::execute(const fastmac::Command& command) {
+    if (command.mode == fastmac::Mode::command) {
+        return execute_number(static_cast<fastmac::Number>(command.number));
+    }
+    select(command.group, command.index);
+    request_mode(
+        static_cast<std::uint16_t>(command.mode));  // init, velocity and position have MODE_REG's numbers
+}
+
+// 001 §5.2.1.4. The link's own commands do not come here.
+void MacMotor::execute_number(fastmac::Number number) {
+    const auto set_p_fnc = [&](int n) {
+        const std::int64_t follow_error = memory_.get(cell::FLWERR);
+        memory_.set(cell::P_FNC, wrap32((follow_error - memory_.get(cell::P1[n - 1])) * 16));
+    };
+    const auto set_p_soll = [&](int n) {
+        memory_.set(cell::P_SOLL,
+                    wrap32(std::int64_t{p_ist()} + memory_.get(cell::P1[n - 1]) - memory_.get(cell::FLWERR)));
+    };
+    using enum fastmac::Number;
+    switch (number) {
+        case reset_error:
+            return set_error_bits(bits().resettable, false);
+        case clear_p_soll:
+            memory_.set(cell::P_SOLL, 0);
+            return clear_in_position();
+        case clear_p_ist:
+            return memory_.set(cell::P_IST, 0);
+        case clear_p_fnc:
+            memory_.set(cell::P_FNC, 0);
+            return clear_in_position();
+        case clear_v_soll:
+            return memory_.set(cell::V_SOLL, 0);
+        case clear_t_soll:
+            return memory_.set(cell::T_SOLL, 0);
+        case clear_in_pos:
+            return clear_in_position();
+        case move_p7_by_p_fnc:
+            return set_p_fnc(7);
+        case move_p8_by_p_fnc:
+            return set_p_fnc(8);
+        case use_set_1:
+            return select_set(1);
+        case use_set_2:
+            return select_set(2);
+        case use_set_3:
+            return select_set(3);
+        case use_set_4:
+            return select_set(4);
+        case home:
+            return request_home();
+        case move_p7_by_p_soll:
+            return set_p_soll(7);
+        case move_p8_by_p_soll:
+            return set_p_soll(8);
+        case positions_absolute:
+            return set_relative(false, false);
+        case positions_relative_p_soll:
+            return set_relative(true, false);
+        case positions_relative_p_fnc:
+            return set_relative(false, true);
+        default:
+            return;
+    }
+}
+
+void MacMotor::select(fastmac::Group group, int index) {
+    switch (group) {
+        case fastmac::Group::p:
+            return select_position(index);
+        case fastmac::Group::v:
+            return copy(cell::V1[index - 1], cell::V_SOLL);
+        case fastmac::Group::a:
+            return copy(cell::A1[index - 1], cell::A_SOLL);
+        case fastmac::Group::t:
+            return copy(cell::T1[index - 1], cell::T_SOLL);
+        case fastmac::Group::l:
+            return copy(cell::L1[index - 1], cell::KVOUT);
+        case fastmac::Group::z:
+            return copy(cell::Z1[index - 1], cell::INPOSWIN);
+    }
+}
+
+// 001 §3.2.35 bits 9 and 10. R: P_FNC wins if both are set.
+void MacMotor::select_position(int index) {
+    const auto flags = static_cast<std::uint32_t>(
+        memory_.get(bits().relpos_in_cntrl_bits ? cell::CNTRL_BITS : cell::ERR_STAT));
+    const std::int64_t position = memory_.get(cell::P1[index - 1]);
+    if ((flags & bits().relpos_p_fnc) != 0) {
+        memory_.set(cell::P_FNC, wrap32(memory_.get(cell::P_FNC) - 16 * position));
+    } else if ((flags & bits().relpos_p_soll) != 0) {
+        memory_.set(cell::P_SOLL, wrap32(memory_.get(cell::P_SOLL) + position));
+    } else {
+        memory_.set(cell::P_SOLL, wrap32(position));
+    }
+    clear_in_position();
+}
+
+void MacMotor::select_set(int index) {
+    using enum fastmac::Group;
+    for (const auto group : {p, v, a, t, l, z}) select(group, index);
+}
+
+// 001 §3.2.43 - 48. R: a pointer out of range is left as it is and does nothing.
+void MacMotor::act_on_pointers() {
+    using enum fastmac::Group;
+    struct Pointer {
+        Cell cell;
+        fastmac::Group group;
+        int registers;
+    };
+    for (const auto& [pointer, group, registers] :
+         {Pointer{cell::P_REG_P, p, 8}, Pointer{cell::V_REG_P, v, 8}, Pointer{cell::A_REG_P, a, 4},
+          Pointer{cell::T_REG_P, t, 4}, Pointer{cell::L_REG_P, l, 4}, Pointer{cell::Z_REG_P, z, 4}}) {
+        const std::int32_t index = memory_.get(pointer);
+        if (index < 1 || index > registers) continue;
+        select(group, index);
+        memory_.set(pointer, 0);
+    }
+}
+
+void MacMotor::set_relative(bool p_soll, bool p_fnc) {
+    const Cell where = bits().relpos_in_cntrl_bits ? cell::CNTRL_BITS : cell::ERR_STAT;
+    auto flags = static_cast<std::uint32_t>(memory_.get(where));
+    flags &= ~(bits().relpos_p_soll | bits().relpos_p_fnc);
+    if (p_soll) flags |= bits().relpos_p_soll;
+    if (p_fnc) flags |= bits().relpos_p_fnc;
+    memory_.set(where, static_cast<std::int32_t>(flags));
+}
+
+void MacMotor::clear_in_position() {
+    samples_within_ = 0;
+    set_error_bits(err::IN_POS, false);
+}
+
+void MacMotor::set_error_bits(std::uint32_t mask, bool on) {
+    const std::uint32_t status = error_status();
+    memory_.set(cell::ERR_STAT, static_cast<std::int32_t>(on ? status | mask : status & ~mask));
+}
+
+std::uint32_t MacMotor::error_status() const {
+    return static_cast<std::uint32_t>(memory_.get(cell::ERR_STAT));
+}
+
+void MacMotor::show_framing_error(bool seen) {
+    if (bits().frame_err_tx != 0) set_error_bits(bits().frame_err_tx, seen);
+}
+
+std::uint8_t MacMotor::my_address() const {
+    return static_cast<std::uint8_t>(memory_.get(cell::MYADDR));
+}
+
+std::uint32_t MacMotor::read_register(std::uint8_t reg, bool longword) const {
+    return memory_.read(reg, longword);
+}
+
+void MacMotor::write_register(std::uint8_t reg, std::uint32_t value, bool longword) {
+    const std::uint16_t mode_before = mode();
+    memory_.write(reg, value, longword);
+    const auto touches = [&](Cell cell) {
+        const int words = longword && !is_mac800(model()) ? 2 : 1;
+        const int last = cell.small + (cell.kind == Cell::Kind::long_int && !is_mac800(model()) ? 1 : 0);
+        return reg <= last && reg + words > cell.small;
+    };
+    if (touches(cell::FLWERR)) follow_error_16_ = 16 * std::int64_t{memory_.get(cell::FLWERR)};
+    if (touches(cell::MODE_REG)) {
+        const std::uint16_t wanted = mode();
+        set_mode(mode_before);
+        request_mode(wanted);
+    }
+    act_on_pointers();
+}
+
+std::int32_t MacMotor::read(std::uint8_t reg) const {
+    const registers::Register* entry = registers::find(model(), reg);
+    if (is_mac800(model())) return static_cast<std::int32_t>(memory_.read(reg, true));
+    if (entry != nullptr && registers::is_32_bit(entry->format)) return memory_.get(cell::long_int(reg, reg));
+    const bool has_sign = entry != nullptr && entry->min < 0;
+    return memory_.get(has_sign ? cell::integer(reg, reg) : cell::word(reg, reg));
+}
+
+void MacMotor::write(std::uint8_t reg, std::int32_t value, bool longword) {
+    write_register(reg, static_cast<std::uint32_t>(value), longword);
+}
+
+void MacMotor::write(std::uint8_t reg, std::int32_t value) {
+    const registers::Register* entry = registers::find(model(), reg);
+    write(reg, value, is_mac800(model()) || (entry != nullptr && registers::is_32_bit(entry->format)));
+}
+
+}  // namespace nplc::sim

@@ -1,0 +1,138 @@
+#include "motor_bench.h"
+
+namespace nplc::sim {
+namespace {
+
+using enum registers::Number;
+
+// 001 §4.2.1: a move that asks for more than T_SOLL is corrected, and still ends on its target.
+TEST(Load, FunctionCorrectionKeepsTheTorque) {
+    MotorBench b;
+    b.set(T_SOLL, 60);
+    b.set(A_SOLL, 800);  // 800 / 3500 of full torque: 234
+    b.set(P_SOLL, 20'000);
+    b.set(MODE_REG, 2);
+    for (int i = 0; i < 1500; ++i) {
+        b.samples(1);
+        ASSERT_LE(std::abs(b.reg(VF_OUT)), 60);
+        ASSERT_LE(std::abs(b.reg(FLWERR)), 300);
+        ASSERT_LE(std::abs(b.reg(P_FNC) / 16 - b.reg(FLWERR) - b.motor.p_ist()), 1);
+    }
+    EXPECT_NE(b.reg(FNCERR), 0);
+    EXPECT_EQ(b.motor.p_ist(), 20'000);
+    EXPECT_EQ(b.reg(FLWERR), 0);
+    EXPECT_TRUE(b.motor.in_position());
+}
+
+// 001 §3.2.24's example: held in place, the corrections add up while the position error stays.
+TEST(Load, BlockedMotorAccumulatesFunctionError) {
+    MotorBench b;
+    b.motor.plant().load().high_stop = 1000;
+    b.set(T_SOLL, 100);
+    b.set(P_SOLL, 5000);
+    b.set(MODE_REG, 2);
+    b.samples(1000);
+    EXPECT_EQ(b.motor.p_ist(), 1000);
+    const std::int32_t early = std::abs(b.reg(FNCERR));
+    b.samples(1000);
+    EXPECT_GT(std::abs(b.reg(FNCERR)), early);
+    EXPECT_EQ(b.motor.p_ist(), 1000);
+    EXPECT_FALSE(b.motor.in_position());
+    b.motor.plant().load().high_stop.reset();
+    b.until_in_position();
+    b.settle();
+    EXPECT_EQ(b.motor.p_ist(), 5000);
+}
+
+// In velocity mode nothing is corrected: FLWERR shows what is lost, and the motor does not race to regain it.
+TEST(Load, BlockedInVelocityModeCountsFollowError) {
+    MotorBench b;
+    b.motor.plant().load().high_stop = 1000;
+    b.set(T_SOLL, 100);
+    b.set(V_SOLL, 800);
+    b.set(MODE_REG, 1);
+    b.samples(520);
+    EXPECT_EQ(b.reg(FNCERR), 0);
+    EXPECT_GT(b.reg(FLWERR), 20'000);  // about 500 samples x 50 counts
+    b.motor.plant().load().high_stop.reset();
+    for (int i = 0; i < 500; ++i) {
+        b.samples(1);
+        ASSERT_LE(b.motor.v_ist(), 75);
+    }
+    EXPECT_NEAR(b.motor.v_ist(), 50, 1);
+    // Into position mode: what was lost is taken off P_FNC, the target in P_IST's terms holds.
+    b.set(P_SOLL, 0);
+    b.set(MODE_REG, 2);
+    b.until_in_position();
+    b.settle();
+    EXPECT_EQ(b.motor.p_ist(), 0);
+}
+
+TEST(Load, ConstantPullAndMoreInertia) {
+    for (const std::int32_t kvout_256 : {0x100, 0x200, 0x300}) {
+        MotorBench b;
+        b.motor.plant().load().inertia_256 = 0x200;
+        b.motor.plant().load().torque = -80;
+        b.set(KVOUT, kvout_256);
+        b.set(A_SOLL, 60);
+        b.set(MODE_REG, 2);
+        b.samples(300);
+        b.set(P_SOLL, 12'345);
+        b.samples(1500);
+        EXPECT_EQ(b.motor.p_ist(), 12'345) << kvout_256;
+        EXPECT_TRUE(b.motor.in_position()) << kvout_256;
+        EXPECT_EQ(b.reg(FNCERR), 0) << kvout_256;
+    }
+}
+
+TEST(Load, WithoutTorqueNothingMoves) {
+    MotorBench b;
+    b.set(P_SOLL, 1000);
+    b.command(protocol::fastmac::Number::clear_t_soll);
+    b.set(MODE_REG, 2);
+    b.samples(200);
+    EXPECT_EQ(b.motor.p_ist(), 0);
+    EXPECT_EQ(b.reg(VF_OUT), 0);
+    b.set(T_SOLL, 1023);
+    b.until_in_position();
+    b.settle();
+    EXPECT_EQ(b.motor.p_ist(), 1000);
+}
+
+TEST(Load, KvoutZeroGivesNoTorque) {
+    MotorBench b;
+    b.set(KVOUT, 0);
+    b.set(P_SOLL, 1000);
+    b.set(MODE_REG, 2);
+    b.samples(200);
+    EXPECT_EQ(b.motor.p_ist(), 0);
+}
+
+TEST(Load, WildRegistersStayInBounds) {
+    for (const auto model : {registers::Model::mac140, registers::Model::mac800}) {
+        MotorBench b(model);
+        b.motor.plant().load() = {.inertia_256 = 0, .friction_torque = -5, .torque = 2'000'000'000};
+        b.set(V_SOLL, -2'147'483'647 - 1);
+        b.set(A_SOLL, -2'147'483'647 - 1);
+        b.set(KVOUT, 2'147'483'647);
+        b.set(P_SOLL, 2'147'483'647);
+        b.set(T_SOLL, -1);
+        for (const int mode : {1, 2, 0, 2, 1}) {
+            b.set(MODE_REG, mode);
+            b.samples(500);
+            EXPECT_LE(std::abs(b.motor.v_ist()), 4097);
+        }
+    }
+}
+
+TEST(Load, ShaftTurnedInInitIsCounted) {
+    MotorBench b;
+    b.motor.plant().load().torque = 20;
+    b.samples(500);
+    EXPECT_GT(b.motor.p_ist(), 10);
+    EXPECT_EQ(b.reg(FLWERR), 0);
+    EXPECT_EQ(b.reg(MODE_REG), 0);
+}
+
+}  // namespace
+}  // namespace nplc::sim

@@ -1,0 +1,130 @@
+#include "sim/motor_memory.h"
+
+#include <gtest/gtest.h>
+
+#include "motor_bench.h"
+
+namespace nplc::sim {
+namespace {
+
+using enum registers::Number;
+
+TEST(Memory, SmallMotorsKeepLongwordsInTwoNumbersLowFirst) {
+    MotorMemory m(registers::Model::mac140);
+    m.write(3, 0x00038270, true);  // 230000
+    EXPECT_EQ(m.get(cell::P_SOLL), 230'000);
+    EXPECT_EQ(m.read(3, false), 0x8270U);
+    EXPECT_EQ(m.read(4, false), 0x0003U);
+    m.write(3, 0xFFFF, false);  // low word only
+    EXPECT_EQ(m.get(cell::P_SOLL), 0x0003FFFF);
+    m.set(cell::P_SOLL, -5);
+    EXPECT_EQ(m.get(cell::P_SOLL), -5);
+    m.set(cell::V_SOLL, -1600);
+    EXPECT_EQ(m.get(cell::V_SOLL), -1600);
+    m.set(cell::A_SOLL, 65'000);
+    EXPECT_EQ(m.get(cell::A_SOLL), 65'000);
+    m.write(255, 0x12345678, true);
+    EXPECT_EQ(m.read(255, false), 0x5678U);
+    EXPECT_EQ(m.read(255, true), 0x12345678U);
+}
+
+TEST(Memory, LongwordIntoAWordRegisterReachesTheNext) {
+    MotorBench b;
+    b.motor.write(V_SOLL, 0x00640320, true);
+    EXPECT_EQ(b.reg(V_SOLL), 0x0320);
+    EXPECT_EQ(b.reg(A_SOLL), 0x0064);
+}
+
+TEST(Memory, Mac800KeepsALongwordInEach) {
+    MotorMemory m(registers::Model::mac800);
+    m.set(cell::V_SOLL, -70'000);
+    EXPECT_EQ(m.get(cell::V_SOLL), -70'000);
+    m.set(cell::A_SOLL, 360);
+    EXPECT_EQ(m.get(cell::V_SOLL), -70'000);
+    m.set(cell::FNC_OUT, 5);
+    EXPECT_EQ(m.read(166, true), 5U);
+    EXPECT_EQ(m.read(117, true), 0U);
+}
+
+TEST(Memory, ModeRegReachedByALongwordOnItsNeighbour) {
+    MotorBench b;
+    b.motor.write(PROG_VERSION, 0x0002004E, true);
+    EXPECT_EQ(b.reg(MODE_REG), 2);
+    EXPECT_EQ(b.reg(PROG_VERSION), 78);
+    b.motor.write(PROG_VERSION, 0x00000040, true);
+    EXPECT_EQ(b.reg(MODE_REG), 11);
+}
+
+// 001 §3.2.43 - 48: the pointer copies and returns to 0.
+TEST(Memory, RegisterModePointers) {
+    MotorBench b;
+    b.set(P1 + 4, 12'345);  // P3
+    b.set(V1 + 2, 777);
+    b.set(A1 + 2, 55);
+    b.set(T1 + 2, 321);
+    b.set(L1 + 2, 0x180);
+    b.set(Z1 + 2, 9);
+    for (int pointer = P_REG_P; pointer <= Z_REG_P; ++pointer) {
+        b.set(pointer, 3);
+        EXPECT_EQ(b.reg(pointer), 0) << pointer;
+    }
+    EXPECT_EQ(b.reg(P_SOLL), 12'345);
+    EXPECT_EQ(b.reg(V_SOLL), 777);
+    EXPECT_EQ(b.reg(A_SOLL), 55);
+    EXPECT_EQ(b.reg(T_SOLL), 321);
+    EXPECT_EQ(b.reg(KVOUT), 0x180);
+    EXPECT_EQ(b.reg(INPOSWIN), 9);
+    b.set(A_REG_P, 5);  // only four
+    EXPECT_EQ(b.reg(A_REG_P), 5);
+    EXPECT_EQ(b.reg(A_SOLL), 55);
+}
+
+TEST(Memory, RelativePointersByErrStatOrByCntrlBits) {
+    MotorBench b;
+    b.set(P1, 100);
+    b.set(ERR_STAT, 1 << 9);
+    b.set(P_REG_P, 1);
+    b.set(P_REG_P, 1);
+    EXPECT_EQ(b.reg(P_SOLL), 200);
+    b.set(ERR_STAT, 1 << 9 | 1 << 10);  // P_FNC wins
+    b.set(P_REG_P, 1);
+    EXPECT_EQ(b.reg(P_SOLL), 200);
+    EXPECT_EQ(b.reg(P_FNC), -1600);
+
+    MotorBench c(registers::Model::mac800);
+    c.set(P1, 100);
+    c.command(0x75);
+    EXPECT_EQ(c.reg(CNTRL_BITS) & 0x18, 0x08);
+    EXPECT_EQ(c.reg(ERR_STAT), 0);
+    c.command(0x00);  // INIT, P1
+    c.command(0x00);
+    EXPECT_EQ(c.reg(P_SOLL), 200);
+    c.command(0x76);
+    EXPECT_EQ(c.reg(CNTRL_BITS) & 0x18, 0x10);
+    c.command(0x00);
+    EXPECT_EQ(c.reg(P_FNC), -1600);
+    c.command(0x74);
+    EXPECT_EQ(c.reg(CNTRL_BITS) & 0x18, 0);
+    c.command(0x00);
+    EXPECT_EQ(c.reg(P_SOLL), 100);
+}
+
+TEST(Memory, DefaultsMoveOutOfTheBox) {
+    for (const auto model : {registers::Model::mac50, registers::Model::mac95, registers::Model::mac140,
+                             registers::Model::mac141, registers::Model::mac800}) {
+        MotorBench b(model);
+        for (int set = 0; set < 4; ++set) {
+            b.set(P1 + 2 * set, 5000 * (set + 1));
+            b.command(static_cast<std::uint8_t>(0x6C + set));
+            b.set(MODE_REG, 2);
+            b.until_in_position();
+            b.settle();
+            EXPECT_EQ(b.motor.p_ist(), 5000 * (set + 1));
+            EXPECT_EQ(b.reg(FNCERR), 0);
+        }
+        for (int v = 4; v < 8; ++v) EXPECT_GT(b.reg(V1 + v), b.reg(V1 + v - 1));
+    }
+}
+
+}  // namespace
+}  // namespace nplc::sim
