@@ -91,7 +91,7 @@ class LineParser {
     }
 
     void add(Expectation& expectation) {
-        expectation.text = reader_.source_since(0);
+        expectation.text = reader_.source_since(reader_.was_first("expect") ? 1 : 0);
         scenario_.expectations.push_back(expectation);
     }
 

@@ -13,7 +13,7 @@ constexpr std::array<std::string_view, 13> kSymbols{":=", "<=", ">=", "<>", "+-"
                                                     ">",  "(",  ")",  ",",  "%",  "-"};
 
 bool is_word_start(char c) {
-    return std::isalpha(static_cast<unsigned char>(c)) != 0;
+    return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
 bool is_word(char c) {

@@ -40,6 +40,7 @@ class Reader {
     [[noreturn]] void fail(std::string_view what_to_write) const;
 
     std::size_t mark() const { return position_; }
+    bool was_first(std::string_view word) const { return same_name(tokens_.front().text, word); }
     /// The source from the token at `mark` to the one read last.
     std::string source_since(std::size_t mark) const;
 

@@ -53,13 +53,6 @@ std::string command_in_words(std::uint8_t byte) {
 
 }  // namespace
 
-bool Snapshot::same_state(const Snapshot& other) const {
-    return step == other.step && timer == other.timer && counter == other.counter && inputs == other.inputs &&
-           outputs == other.outputs && in_position == other.in_position && error == other.error &&
-           p_ist == other.p_ist && v_ist == other.v_ist && link_up == other.link_up &&
-           running == other.running && orders.empty();
-}
-
 std::string Names::input(unsigned index) const {
     return inputs[index].empty() ? fmt::format("IN{}", index) : inputs[index];
 }

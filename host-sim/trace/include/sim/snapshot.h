@@ -33,9 +33,6 @@ struct Snapshot {
     bool link_up = false;
     bool running = false;
     std::vector<SentOrder> orders;  ///< given since the snapshot before
-
-    /// Nothing to report, time aside.
-    bool same_state(const Snapshot& other) const;
 };
 
 }  // namespace nplc::sim
