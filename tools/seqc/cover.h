@@ -1,0 +1,29 @@
+#pragma once
+
+#include <bitset>
+#include <cstdint>
+#include <vector>
+
+namespace nplc::seqc {
+
+/// Inputs 0..5 in bits 0..5 and IN_POS in bit 6: what a term may leave open, apart from timer and counter.
+inline constexpr std::size_t kPoints = 128;
+using Points = std::bitset<kPoints>;
+
+/// The points whose bits under `care` equal `value`.
+struct Cube {
+    std::uint8_t value = 0;
+    std::uint8_t care = 0;
+    bool operator==(const Cube&) const = default;
+};
+
+const Points& points_of(Cube cube);
+
+/// Fewest cubes that together hold all of `need` and nothing outside `allowed` (which contains `need`).
+/// They may overlap. Exact up to a bound on the search; beyond it as few as a greedy choice finds.
+std::vector<Cube> minimal_cover(const Points& need, const Points& allowed);
+
+/// Cubes that hold exactly `need`, no point twice: for what must not be sent twice.
+std::vector<Cube> disjoint_cover(const Points& need);
+
+}  // namespace nplc::seqc

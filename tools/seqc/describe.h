@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "seqc/seqc.h"
+#include "sequencer/term.h"
+
+namespace nplc::seqc {
+
+/// A term in the language's words: "Idle: IF Start AND NOT ERROR THEN POSITION(P2); OUT Grip; NEXT :=
+/// Travel". Without symbols steps and signals go by number.
+std::string describe(sequencer::TermView bytes, const Symbols* symbols);
+
+}  // namespace nplc::seqc

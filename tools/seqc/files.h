@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace nplc::seqc {
+
+struct FileText {
+    std::string text;
+    std::string error;  ///< empty when it was read
+};
+
+FileText read_file(const std::string& path);
+
+struct OutputFile {
+    std::string path;
+    std::string content;
+};
+
+/// Writes into temporary files beside the targets and renames them once all are written whole, so that no
+/// half file is ever seen. Answers what went wrong, or nothing.
+std::string write_files(const std::vector<OutputFile>& files);
+
+}  // namespace nplc::seqc

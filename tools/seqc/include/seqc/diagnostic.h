@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nplc::seqc {
+
+enum class Severity : std::uint8_t { error, warning };
+
+/// A stretch of the source text, in bytes.
+struct Span {
+    std::uint32_t offset = 0;
+    std::uint32_t length = 0;
+};
+
+/// A second place that has to do with a diagnostic.
+struct Note {
+    Span span;
+    std::string message;
+};
+
+struct Diagnostic {
+    Severity severity = Severity::error;
+    std::string code;     ///< E0xx or W0xx; the README lists them
+    std::string message;  ///< what is wrong
+    std::string help;     ///< what to write instead; may be empty
+    Span span;
+    std::vector<Note> notes;
+};
+
+struct Position {
+    std::uint32_t line = 1;
+    std::uint32_t column = 1;  ///< in characters (UTF-8), not bytes
+};
+
+Position position_of(std::string_view source, std::uint32_t offset);
+
+/// `file:line:column: error E021: ...`, the source line, a caret, the help and the notes.
+std::string render(const Diagnostic& diagnostic, std::string_view source, std::string_view file_name);
+
+}  // namespace nplc::seqc

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "registers/mac.h"
+#include "seqc/diagnostic.h"
+
+namespace nplc::seqc {
+
+/// What the numbers of a table are called in its source.
+struct Symbols {
+    std::string program;
+    registers::Model motor = registers::Model::mac140;
+    std::array<std::string, 63> steps;   ///< by step number; empty where the table has no such step
+    std::array<std::string, 6> inputs;   ///< as declared, else IN0..IN5
+    std::array<std::string, 4> outputs;  ///< as declared, else OUT0..OUT3
+};
+
+/// Where a term of the table comes from, in table order, the end term included.
+struct TermOrigin {
+    Span span;  ///< length 0 for what the compiler adds by itself
+};
+
+/// A constant that was rounded to what the register can hold.
+struct Rounding {
+    Span span;
+    std::string text;  ///< "V1 := 1500 rpm is 3146 (1500.13 rpm, +0.009 %)"
+};
+
+struct Compilation {
+    std::vector<std::uint8_t> table;      ///< whole terms up to the end term; empty when there are errors
+    std::vector<Diagnostic> diagnostics;  ///< in source order
+    Symbols symbols;
+    std::vector<TermOrigin> origins;
+    std::vector<Rounding> roundings;
+    bool ok = false;  ///< no errors; warnings do not count
+};
+
+/// Compiles the text of one program. Takes any bytes; never throws on bad input.
+Compilation compile(std::string_view source);
+
+/// Every term with its bytes, what it does and its source line, then the rounded constants.
+std::string listing(const Compilation& compilation, std::string_view source, std::string_view file_name);
+
+struct Disassembly {
+    std::string text;                ///< a program of TERM lines; compiling it gives the table's bytes again
+    std::size_t trailing_bytes = 0;  ///< after the end term, left out
+    std::string error;               ///< why there is no text; empty when there is
+};
+
+/// Takes a raw table: terms of 8 bytes up to the first whose STATE is 63.
+Disassembly disassemble(std::span<const std::uint8_t> table, std::string_view program_name);
+
+}  // namespace nplc::seqc

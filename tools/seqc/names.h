@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nplc::seqc {
+
+/// Case counts not in names and keywords.
+bool same_name(std::string_view a, std::string_view b);
+std::string upper(std::string_view text);
+
+/// "did you mean 'Travel'?" when a candidate is near enough to `name`, else nothing.
+std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates);
+
+}  // namespace nplc::seqc

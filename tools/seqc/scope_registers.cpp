@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "names.h"
+#include "scope.h"
+
+namespace nplc::seqc {
+namespace {
+
+using registers::Format;
+using registers::Register;
+
+constexpr std::uint8_t kLastReachable = 127;
+constexpr double kWorthAWarning = 0.01;
+
+/// The number that raw bits stand for in a register.
+double number_of_bits(double bits, Format format) {
+    if (registers::is_32_bit(format)) return static_cast<std::int32_t>(static_cast<std::uint32_t>(bits));
+    if (format == Format::word || bits > 0xFFFF) return bits;
+    return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits));
+}
+
+}  // namespace
+
+void Scope::require_motor(Span span) {
+    if (motor_known_) return;
+    motor_known_ = true;
+    report_.error("E031", span, "which motor is this register's?", "name it at the top: MOTOR MAC140;");
+}
+
+bool Scope::is_reachable(const Register* reg, Span span, std::string_view shown) {
+    if (reg->number <= kLastReachable) return true;
+    report_.error(
+        "E041", span,
+        fmt::format("{} is register {}, and a table reaches 1..{}", shown, reg->number, kLastReachable),
+        "set it with a register tool and save it in the motor");
+    return false;
+}
+
+const Register* Scope::find_register(std::string_view name) const {
+    if (const Variable* variable = find(motor_variables_, name)) return variable->reg;
+    return registers::find(model_, name);
+}
+
+const Register* Scope::reg(const ast::Name& name) {
+    require_motor(name.span);
+    if (const Register* found = find_register(name.text)) {
+        return is_reachable(found, name.span, found->name) ? found : nullptr;
+    }
+    std::vector<std::string_view> names;
+    for (const Variable& variable : motor_variables_) names.push_back(variable.name);
+    for (const Register& r : registers::map_of(model_)) names.push_back(r.name);
+    std::string help = suggestion(name.text, names);
+    report_.error(
+        "E040", name.span, fmt::format("'{}' is no register of {}", name.text, registers::name_of(model_)),
+        help.empty() ? "declare it under VAR_MOTOR, or use the manual's name or REG(number)" : help);
+    return nullptr;
+}
+
+const Register* Scope::reg(const ast::Value& number) {
+    require_motor(number.span);
+    const bool whole =
+        number.unit.text.empty() && !number.is_time && std::floor(number.number) == number.number;
+    if (!whole || number.number < 1 || number.number > kLastReachable) {
+        report_.error("E041", number.span, fmt::format("a table reaches registers 1..{}", kLastReachable));
+        return nullptr;
+    }
+    const auto wanted = static_cast<std::uint8_t>(number.number);
+    if (const Register* found = registers::find(model_, wanted)) return found;
+    const Register* before = registers::find(model_, static_cast<std::uint8_t>(wanted - 1));
+    const bool second_word = before != nullptr && registers::is_32_bit(before->format);
+    report_.error(
+        "E040", number.span, fmt::format("{} has no register {}", registers::name_of(model_), wanted),
+        second_word ? fmt::format("it is the upper half of {}: write REG({})", before->name, before->number)
+                    : "the register map is in the motor's manual");
+    return nullptr;
+}
+
+std::optional<std::uint32_t> Scope::value(const ast::Value& value, const Register& reg) {
+    double number = value.number;
+    std::string_view unit = value.unit.text;
+    if (value.is_time) unit = "ms";
+    auto per_unit = raw_per_unit(reg, model_, length_, unit);
+    if (!per_unit) {
+        report_.error("E043", value.unit.text.empty() ? value.span : value.unit.span,
+                      fmt::format("{} cannot be given in '{}'", reg.name, unit),
+                      fmt::format("use {}", units_for(reg, length_)));
+        return std::nullopt;
+    }
+    if (value.is_raw) {
+        number = number_of_bits(number, reg.format);
+        per_unit = 1;
+    }
+    const double exact = number * *per_unit;
+    const double raw = std::round(exact);
+    if (!(raw >= static_cast<double>(reg.min) && raw <= static_cast<double>(reg.max))) {
+        const std::string_view shown = value.is_raw ? std::string_view() : unit;
+        const double one = value.is_raw ? 1 : *per_unit;
+        report_.error("E042", value.span, fmt::format("{} does not fit {}", text(value.span), reg.name),
+                      fmt::format("it takes {:.6g} .. {:.6g}{}{}", static_cast<double>(reg.min) / one,
+                                  static_cast<double>(reg.max) / one, shown.empty() ? "" : " ", shown));
+        return std::nullopt;
+    }
+    if (reg.dangerous) {
+        report_.warning("W003", value.span,
+                        fmt::format("a wrong value in {} can damage the motor ({})", reg.name, reg.section),
+                        "leave it alone unless its maker told you the value");
+    }
+    note_rounding(value, reg, exact, raw, *per_unit);
+    const auto bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(raw));
+    return registers::is_32_bit(reg.format) ? bits : bits & 0xFFFFU;
+}
+
+void Scope::note_rounding(const ast::Value& value, const Register& reg, double exact, double raw,
+                          double per_unit) {
+    const double error = exact == 0 ? 0 : (raw - exact) / std::fabs(exact);
+    if (std::fabs(error) < 1e-9) return;
+    const std::string_view unit = value.is_time ? std::string_view("ms") : value.unit.text;
+    const std::string what = fmt::format("{} := {} is {} ({:.6g}{}{}, {:+.3f} %)", reg.name, text(value.span),
+                                         static_cast<std::int64_t>(raw), raw / per_unit,
+                                         unit.empty() ? "" : " ", unit, error * 100);
+    result_.roundings.push_back({value.span, what});
+    if (std::fabs(error) > kWorthAWarning) {
+        report_.warning("W002", value.span,
+                        fmt::format("the register is too coarse for this value: {}", what),
+                        fmt::format("one step of {} is {:.4g}{}{}", reg.name, 1 / per_unit,
+                                    unit.empty() ? "" : " ", unit));
+    }
+}
+
+}  // namespace nplc::seqc

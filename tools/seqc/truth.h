@@ -1,0 +1,32 @@
+#pragma once
+
+#include <bitset>
+#include <cstddef>
+#include <string>
+
+namespace nplc::seqc {
+
+/// What a term can test, as bit numbers of a case: the input image of 001 §6.1.9, then the two zeros.
+enum Bit : std::size_t {
+    kInput0 = 0,
+    kInPosBit = 6,
+    kErrorBit = 7,
+    kTimerZero = 8,
+    kCounterZero = 9,
+    kBits = 10
+};
+
+inline constexpr std::size_t kCases = 1U << kBits;
+
+/// A condition as the set of cases in which it holds.
+using Truth = std::bitset<kCases>;
+
+Truth truth_of_bit(std::size_t bit);
+inline Truth always() {
+    return Truth().set();
+}
+
+/// Whether the condition's value ever depends on `bit`.
+bool depends_on(const Truth& truth, std::size_t bit);
+
+}  // namespace nplc::seqc

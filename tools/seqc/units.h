@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "registers/mac.h"
+
+namespace nplc::seqc {
+
+/// How far the machine moves in one revolution, from SCALE.
+struct LengthUnit {
+    std::string_view name;
+    double per_revolution = 1;
+};
+
+/// How many of a register's raw steps one `unit` is; nothing if the unit does not fit the register. An empty
+/// unit is the raw step itself, and for the fixed-point formats the number 1.
+std::optional<double> raw_per_unit(const registers::Register& reg, registers::Model model,
+                                   const std::optional<LengthUnit>& length, std::string_view unit);
+
+/// The units that fit a register, for messages.
+std::string units_for(const registers::Register& reg, const std::optional<LengthUnit>& length);
+
+}  // namespace nplc::seqc
