@@ -58,7 +58,8 @@ void JvlLink::rewind(base::Instant now) {
     on_the_line_ = false;
     old_shown_ = 0;
     const bool is_flexmac = size_ > 2;
-    next_byte_ = is_flexmac ? std::max(now, quiet_until_) : now;
+    // Two characters of pause end a message for the motor.
+    next_byte_ = is_flexmac ? std::max(now, left_at_ + 3 * character_) : now;
     transmit(now);
 }
 
@@ -96,7 +97,7 @@ void JvlLink::transmit(base::Instant now) {
     }
     if (!on_the_line_ && size_ != 0 && sent_ == size_ && port_.transmitter_idle()) {
         on_the_line_ = true;
-        quiet_until_ = now + 3 * character_;  // two characters of pause end a message for the motor
+        left_at_ = now;
     }
 }
 
@@ -175,9 +176,14 @@ JvlLink::Result JvlLink::judge(base::Instant now) {
     return busy() ? judge_message(now) : Result::none;
 }
 
+bool JvlLink::is_proven_lost(base::Instant now) const {
+    if (old_shown_ < settings_.proof_bytes) return false;
+    return repeat_is_harmless() || now - left_at_ >= settings_.proof_time;
+}
+
 JvlLink::Result JvlLink::judge_message(base::Instant now) {
     if (now - started_ > settings_.longest_message) return Result::refused;
-    if (old_shown_ < settings_.proof_bytes) return Result::none;
+    if (!is_proven_lost(now)) return Result::none;
     if (resends_ == settings_.most_resends) return Result::refused;
     ++resends_;
     ++resent_;

@@ -55,7 +55,7 @@ void MacMotor::power_cycle() {
     link_.power_up();
     last_counts_ = plant_.counts();
     v_history_.clear();
-    torque_ = v_old_ = samples_within_ = 0;
+    torque_ = v_old_ = samples_within_ = corrected_braking_ = 0;
     follow_error_16_ = 0;
     emergency_ = false;
     mode_after_stop_ = 0;
@@ -176,7 +176,10 @@ std::int64_t MacMotor::distance_16() const {
 
 void MacMotor::run_profile() {
     if (is_mode(MotorMode::position)) {
-        regulate(position_block(distance_16(), v_old_, std::abs(v_soll()), acceleration()));
+        if (v_old_ == 0 && distance_16() == 0) corrected_braking_ = 0;
+        const std::int32_t braking =
+            corrected_braking_ == 0 ? acceleration() : std::min(corrected_braking_, acceleration());
+        regulate(position_block(distance_16(), v_old_, std::abs(v_soll()), acceleration(), braking));
     } else {
         regulate(velocity_block(is_mode(MotorMode::stop) ? 0 : v_soll(), v_old_, acceleration()));
     }
@@ -191,6 +194,7 @@ void MacMotor::regulate(std::int32_t fnc_out) {
                          .torque_limit = stopping ? kFullTorque : memory_.get(cell::T_SOLL),
                          .kvout_256 = is_mac800(model()) ? kvout >> 8 : kvout});
     if (is_mode(MotorMode::position)) {
+        learn_braking(fnc_out, out.correction);
         fnc_out += out.correction;
         memory_.set(cell::FNCERR, wrap32(std::int64_t{memory_.get(cell::FNCERR)} + out.correction));
     }
@@ -200,6 +204,14 @@ void MacMotor::regulate(std::int32_t fnc_out) {
     show_profile(fnc_out, out.torque);
     v_old_ = fnc_out;
     torque_ = out.torque;
+}
+
+// R: a move whose braking had to be corrected is planned with less of it to its end, or it would swing about
+// its target.
+void MacMotor::learn_braking(std::int32_t wanted, std::int32_t correction) {
+    if (correction == 0 || std::abs(wanted) >= std::abs(v_old_)) return;
+    const std::int32_t before = corrected_braking_ == 0 ? acceleration() : corrected_braking_;
+    corrected_braking_ = std::max(before - before / 16 - 1, 1);
 }
 
 void MacMotor::show_profile(std::int32_t fnc_out, std::int32_t torque) {

@@ -12,7 +12,9 @@ struct Defaults {
 constexpr Defaults kSmall{78, 1600, 400, 160, 40, 0x100};
 constexpr Defaults kBig{0x8000 | 78, 2771, 554, 360, 90, 0x10000};
 
-constexpr std::int32_t kInPosWindow = 20;
+// The smallest that holds in velocity mode too, where V_IST steps by 16 of V_SOLL's units and may be a count
+// off.
+constexpr std::int32_t kInPosWindow = 32;
 constexpr std::int32_t kInPosCount = 3;
 constexpr std::int32_t kUserInterfaceFastMac = 3;
 

@@ -21,12 +21,11 @@ std::int64_t fastest_that_can_stop(std::int64_t distance, std::int64_t accelerat
 }
 
 std::int32_t position_block(std::int64_t distance, std::int32_t v_old, std::int32_t limit,
-                            std::int32_t acceleration) {
+                            std::int32_t acceleration, std::int32_t braking) {
     const bool backwards = distance < 0;
     const std::int64_t towards = backwards ? -std::int64_t{v_old} : v_old;
-    const std::int64_t highest =
-        std::min({towards + acceleration, std::int64_t{limit},
-                  fastest_that_can_stop(backwards ? -distance : distance, acceleration)});
+    const std::int64_t highest = std::min({towards + acceleration, std::int64_t{limit},
+                                           fastest_that_can_stop(backwards ? -distance : distance, braking)});
     const auto velocity = static_cast<std::int32_t>(std::max(highest, towards - acceleration));
     return backwards ? -velocity : velocity;
 }

@@ -101,15 +101,27 @@ TEST_F(LinkTest, BytesHeardBeforeTheLastOneHasLeftProveNothing) {
     EXPECT_TRUE(line.sent.empty());
 }
 
-TEST_F(LinkTest, AFlexMessageIsSentAgainWholeAfterAPause) {
+TEST_F(LinkTest, AFlexMessageIsSentAgainWholeOnceNoLateEchoCanCome) {
     in_step(0x08);
     link.send_flexmac({.target = 3, .value = 0x0547}, motor.now);
     motor.hear_times(8, 0x08);
     line.take();
     const auto finished = motor.now;
-    hear_until_sent(0x08, 20);
-    EXPECT_GE(motor.now - finished, 2 * Script<JvlLink>::kCharacter);
+    hear_until_sent(0x08, 100);
+    EXPECT_GE(motor.now - finished, base::Milliseconds(19));
+    EXPECT_LT(motor.now - finished, base::Milliseconds(22));
     EXPECT_EQ(line.take(), (Bytes{0x63, 0x63, 0x63, 0x47, 0xB8, 0x05, 0xFA}));
+}
+
+TEST_F(LinkTest, ALateEchoOfAFlexMessageIsWaitedFor) {
+    in_step(0x08);
+    link.send_flexmac({.target = 3, .value = 0x0547}, motor.now);
+    motor.hear_times(8, 0x08);
+    line.take();
+    motor.hear_times(20, 0x08);  // 10 ms of status bytes from before
+    motor.hear(0x88);
+    EXPECT_EQ(motor.hear(0x88), Result::accepted);
+    EXPECT_TRUE(line.sent.empty());
 }
 
 TEST_F(LinkTest, FlexMacIsEnteredOnlyWhenBit3Shows) {
@@ -140,7 +152,7 @@ TEST_F(LinkTest, LeavingFlexMacIsRepeatedWhileBit3Stays) {
     link.leave_flexmac(motor.now);
     motor.hear_times(3, 0x08);
     line.take();
-    hear_until_sent(0x88, 20);
+    hear_until_sent(0x88, 100);
     EXPECT_EQ(line.take(), (Bytes{0x7E, 0x7E, 0x7E})) << "7Fh is never tried instead";
 }
 

@@ -58,7 +58,7 @@ class Script {
         for (int i = 0; i < times; ++i) static_cast<void>((hear(byte), 0));
     }
 
-    base::Instant now{};
+    base::Instant now{base::Milliseconds(1000)};
 
   private:
     ScriptedLine& line_;

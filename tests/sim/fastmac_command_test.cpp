@@ -30,11 +30,11 @@ TEST(FastMacCommand, ManualsExampleMovesTheMotor) {
     EXPECT_EQ(b.reg(MODE_REG), 2);
     EXPECT_FALSE(b.motor.in_position());
     b.until_in_position();
-    EXPECT_NEAR(b.motor.p_ist(), 4000, 20);
+    EXPECT_NEAR(b.motor.p_ist(), 4000, 32);
     b.send({0xC6});
     EXPECT_FALSE(b.motor.in_position());
     b.until_in_position();
-    EXPECT_NEAR(b.motor.p_ist(), 12'000, 20);
+    EXPECT_NEAR(b.motor.p_ist(), 12'000, 32);
     b.send({0x4A, 0xC4});
     EXPECT_EQ(b.reg(V_SOLL), 500);
     b.until_in_position();

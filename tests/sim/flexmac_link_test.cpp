@@ -75,14 +75,14 @@ TEST(FlexMacLink, ReadIndices) {
     const int registers[] = {36, 8, 10, 12, 120, 122, 131, 121, 16, 18, 20, 24, 35};
     for (int index = 1; index <= 13; ++index) {
         MotorBench b = in_flexmac();
-        b.set(registers[index - 1], 0x0100 + index);
+        b.set(registers[index - 1], 0x0200 + index);
         const auto header = static_cast<std::uint8_t>(0x70 | index);
-        b.send({header, header, header});
+        for (int i = 0; i < 3; ++i) b.motor.receive(header, false, b.at());  // before the next sample
         std::vector<std::uint8_t> bytes;
         for (int i = 0; i < 7; ++i) bytes.push_back(*b.motor.transmit(b.at()));
         const auto low = static_cast<std::uint8_t>(index);
         EXPECT_EQ(bytes, (std::vector<std::uint8_t>{header, header, header, low,
-                                                    static_cast<std::uint8_t>(~low), 0x01, 0xFE}))
+                                                    static_cast<std::uint8_t>(~low), 0x02, 0xFD}))
             << index;
     }
 }
@@ -93,7 +93,7 @@ TEST(FlexMacLink, ReadIndicesOfMac800) {
         MotorBench b = in_flexmac(registers::Model::mac800);
         b.set(reg, 0x11223344);
         const auto header = static_cast<std::uint8_t>(0xF0 | index);
-        b.send({header, header, header});
+        for (int i = 0; i < 3; ++i) b.motor.receive(header, false, b.at());  // before the next sample
         std::vector<std::uint8_t> bytes;
         for (int i = 0; i < 11; ++i) bytes.push_back(*b.motor.transmit(b.at()));
         EXPECT_EQ(bytes, (std::vector<std::uint8_t>{header, header, header, 0x44, 0xBB, 0x33, 0xCC, 0x22,

@@ -30,13 +30,13 @@ TEST(PositionBlock, FastestThatCanStop) {
 }
 
 TEST(PositionBlock, StandsOnItsTarget) {
-    EXPECT_EQ(position_block(0, 0, 1600, 160), 0);
+    EXPECT_EQ(position_block(0, 0, 1600, 160, 160), 0);
 }
 
 TEST(PositionBlock, BrakesWhenTheTargetIsBehind) {
-    EXPECT_EQ(position_block(-1000, 500, 1600, 160), 340);
-    EXPECT_EQ(position_block(1000, -500, 1600, 160), -340);
-    EXPECT_EQ(position_block(0, 500, 1600, 160), 340);
+    EXPECT_EQ(position_block(-1000, 500, 1600, 160, 160), 340);
+    EXPECT_EQ(position_block(1000, -500, 1600, 160, 160), -340);
+    EXPECT_EQ(position_block(0, 500, 1600, 160, 160), 340);
 }
 
 // From rest: ends exactly on the target, keeps both limits at each sample, passes the target never, stays
@@ -51,7 +51,8 @@ TEST(PositionBlock, RandomMovesEndExactlyWithinTheirLimits) {
         std::int32_t v_old = 0;
         int samples = 0;
         while (position != target || v_old != 0) {
-            const std::int32_t v = position_block(target - position, v_old, limit, acceleration);
+            const std::int32_t v =
+                position_block(target - position, v_old, limit, acceleration, acceleration);
             ASSERT_LE(std::abs(v), limit) << "seed 2, round " << round;
             ASSERT_LE(std::abs(v - v_old), acceleration) << "seed 2, round " << round;
             position += v;
@@ -59,7 +60,7 @@ TEST(PositionBlock, RandomMovesEndExactlyWithinTheirLimits) {
             ASSERT_LE(std::abs(position), std::abs(target)) << "seed 2, round " << round;
             ASSERT_LT(++samples, 2'100'000) << "seed 2, round " << round;
         }
-        EXPECT_EQ(position_block(0, 0, limit, acceleration), 0);
+        EXPECT_EQ(position_block(0, 0, limit, acceleration, acceleration), 0);
     }
 }
 
@@ -70,7 +71,7 @@ TEST(PositionBlock, TakesTheShortestTime) {
     std::int32_t v = 0;
     int samples = 0;
     while (position != 16000) {
-        v = position_block(16000 - position, v, 1600, 160);
+        v = position_block(16000 - position, v, 1600, 160, 160);
         position += v;
         ++samples;
     }
@@ -90,7 +91,8 @@ TEST(PositionBlock, ChangedTargetsAndReversals) {
             if (sample < 1000 && random() % 50 == 0) {
                 target = static_cast<std::int64_t>(random() % 200'000) - 100'000;
             }
-            const std::int32_t v = position_block(target - position, v_old, limit, acceleration);
+            const std::int32_t v =
+                position_block(target - position, v_old, limit, acceleration, acceleration);
             ASSERT_LE(std::abs(v), limit) << "seed 3, round " << round;
             ASSERT_LE(std::abs(v - v_old), acceleration) << "seed 3, round " << round;
             position += v;

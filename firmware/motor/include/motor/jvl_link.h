@@ -23,6 +23,9 @@ class JvlLink {
         /// Status bytes in a row, received after the whole message, that must show the old toggle before it
         /// is sent again. The first of them may have been on its way already, so 2 is the least.
         std::uint8_t proof_bytes = 3;
+        /// A FlexMAC message or a change of protocol, which would act twice, also waits this long for an echo
+        /// that may be late. Raise it with an adapter that holds characters back for longer.
+        base::Microseconds proof_time{20'000};
     };
 
     enum class Result : std::uint8_t {
@@ -74,6 +77,8 @@ class JvlLink {
     bool in_step(const protocol::fastmac::Status& seen) const;
     Result judge(base::Instant now);
     Result judge_message(base::Instant now);
+    bool is_proven_lost(base::Instant now) const;
+    bool repeat_is_harmless() const { return expect_ == Expect::toggle && size_ <= 2; }
 
     ports::SerialPort& port_;
     Settings settings_;
@@ -95,7 +100,7 @@ class JvlLink {
     bool flexmac_ = false;
     bool framing_seen_ = false;
     base::Instant next_byte_{};
-    base::Instant quiet_until_{};
+    base::Instant left_at_{};  ///< when the last byte had left
     base::Instant started_{};
     base::Instant last_status_{};
     std::uint32_t status_count_ = 0;

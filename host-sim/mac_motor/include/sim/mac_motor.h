@@ -121,6 +121,7 @@ class MacMotor final : private LinkTarget {
     void resynchronise();
     void stay_passive();
     void run_profile();
+    void learn_braking(std::int32_t wanted, std::int32_t correction);
     void regulate(std::int32_t fnc_out);
     void show_profile(std::int32_t fnc_out, std::int32_t torque);
     void judge_in_position();
@@ -140,8 +141,9 @@ class MacMotor final : private LinkTarget {
     bool link_on_ = true;
     std::int64_t last_counts_ = 0;
     std::int32_t torque_ = 0;
-    std::int32_t v_old_ = 0;            // V_OLD, 1/16 counts/sample
-    std::int64_t follow_error_16_ = 0;  // FLWERR, 1/16 counts
+    std::int32_t v_old_ = 0;              // V_OLD, 1/16 counts/sample
+    std::int64_t follow_error_16_ = 0;    // FLWERR, 1/16 counts
+    std::int32_t corrected_braking_ = 0;  // what brakes in torque limit, 1/16 counts/sample^2; 0: A_SOLL does
     std::int32_t samples_within_ = 0;
     std::uint16_t mode_after_stop_ = 0;
     bool emergency_ = false;

@@ -19,8 +19,9 @@ std::int32_t velocity_block(std::int32_t wanted, std::int32_t v_old, std::int32_
 /// velocity above the limit or too high for the distance is braked with `acceleration`; the target is then
 /// passed and returned to. R: exact integer arithmetic in place of the manual's V_OLD / A_SOLL, and DV =
 /// FNC_OUT - V_OLD.
+/// `braking`, not above `acceleration`, is what the plan counts on for the end of the move.
 std::int32_t position_block(std::int64_t distance, std::int32_t v_old, std::int32_t limit,
-                            std::int32_t acceleration);
+                            std::int32_t acceleration, std::int32_t braking);
 
 /// The highest velocity from which a motor that moves one sample with it, and slows by `acceleration` a
 /// sample after that, does not pass `distance` >= 0.
