@@ -64,7 +64,8 @@ std::optional<Time> parse_duration(std::string_view text) {
     const auto length = static_cast<std::size_t>(unit - text.begin());
     const auto number = parse_decimal(text.substr(0, length));
     if (!number) return std::nullopt;
-    return to_duration(*number, trim(text.substr(length)));
+    const auto name = std::min(text.find_first_not_of(' ', length), text.size());
+    return to_duration(*number, text.substr(name));
 }
 
 std::optional<double> parse_percent(std::string_view text) {

@@ -26,8 +26,7 @@ std::string mistake(const std::string& line) {
 }
 
 TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
-    const ParsedScenario parsed =
-        parse(R"scn(
+    const ParsedScenario parsed = parse(R"scn(
         # comment
         Start := 0                       // at time 0
         at 100 ms IN0 := 1
@@ -42,24 +41,37 @@ TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
         once P_IST > 4096 IN2 := 1
         when P_IST = -1.5 rev +- 2 counts IN2 := 1
         when step changes log "step"
-        when ordered "POSITION(P2)" after 10 ms IN3
-              : = 1 at 2 s line cut at 3 s line restored at 3 s line drop 1 % damage 0.5 % framing 1 %
-                  delay 2 % up to 10 ms at 3 s line to motor drop 1 %
-                  at 3 s line from motor clean seed 7 at 4 s motor error at 4 s motor power off,
-                after 1 s motor power on at 4 s motor load - 500 at 5 s gateway stop, after 1 s gateway run,
-                after 1 s gateway restart expect at 3 s step = Idle at 3 s expect step = 1 expect P_IST =
-                    49152 + -2 counts expect V_IST =
-                        1500 rpm + -20 rpm at 2 s expect at end Lamp expect OUT1 = 1 within 200 ms after IN0
-                            rises expect Grip 100 ms after Start rises expect eventually COUNTER =
-                                16 #0A by 5 s expect TIMER <=
-                                    500 ms by 5 s expect Grip rises 3 times expect Grip falls at
-                                        least 2 times by 9 s expect ordered
-                                    "RESET_ERROR" at most 1 times never OUT0 and
-                                OUT1 always INPUTS<> 63 from 1 s until 2 s expect never ERROR end when step =
-                                    Idle after 1 s end at 10 s) ");
-        for (const Mistake& found : parsed.mistakes) ADD_FAILURE()
-        << found.line << ": " << found.message;
-    EXPECT_EQ(parsed.scenario.expectations.size(), 14U);
+        when ordered "POSITION(P2)" after 10 ms IN3 := 1
+        at 2 s line cut
+        at 3 s line restored
+        at 3 s line drop 1 % damage 0.5% framing 1 % delay 2 % up to 10 ms
+        at 3 s line to motor drop 1 %
+        at 3 s line from motor clean
+        seed 7
+        at 4 s motor error
+        at 4 s motor power off, after 1 s motor power on
+        at 4 s motor load -500
+        at 5 s gateway stop, after 1 s gateway run, after 1 s gateway restart
+        expect at 3 s step = Idle
+        at 3 s expect step = 1
+        expect P_IST = 49152 +- 2 counts
+        expect V_IST = 1500 rpm +- 20 rpm at 2 s
+        expect at end Lamp
+        expect OUT1 = 1 within 200 ms after IN0 rises
+        expect Grip 100 ms after Start rises
+        expect eventually COUNTER = 16#0A by 5 s
+        expect TIMER <= 500 ms by 5 s
+        expect Grip rises 3 times
+        expect Grip falls at least 2 times by 9 s
+        expect ordered "RESET_ERROR" at most 1 times
+        never OUT0 and OUT1
+        always INPUTS <> 63 from 1 s until 2 s
+        expect never ERROR
+        end when step = Idle after 1 s
+        end at 10 s
+    )scn");
+    for (const Mistake& found : parsed.mistakes) ADD_FAILURE() << found.line << ": " << found.message;
+    EXPECT_EQ(parsed.scenario.expectations.size(), 15U);
     EXPECT_EQ(parsed.scenario.when.size(), 7U);
     EXPECT_EQ(parsed.scenario.every.size(), 2U);
     EXPECT_EQ(parsed.scenario.end, Time(10s));
@@ -160,7 +172,7 @@ TEST(ScenarioParser, AnyBytesAreSurvived) {
     std::uint32_t random = 12345;
     constexpr std::string_view kPieces[] = {"at ", "1 s ",  "when ",   "IN0 ", ":= ",   "1 ",    "\"",
                                             "(",   "16#F ", "expect ", "and ", "+- ",   "line ", "%",
-                                            "\n",  "\x01",   "P_IST ",  "=",    "drop ", "after "};
+                                            "\n",  "\x01",  "P_IST ",  "=",    "drop ", "after "};
     for (int round = 0; round < 2000; ++round) {
         std::string text;
         for (int i = 0; i < 12; ++i) {

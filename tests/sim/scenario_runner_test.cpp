@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nplc::sim {
@@ -19,8 +20,9 @@ class Bench final : public Stage {
             ADD_FAILURE() << mistake.line << ": " << mistake.message;
     }
 
-    /// Goes on to `time`, stopping at what the scenario planned.
+    /// Goes on to `time`, from 0 at first, stopping at what the scenario planned.
     void run_to(Time time) {
+        if (!std::exchange(begun_, true)) run_to(Time(0));
         while (true) {
             const auto due = runner_.next_due();
             const Time next = due && *due < time ? *due : time;
@@ -60,6 +62,7 @@ class Bench final : public Stage {
   private:
     void did(const std::string& what) { done.push_back(std::to_string(s.time / 1ms) + ": " + what); }
 
+    bool begun_ = false;
     Names names_;
     ParsedScenario parsed_;
     ScenarioRunner runner_;
