@@ -1,0 +1,191 @@
+#include "sim/world.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace nplc::sim {
+namespace {
+
+motor::JvlMotor::Settings driver_settings(const WorldOptions& options, Time sample_period) {
+    using protocol::fastmac::RegisterCode;
+    motor::JvlMotor::Settings settings;
+    settings.link.baud = options.baud;
+    settings.safe_communication = options.safe_communication;
+    settings.register_code =
+        options.old_register_codes ? RegisterCode::older_example : RegisterCode::format_list;
+    settings.registers_are_32_bit = options.motor == registers::Model::mac800;
+    settings.sample_period = std::chrono::ceil<base::Microseconds>(sample_period);
+    return settings;
+}
+
+MacMotorOptions motor_options(const WorldOptions& options) {
+    MacMotorOptions result;
+    result.baud = static_cast<std::int32_t>(options.baud);
+    result.old_register_codes = options.old_register_codes;
+    return result;
+}
+
+void spoil(LineDirection& direction, const action::SpoilLine& what) {
+    LineFaults faults = direction.faults();
+    faults.drop = what.drop.value_or(faults.drop);
+    faults.damage = what.damage.value_or(faults.damage);
+    faults.framing = what.framing.value_or(faults.framing);
+    faults.delay = what.delay.value_or(faults.delay);
+    faults.longest_delay = what.longest_delay.value_or(faults.longest_delay);
+    direction.set_faults(faults);
+}
+
+}  // namespace
+
+World::World(std::vector<std::uint8_t> table, const WorldOptions& options)
+    : table_(std::move(table)),
+      options_(options),
+      line_(options.baud, options.seed),
+      mac_(options.motor, motor_options(options)),
+      next_sample_(mac_.sample_period()) {
+    line_.to_motor().set_faults(options.faults);
+    line_.from_motor().set_faults(options.faults);
+    start_gateway(gateway::StartCause::power_up);
+}
+
+void World::start_gateway(gateway::StartCause cause) {
+    gateway_.reset();
+    driver_.emplace(line_.port(), driver_settings(options_, mac_.sample_period()));
+    const gateway::Gateway::Ports ports{board_, board_, board_, *driver_};
+    gateway_.emplace(ports, options_.gateway, cause);
+    gateway_->observe(this);
+    static_cast<void>(gateway_->load(table_, instant()));
+}
+
+base::Instant World::instant() const {
+    return base::Instant{std::chrono::duration_cast<base::Microseconds>(now_)};
+}
+
+Time World::next_event() const {
+    Time next = std::min(next_poll_, next_sample_);
+    const auto consider = [&](std::optional<Time> time) {
+        if (time) next = std::min(next, *time);
+    };
+    consider(line_.to_motor().next_arrival());
+    consider(line_.from_motor().next_arrival());
+    if (line_.has_waiting()) next = std::min(next, line_.to_motor().busy_until());
+    if (motor_powered_) next = std::min(next, motor_asks_);
+    return std::max(next, now_);
+}
+
+void World::step(Time limit) {
+    const Time event = next_event();
+    now_ = std::max(now_, std::min(event, limit));
+    if (event > limit) return;
+    if (now_ >= next_sample_) sample_motor();
+    move_characters();
+    if (now_ >= next_poll_) poll_gateway();
+}
+
+void World::move_characters() {
+    while (const auto byte = line_.to_motor().take(now_)) {
+        if (motor_powered_) mac_.receive(byte->value, byte->framing_error, instant());
+    }
+    if (line_.service(now_)) next_poll_ = now_;
+    if (!motor_powered_ || now_ < motor_asks_ || !line_.from_motor().free(now_)) return;
+    if (const auto byte = mac_.transmit(instant())) {
+        line_.from_motor().start(*byte, now_);
+        motor_asks_ = line_.from_motor().busy_until();
+    } else {
+        motor_asks_ = now_ + kPollPeriod;
+    }
+}
+
+void World::sample_motor() {
+    next_sample_ += mac_.sample_period();
+    if (!motor_powered_) return;
+    if (std::exchange(motor_fails_, false)) return fail_in_this_sample();
+    mac_.sample();
+}
+
+/// For one sample the drive finds itself overloaded: I2T above its limit.
+void World::fail_in_this_sample() {
+    const std::int32_t i2t = mac_.read(registers::I2T);
+    const std::int32_t limit = mac_.read(registers::I2TLIM);
+    mac_.write(registers::I2TLIM, 1);
+    mac_.write(registers::I2T, 2);
+    mac_.sample();
+    mac_.write(registers::I2T, i2t);
+    mac_.write(registers::I2TLIM, limit);
+}
+
+void World::poll_gateway() {
+    gateway_->poll(instant());
+    line_.service(now_);
+    next_poll_ = now_ + kPollPeriod;
+    if (board_.watchdog_bites(instant())) start_gateway(gateway::StartCause::watchdog);
+}
+
+Snapshot World::take_snapshot() {
+    const sequencer::State& state = gateway_->state();
+    return {.time = now_,
+            .step = state.step,
+            .timer = state.timer,
+            .counter = state.counter,
+            .inputs = board_.inputs(),
+            .outputs = board_.outputs(),
+            .in_position = driver_->in_position(),
+            .error = driver_->error(),
+            .p_ist = mac_.p_ist(),
+            .v_ist = mac_.v_ist(),
+            .link_up = motor::delivers(driver_->link()),
+            .running = gateway_->run_state() == gateway::RunState::running,
+            .orders = std::exchange(orders_, {})};
+}
+
+void World::ordered(base::Instant /*now*/, const sequencer::MotorOrder& order) {
+    orders_.push_back({order.is_flex, order.command, order.reg, order.value});
+}
+
+void World::scanned(base::Instant /*now*/, const sequencer::State& /*before*/,
+                    sequencer::InputImage /*image*/, const sequencer::State& /*after*/) {}
+
+void World::toggle_input(unsigned index) {
+    set_input(index, (board_.inputs() >> index & 1) == 0);
+}
+
+void World::cut_line(bool cut) {
+    if (cut) {
+        line_.cut();
+    } else {
+        line_.restore();
+    }
+}
+
+void World::spoil_line(const action::SpoilLine& faults) {
+    if (faults.to_motor) spoil(line_.to_motor(), faults);
+    if (faults.from_motor) spoil(line_.from_motor(), faults);
+}
+
+void World::power_motor(bool on) {
+    if (on && !motor_powered_) {
+        mac_.power_cycle();
+        motor_asks_ = now_;
+    }
+    motor_powered_ = on;
+}
+
+void World::gateway(action::Gateway what) {
+    switch (what) {
+        case action::Gateway::stop:
+            gateway_->stop(instant());
+            return;
+        case action::Gateway::run:
+            static_cast<void>(gateway_->run());
+            return;
+        case action::Gateway::restart:
+            start_gateway(gateway::StartCause::power_up);
+            return;
+    }
+}
+
+void World::log(const std::string& text) {
+    if (on_log_) on_log_(text);
+}
+
+}  // namespace nplc::sim

@@ -1,0 +1,141 @@
+#include "sim/serial_line.h"
+
+#include <algorithm>
+
+namespace nplc::sim {
+namespace {
+
+constexpr std::uint64_t kBitsPerCharacter = 10;
+constexpr std::uint64_t kSecond = 1'000'000'000;
+
+}  // namespace
+
+LineDirection::LineDirection(std::uint32_t baud, std::uint64_t seed) : baud_(baud), random_(seed) {}
+
+double LineDirection::draw() {
+    return static_cast<double>(random_() >> 11) * 0x1p-53;
+}
+
+std::uint8_t LineDirection::damage_mask() {
+    const std::uint64_t bits = random_();
+    if ((bits & 3U) != 0) return static_cast<std::uint8_t>(1U << ((bits >> 8) & 7U));
+    return static_cast<std::uint8_t>(1 + (bits >> 16) % 255);
+}
+
+void LineDirection::clock_out(Time now) {
+    if (now > busy_until_) {
+        busy_until_ = now;
+        remainder_ = 0;
+    }
+    const std::uint64_t total = kBitsPerCharacter * kSecond + remainder_;
+    busy_until_ += Time{static_cast<std::int64_t>(total / baud_)};
+    remainder_ = total % baud_;
+}
+
+void LineDirection::start(std::uint8_t byte, Time now) {
+    clock_out(now);
+    ++counters_.sent;
+    // Always the same number of draws, so that one fault's share does not move another's victims.
+    const double drop = draw();
+    const double damage = draw();
+    const double framing = draw();
+    const double delay = draw();
+    const double wait = draw();
+    const std::uint8_t mask = damage_mask();
+    if (cut_) {
+        ++counters_.cut;
+        return;
+    }
+    if (drop < faults_.drop) {
+        ++counters_.dropped;
+        return;
+    }
+    ports::ReceivedByte received{byte, false};
+    if (framing < faults_.framing) {
+        ++counters_.framing;
+        received = {static_cast<std::uint8_t>(byte ^ mask), true};
+    } else if (damage < faults_.damage) {
+        ++counters_.damaged;
+        received.value = static_cast<std::uint8_t>(byte ^ mask);
+    }
+    Time arrival = busy_until_;
+    if (delay < faults_.delay) {
+        ++counters_.delayed;
+        arrival += Time{static_cast<std::int64_t>(wait * static_cast<double>(faults_.longest_delay.count()))};
+    }
+    last_arrival_ = std::max(last_arrival_, arrival);
+    flying_.push_back({received, last_arrival_});
+}
+
+std::optional<Time> LineDirection::next_arrival() const {
+    if (flying_.empty()) return std::nullopt;
+    return flying_.front().arrival;
+}
+
+std::optional<ports::ReceivedByte> LineDirection::take(Time now) {
+    if (flying_.empty() || flying_.front().arrival > now) return std::nullopt;
+    const ports::ReceivedByte byte = flying_.front().byte;
+    flying_.pop_front();
+    ++counters_.delivered;
+    return byte;
+}
+
+void LineDirection::cut() {
+    cut_ = true;
+    counters_.cut += flying_.size();
+    flying_.clear();
+}
+
+std::size_t VirtualSerialLine::Port::write(std::span<const std::uint8_t> bytes) {
+    const std::size_t count = std::min(bytes.size(), kTransmitRoom - waiting.size());
+    waiting.insert(waiting.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(count));
+    return count;
+}
+
+std::size_t VirtualSerialLine::Port::read(std::span<ports::ReceivedByte> out) {
+    const std::size_t count = std::min(out.size(), received.size());
+    const auto end = received.begin() + static_cast<std::ptrdiff_t>(count);
+    std::copy(received.begin(), end, out.begin());
+    received.erase(received.begin(), end);
+    return count;
+}
+
+VirtualSerialLine::VirtualSerialLine(std::uint32_t baud, std::uint64_t seed)
+    : to_motor_(baud, 0), from_motor_(baud, 0) {
+    reseed(seed);
+}
+
+bool VirtualSerialLine::service(Time now) {
+    bool any = false;
+    while (const auto byte = from_motor_.take(now)) {
+        any = true;
+        if (port_.received.size() == Port::kReceiveRoom) {
+            ++port_.overruns;
+        } else {
+            port_.received.push_back(*byte);
+        }
+    }
+    if (!port_.waiting.empty() && to_motor_.free(now)) {
+        to_motor_.start(port_.waiting.front(), now);
+        port_.waiting.pop_front();
+    }
+    port_.wire_free = to_motor_.free(now);
+    return any;
+}
+
+void VirtualSerialLine::cut() {
+    to_motor_.cut();
+    from_motor_.cut();
+}
+
+void VirtualSerialLine::restore() {
+    to_motor_.restore();
+    from_motor_.restore();
+}
+
+void VirtualSerialLine::reseed(std::uint64_t seed) {
+    to_motor_.reseed(2 * seed);
+    from_motor_.reseed(2 * seed + 1);
+}
+
+}  // namespace nplc::sim

@@ -1,0 +1,158 @@
+#include "command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <limits>
+
+#include "input_file.h"
+
+namespace nplc::sim {
+namespace {
+
+constexpr const char* kExitCodes =
+    "Exit code: 0 all is well, 1 an expectation of the scenario failed, 2 a mistake in the command line or "
+    "in a file.";
+constexpr const char* kUnits = "Times are written 500ms, 5s, 2min; shares 1%, 0.5%.";
+
+/// An option whose text is read by `read`, which answers false if it is not as wanted.
+void add_read(CLI::App& app, const std::string& name, const std::string& type, const std::string& help,
+              const std::string& wanted, std::function<bool(const std::string&)> read) {
+    app.add_option_function<std::string>(
+           name,
+           [name, wanted, read = std::move(read)](const std::string& text) {
+               if (read(text)) return;
+               throw InputError(fmt::format("{} \"{}\": write {}", name, text, wanted));
+           },
+           help)
+        ->type_name(type);
+}
+
+template <class Target>
+std::function<bool(const std::string&)> into(Target& target, auto parse) {
+    return [&target, parse](const std::string& text) {
+        const auto value = parse(text);
+        if (value) target = *value;
+        return value.has_value();
+    };
+}
+
+template <class Number>
+std::optional<Number> whole(const std::string& text, std::int64_t min, std::int64_t max) {
+    const auto value = parse_integer(text);
+    if (!value || *value < min || *value > max) return std::nullopt;
+    return static_cast<Number>(*value);
+}
+
+/// `1%` or `1%:5ms`
+bool parse_delay(const std::string& text, LineFaults& faults) {
+    const auto colon = text.find(':');
+    const auto share = parse_percent(text.substr(0, colon));
+    if (!share) return false;
+    faults.delay = *share;
+    if (colon == std::string::npos) return true;
+    const auto longest = parse_duration(text.substr(colon + 1));
+    if (longest) faults.longest_delay = *longest;
+    return longest.has_value();
+}
+
+void add_line_options(CLI::App& app, RunOptions& options) {
+    const std::string share = "a share, such as 1%";
+    add_read(app, "--baud", "RATE", "rate of the line to the motor (19200)", "a whole number 300 to 1000000",
+             into(options.baud,
+                  [](const std::string& text) { return whole<std::uint32_t>(text, 300, 1'000'000); }));
+    add_read(app, "--seed", "N", "seed of the line's faults (1)", "a whole number 0 to 4294967295",
+             into(options.seed,
+                  [](const std::string& text) { return whole<std::uint64_t>(text, 0, UINT32_MAX); }));
+    add_read(app, "--drop", "SHARE", "characters that are lost, both directions", share,
+             into(options.faults.drop, parse_percent));
+    add_read(app, "--damage", "SHARE", "characters that arrive changed", share,
+             into(options.faults.damage, parse_percent));
+    add_read(app, "--framing", "SHARE", "characters that arrive with a framing error", share,
+             into(options.faults.framing, parse_percent));
+    add_read(app, "--delay", "SHARE[:TIME]", "characters that arrive late, by up to TIME (5ms)",
+             "a share and perhaps a time, such as 1% or 1%:5ms",
+             [&options](const std::string& text) { return parse_delay(text, options.faults); });
+}
+
+void add_run(CLI::App& parent, RunOptions& options) {
+    CLI::App& app = *parent.add_subcommand(
+        "run", "Run a sequence on the simulated gateway with a virtual motor; prints a timeline");
+    app.add_option("program", options.program, "F.seq (compiled on the way) or F.bin (a raw table)")
+        ->required();
+    app.add_option("--scenario", options.scenario,
+                   "inputs, line faults and expectations, see host-sim/scenario")
+        ->type_name("S.scn");
+    add_read(app, "--for", "TIME", "end after this time (10s without a scenario; no end with --realtime)",
+             "a time, such as 500ms, 5s or 2min", into(options.length, [](const std::string& text) {
+                 const auto time = parse_duration(text);
+                 return time && *time > Time{0} ? time : std::nullopt;
+             }));
+    app.add_option("--trace", options.csv, "write a trace as CSV")->type_name("T.csv");
+    app.add_option("--vcd", options.vcd, "write a trace as VCD, for GTKWave")->type_name("T.vcd");
+    add_read(app, "--motor", "MODEL", "the motor (the program's own; MAC140 for a raw table)",
+             "MAC50, MAC95, MAC140, MAC141 or MAC800",
+             into(options.motor, [](const std::string& text) { return registers::model_of(text); }));
+    app.add_flag("--realtime", options.realtime, "wall-clock time; keys 0-5 toggle inputs, q ends");
+    app.add_flag("--quiet", options.quiet, "only the summary");
+    app.add_flag("--rapid", options.rapid, "rapid communication with the motor in place of safe");
+    app.add_flag("--old-codes", options.old_register_codes, "the older register codes, driver and motor");
+    app.add_flag("--keep-motor", options.keep_motor, "do not stop the motor before the first scan");
+    add_read(app, "--debounce", "TIME", "of the inputs (3ms)", "a time up to 1s, such as 3ms",
+             into(options.debounce, [](const std::string& text) {
+                 const auto time = parse_duration(text);
+                 return time && *time <= std::chrono::seconds{1} ? time : std::nullopt;
+             }));
+    add_line_options(app, options);
+    app.footer(fmt::format("{}\n{}", kUnits, kExitCodes));
+}
+
+void add_scan(CLI::App& parent, ScanOptions& options) {
+    CLI::App& app =
+        *parent.add_subcommand("scan", "Run the sequence engine alone, one scan a row; prints CSV");
+    app.add_option("table", options.table, "F.bin: terms of 8 bytes, ended by one whose STATE is 3Fh")
+        ->required();
+    app.add_option("--stimulus", options.stimulus,
+                   "CSV with the header dt_ms,inputs,inpos,error; - is standard input")
+        ->type_name("S.csv")
+        ->required();
+    app.footer(fmt::format(
+        "Prints scan,step,timer,counter,outputs,fastmac,flexmac: scans count from 1, all values as "
+        "they stand after\nthe scan and after dt_ms was taken off the timer.\n{}",
+        kExitCodes));
+}
+
+std::string one_line(std::string text) {
+    for (char& c : text) {
+        if (c == '\n' || c == '\r') c = ' ';
+    }
+    return text;
+}
+
+}  // namespace
+
+CommandLine parse_command_line(int argc, const char* const* argv) {
+    CLI::App app("The NanoPLC gateway's firmware on a simulated board, and its sequence engine alone",
+                 "nanoplc-sim");
+    app.require_subcommand(1);
+    app.set_version_flag("--version", std::string("nanoplc-sim ") + NPLC_VERSION);
+    app.footer(kExitCodes);
+    RunOptions run;
+    ScanOptions scan;
+    add_run(app, run);
+    add_scan(app, scan);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) {
+            app.exit(error);
+            return NothingToDo{};
+        }
+        throw InputError(fmt::format("nanoplc-sim: {}; see nanoplc-sim --help", one_line(error.what())));
+    }
+    if (app.got_subcommand("scan")) return scan;
+    return run;
+}
+
+}  // namespace nplc::sim

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "run_options.h"
+
+namespace nplc::sim {
+
+struct ScanOptions {
+    std::string table;
+    std::string stimulus;
+};
+
+/// Help or version has been asked for and printed.
+struct NothingToDo {};
+
+using CommandLine = std::variant<RunOptions, ScanOptions, NothingToDo>;
+
+/// Throws InputError.
+CommandLine parse_command_line(int argc, const char* const* argv);
+
+}  // namespace nplc::sim

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace nplc::sim {
+
+/// Something the user gave cannot be used. The message is one line: where, what, and what to do. Exit code 2.
+struct InputError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// The whole file; `-` is standard input where `dash_is_stdin`. `what` names its purpose in messages.
+std::string read_input(const std::string& path, const std::string& what, bool dash_is_stdin = false);
+
+/// A raw sequence table, checked: Table::load takes these bytes.
+std::vector<std::uint8_t> read_table(const std::string& path);
+/// Throws with the file, the term and the reason unless Table::load takes `bytes`.
+void check_table(const std::vector<std::uint8_t>& bytes, const std::string& path);
+
+}  // namespace nplc::sim

@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include "command_line.h"
+#include "input_file.h"
+#include "run_command.h"
+#include "scan_command.h"
+
+namespace {
+
+constexpr int kBadInput = 2;
+
+volatile std::sig_atomic_t g_interrupted = 0;
+
+void on_signal(int signal) {
+    g_interrupted = signal;
+}
+
+int run_command_line(int argc, const char* const* argv) {
+    using namespace nplc::sim;
+    const CommandLine command = parse_command_line(argc, argv);
+    if (const auto* scan = std::get_if<ScanOptions>(&command)) {
+        run_scan(scan->table, scan->stimulus);
+        return 0;
+    }
+    const auto* options = std::get_if<RunOptions>(&command);
+    if (options == nullptr) return 0;
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_signal);
+    return run(*options, g_interrupted);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    int code = kBadInput;
+    try {
+        code = run_command_line(argc, argv);
+    } catch (const std::exception& error) {
+        std::fflush(stdout);
+        fmt::print(stderr, "{}\n", error.what());
+        return kBadInput;
+    }
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+        fmt::print(stderr, "standard output: cannot be written; the output is not complete\n");
+        return kBadInput;
+    }
+    return code;
+}

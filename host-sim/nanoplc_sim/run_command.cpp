@@ -1,0 +1,123 @@
+#include "run_command.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+#include <utility>
+
+#include "hal_linux/terminal.h"
+#include "input_file.h"
+#include "session.h"
+
+namespace nplc::sim {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr Time kSlice = std::chrono::milliseconds{50};
+constexpr auto kRefresh = std::chrono::milliseconds{100};
+constexpr std::chrono::milliseconds kKeyWait{5};
+
+Scenario load_scenario(const RunOptions& options, const Names& names) {
+    if (!options.scenario) return {};
+    const std::string& file = *options.scenario;
+    ParsedScenario parsed = parse_scenario(read_input(file, "a scenario"), file, names);
+    if (!parsed.mistakes.empty()) {
+        const std::size_t more = parsed.mistakes.size() - 1;
+        throw InputError(
+            fmt::format("{}:{}: {}{}", file, parsed.mistakes.front().line, parsed.mistakes.front().message,
+                        more == 0 ? "" : fmt::format(" (and {} more mistakes in this file)", more)));
+    }
+    if (!parsed.scenario.can_end() && !options.length && !options.realtime) {
+        throw InputError(
+            fmt::format("{}: the scenario has no end; write such as `end at 10 s`, or use --for 10s", file));
+    }
+    return std::move(parsed.scenario);
+}
+
+bool wants_colour() {
+    return hal_linux::stdout_is_terminal() && std::getenv("NO_COLOR") == nullptr;
+}
+
+/// A line on standard error that is written over and over; only where nobody else writes to the terminal.
+class Progress {
+  public:
+    explicit Progress(bool on) : on_(on) {}
+    ~Progress() {
+        if (shown_) fmt::print(stderr, "\r\033[K");
+    }
+    void show(const Session& session) {
+        if (!on_ || Clock::now() < next_) return;
+        next_ = Clock::now() + kRefresh;
+        shown_ = true;
+        const std::string of = session.length() ? " of " + in_words(*session.length()) : "";
+        fmt::print(stderr, "\r\033[K{:.1f} s{} of virtual time",
+                   static_cast<double>(session.now().count()) / 1e9, of);
+        std::fflush(stderr);
+    }
+
+  private:
+    bool on_;
+    bool shown_ = false;
+    Clock::time_point next_ = Clock::now() + kRefresh;
+};
+
+void run_fast(Session& session, const RunOptions& options, const volatile std::sig_atomic_t& interrupted) {
+    Progress progress(hal_linux::stderr_is_terminal() && (options.quiet || !hal_linux::stdout_is_terminal()));
+    while (!session.ended() && interrupted == 0) {
+        session.advance(session.now() + kSlice);
+        progress.show(session);
+    }
+}
+
+void handle_key(Session& session, char key) {
+    if (key == 'q' || key == 'Q') session.stop();
+    if (key >= '0' && key < '0' + static_cast<char>(kInputs)) session.press(static_cast<unsigned>(key - '0'));
+}
+
+void show_status(const Session& session) {
+    const std::string line = session.status_line();
+    fmt::print("\r\033[K{}", std::string_view(line).substr(0, hal_linux::terminal_columns() - 1));
+    std::fflush(stdout);
+}
+
+/// Virtual time follows the wall clock. The status line is rewritten in place below the timeline.
+void run_realtime(Session& session, const volatile std::sig_atomic_t& interrupted) {
+    hal_linux::KeyReader keys;
+    const bool live = hal_linux::stdout_is_terminal();
+    if (live) session.clear_line_before_each("\r\033[K");
+    const auto start = Clock::now();
+    auto next_status = start;
+    while (!session.ended() && interrupted == 0) {
+        session.advance(std::chrono::duration_cast<Time>(Clock::now() - start));
+        if (Clock::now() >= next_status) {
+            next_status = Clock::now() + kRefresh;
+            if (live) show_status(session);
+            std::fflush(stdout);
+        }
+        if (const auto key = keys.key(kKeyWait)) handle_key(session, *key);
+    }
+    if (live) fmt::print("\r\033[K");
+}
+
+}  // namespace
+
+int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted) {
+    Program program = load_program(options.program);
+    if (options.motor) program.names.motor = *options.motor;
+    const Scenario scenario = load_scenario(options, program.names);
+    if (!program.remark.empty()) fmt::print(stderr, "{}\n", program.remark);
+    Session session(options, program, scenario, Palette(wants_colour()));
+    session.heading();
+    if (options.realtime) {
+        run_realtime(session, interrupted);
+    } else {
+        run_fast(session, options, interrupted);
+    }
+    return session.finish() ? 0 : 1;
+}
+
+}  // namespace nplc::sim

@@ -1,0 +1,183 @@
+#include "session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+namespace nplc::sim {
+namespace {
+
+constexpr Time kDefaultLength = std::chrono::seconds{10};
+
+WorldOptions world_options(const RunOptions& options, const Names& names) {
+    WorldOptions world;
+    world.motor = names.motor;
+    world.baud = options.baud;
+    world.seed = options.seed;
+    world.faults = options.faults;
+    world.safe_communication = !options.rapid;
+    world.old_register_codes = options.old_register_codes;
+    world.gateway.debounce = std::chrono::duration_cast<base::Microseconds>(options.debounce);
+    if (options.keep_motor) world.gateway.on_start = gateway::OnStart::keep;
+    return world;
+}
+
+std::string_view in_words(gateway::SafeReason reason) {
+    switch (reason) {
+        case gateway::SafeReason::none:
+            return "outputs follow the sequence";
+        case gateway::SafeReason::not_started:
+            return "outputs safe: not started";
+        case gateway::SafeReason::stop_command:
+            return "outputs safe: stop command";
+        case gateway::SafeReason::link_down:
+            return "outputs safe: link to the motor down";
+        case gateway::SafeReason::motor_stuck:
+            return "outputs safe: the motor does not finish its orders";
+        case gateway::SafeReason::corrupt_table:
+            return "outputs safe: bad table";
+        case gateway::SafeReason::watchdog:
+            return "outputs safe: watchdog reset";
+        case gateway::SafeReason::enable_lost:
+            return "outputs safe: enable lost";
+    }
+    return "";
+}
+
+std::string in_words(std::string_view direction, const LineCounters& c) {
+    return fmt::format(
+        "{}: {} characters, {} lost, {} damaged, {} with framing error, {} delayed, {} while cut", direction,
+        c.sent, c.dropped, c.damaged, c.framing, c.delayed, c.cut);
+}
+
+}  // namespace
+
+Session::Session(const RunOptions& options, const Program& program, const Scenario& scenario,
+                 const Palette& palette)
+    : program_(program),
+      options_(options),
+      scenario_(scenario),
+      palette_(palette),
+      timeline_(program.names, palette),
+      world_(program.table, world_options(options, program.names)),
+      runner_(scenario, program.names, world_),
+      length_(options.length) {
+    if (options.csv) csv_.emplace(*options.csv);
+    if (options.vcd) vcd_.emplace(*options.vcd, program.names);
+    if (!length_ && !options.realtime && !scenario.can_end()) length_ = kDefaultLength;
+    world_.on_log([this](const std::string& text) { timeline_.remark('"' + text + '"'); });
+    runner_.on_failure([this](const Outcome& outcome, Time) {
+        timeline_.alarm(fmt::format("FAILED {}:{}: {}", scenario_.file, outcome.line, outcome.expectation));
+    });
+}
+
+void Session::heading() const {
+    const std::string seed =
+        options_.faults == LineFaults{} ? "" : fmt::format(", faults with seed {}", options_.seed);
+    fmt::print("{}: {} terms, {}, {} baud, {} communication{}\n\n", program_.file, program_.terms,
+               registers::name_of(program_.names.motor), options_.baud, options_.rapid ? "rapid" : "safe",
+               seed);
+    if (!options_.quiet) timeline_.heading();
+}
+
+void Session::advance(Time limit) {
+    if (length_) limit = std::min(limit, *length_);
+    if (now() == Time{0}) show();
+    while (!ended_ && now() < limit) {
+        Time stop = limit;
+        if (const auto due = runner_.next_due()) stop = std::min(stop, *due);
+        if (csv_) stop = std::min(stop, csv_->next_due());
+        world_.step(stop);
+        show();
+    }
+    if (length_ && now() >= *length_) ended_ = true;
+}
+
+void Session::show() {
+    bool acted = false;
+    do {
+        last_ = world_.take_snapshot();
+        acted = runner_.observe(last_);
+        note_changes();
+        if (!options_.quiet) timeline_.observe(last_);
+        if (csv_) csv_->observe(last_);
+        if (vcd_) vcd_->observe(last_);
+    } while (acted);
+    if (runner_.ended()) ended_ = true;
+}
+
+void Session::note_changes() {
+    if (const auto reason = world_.gateway().safe_reason(); reason != reason_) {
+        reason_ = reason;
+        timeline_.remark(std::string(in_words(reason)));
+    }
+    if (const auto note = world_.mac().unsupported(); note != motor_note_) {
+        motor_note_ = note;
+        if (!note.empty()) timeline_.alarm(fmt::format("motor: {}", note));
+    }
+    if (const auto bites = world_.board().bites(); bites != bites_) {
+        bites_ = bites;
+        timeline_.alarm("the watchdog resets the gateway");
+    }
+}
+
+void Session::press(unsigned input) {
+    world_.toggle_input(input);
+    show();
+}
+
+std::string Session::status_line() const {
+    const registers::Scale scale = registers::scale_of(program_.names.motor);
+    std::string inputs;
+    for (unsigned i = 0; i < kInputs; ++i) {
+        inputs += fmt::format(" {}={:d}", program_.names.input(i), (last_.inputs >> i & 1) != 0);
+    }
+    return fmt::format("{:.1f} s  {}  P_IST {} ({:.2f} rev) {} | keys 0-5 toggle{}, q ends",
+                       static_cast<double>(now().count()) / 1e9, program_.names.step(last_.step), last_.p_ist,
+                       static_cast<double>(last_.p_ist) / scale.counts_per_rev, last_.error ? "ERROR" : "",
+                       inputs);
+}
+
+bool Session::finish() {
+    runner_.finish(last_);
+    note_changes();
+    if (!options_.quiet) timeline_.observe(last_);
+    if (csv_) csv_->finish();
+    if (vcd_) vcd_->finish(now());
+    summary();
+    return runner_.failures() == 0;
+}
+
+void Session::summary() const {
+    const registers::Scale scale = registers::scale_of(program_.names.motor);
+    const auto& driver = world_.driver();
+    std::string outputs;
+    for (unsigned i = 0; i < kOutputs; ++i) {
+        if ((last_.outputs >> i & 1) != 0) outputs += (outputs.empty() ? "" : " ") + program_.names.output(i);
+    }
+    fmt::print("\nended at {} ms in step {}, P_IST {} counts ({:.3f} rev), outputs {}{}\n",
+               in_milliseconds(now()), program_.names.step(last_.step), last_.p_ist,
+               static_cast<double>(last_.p_ist) / scale.counts_per_rev, outputs.empty() ? "all off" : outputs,
+               last_.error ? ", ERROR" : "");
+    fmt::print(
+        "{} scans; orders: {} executed, {} discarded; {} messages sent again, {} link losses, {} watchdog "
+        "resets\n",
+        world_.gateway().scans(), driver.counters().orders, driver.counters().discarded, driver.resent(),
+        driver.counters().link_losses, world_.board().bites());
+    fmt::print("{}\n", in_words("line to the motor", world_.line().to_motor().counters()));
+    fmt::print("{}\n", in_words("line from the motor", world_.line().from_motor().counters()));
+    if (csv_) fmt::print("trace: {}\n", *options_.csv);
+    if (vcd_) fmt::print("trace: {}\n", *options_.vcd);
+    if (runner_.outcomes().empty()) return;
+    const std::size_t failed = runner_.failures();
+    fmt::print("expectations: {} passed, {}{} failed{}\n", runner_.outcomes().size() - failed,
+               failed != 0 ? palette_.bad : "", failed, palette_.plain);
+    for (const Outcome& outcome : runner_.outcomes()) {
+        if (outcome.passed) continue;
+        fmt::print("  {}:{}: expected: {}; seen: {}\n", scenario_.file, outcome.line, outcome.expectation,
+                   outcome.seen);
+    }
+}
+
+}  // namespace nplc::sim

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "program.h"
+#include "run_options.h"
+#include "sim/csv_trace.h"
+#include "sim/scenario_runner.h"
+#include "sim/vcd_trace.h"
+#include "sim/world.h"
+#include "timeline.h"
+
+namespace nplc::sim {
+
+/// One run: the world, the scenario that plays on it and everything that is written about it.
+class Session {
+  public:
+    Session(const RunOptions& options, const Program& program, const Scenario& scenario,
+            const Palette& palette);
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    /// Runs on to `limit` of virtual time or to the end. Throws EndlessRules, FileError.
+    void advance(Time limit);
+    bool ended() const { return ended_; }
+    void stop() { ended_ = true; }
+    Time now() const { return world_.now(); }
+    std::optional<Time> length() const { return length_; }
+
+    void press(unsigned input);  ///< toggles it
+
+    /// Judges, writes the files and prints the summary. True if every expectation passed.
+    bool finish();
+
+    std::string status_line() const;
+    /// What goes out before every line of the timeline, to wipe a status line away.
+    void clear_line_before_each(const std::string& code) { timeline_.begin_lines_with(code); }
+    void heading() const;
+
+  private:
+    void show();
+    void note_changes();
+    void summary() const;
+
+    const Program& program_;
+    const RunOptions& options_;
+    const Scenario& scenario_;
+    Palette palette_;
+    Timeline timeline_;
+    World world_;
+    ScenarioRunner runner_;
+    std::optional<CsvTrace> csv_;
+    std::optional<VcdTrace> vcd_;
+    std::optional<Time> length_;
+    Snapshot last_;
+    gateway::SafeReason reason_ = gateway::SafeReason::not_started;
+    std::string motor_note_;
+    std::uint32_t bites_ = 0;
+    bool ended_ = false;
+};
+
+}  // namespace nplc::sim

@@ -1,0 +1,254 @@
+#include "condition_parser.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+namespace nplc::sim {
+namespace {
+
+using Relation = Condition::Relation;
+
+constexpr std::array<std::pair<std::string_view, Relation>, 6> kRelations{{{"=", Relation::equal},
+                                                                           {"<>", Relation::unequal},
+                                                                           {"<", Relation::less},
+                                                                           {"<=", Relation::at_most},
+                                                                           {">", Relation::more},
+                                                                           {">=", Relation::at_least}}};
+
+constexpr std::array<std::pair<std::string_view, Value::Kind>, 12> kValues{{
+    {"INPUTS", Value::Kind::inputs},
+    {"OUTPUTS", Value::Kind::outputs},
+    {"STEP", Value::Kind::step},
+    {"TIMER", Value::Kind::timer},
+    {"COUNTER", Value::Kind::counter},
+    {"INPOS", Value::Kind::in_position},
+    {"IN_POS", Value::Kind::in_position},
+    {"ERROR", Value::Kind::error},
+    {"LINK", Value::Kind::link},
+    {"RUNNING", Value::Kind::running},
+    {"P_IST", Value::Kind::p_ist},
+    {"V_IST", Value::Kind::v_ist},
+}};
+
+/// `IN3` with prefix IN and 6 signals: 3.
+std::optional<unsigned> numbered(std::string_view word, std::string_view prefix, unsigned count) {
+    if (word.size() != prefix.size() + 1 || !same_name(word.substr(0, prefix.size()), prefix))
+        return std::nullopt;
+    const auto index = parse_integer(word.substr(prefix.size()));
+    if (!index || *index < 0 || *index >= count) return std::nullopt;
+    return static_cast<unsigned>(*index);
+}
+
+template <std::size_t Count>
+std::optional<unsigned> named(std::string_view word, const std::array<std::string, Count>& names) {
+    for (unsigned i = 0; i < Count; ++i) {
+        if (!names[i].empty() && same_name(names[i], word)) return i;
+    }
+    return std::nullopt;
+}
+
+template <std::size_t Count>
+void append(std::string& list, const std::array<std::string, Count>& names) {
+    for (const std::string& name : names) {
+        if (!name.empty()) list += name + ", ";
+    }
+}
+
+}  // namespace
+
+Condition ConditionParser::either() {
+    Condition first = both();
+    if (!reader_.is("or")) return first;
+    Condition all{.kind = Condition::Kind::either, .value = {}, .order = {}, .parts = {std::move(first)}};
+    while (reader_.take("or")) all.parts.push_back(both());
+    return all;
+}
+
+Condition ConditionParser::both() {
+    Condition first = primary();
+    if (!reader_.is("and")) return first;
+    Condition all{.kind = Condition::Kind::both, .value = {}, .order = {}, .parts = {std::move(first)}};
+    while (reader_.take("and")) all.parts.push_back(primary());
+    return all;
+}
+
+Condition ConditionParser::primary() {
+    if (reader_.take("not")) {
+        return {.kind = Condition::Kind::negated, .value = {}, .order = {}, .parts = {primary()}};
+    }
+    if (reader_.take("(")) {
+        Condition inner = either();
+        reader_.want(")", ") to close the parenthesis");
+        return inner;
+    }
+    if (reader_.take("ordered")) return order();
+    return comparison();
+}
+
+Condition ConditionParser::order() {
+    if (reader_.peek().kind != Token::Kind::text) {
+        reader_.fail("the order in quotes, such as ordered \"POSITION(P2)\" or ordered \"V1 := 3146\"");
+    }
+    return {.kind = Condition::Kind::ordered,
+            .value = {},
+            .order = normal_order(std::string(reader_.next().text)),
+            .parts = {}};
+}
+
+Condition ConditionParser::comparison() {
+    Condition result{.value = value(), .order = {}, .parts = {}};
+    for (const auto& [symbol, relation] : kRelations) {
+        if (!reader_.take(symbol)) continue;
+        result.relation = relation;
+        operand(result);
+        return result;
+    }
+    if (!result.value.is_bit() && !reader_.is("changes")) {
+        reader_.fail(fmt::format("a comparison, such as {} = 0", result.value.name(names_)));
+    }
+    return result;
+}
+
+void ConditionParser::operand(Condition& condition) {
+    const bool by_size = condition.relation != Relation::equal && condition.relation != Relation::unequal;
+    if (condition.value.is_bit()) {
+        if (by_size) throw LineMistake{"a signal is 0 or 1; compare it with = or <>"};
+        condition.operand = level() ? 1 : 0;
+    } else if (condition.value.kind == Value::Kind::step) {
+        condition.operand = step_number();
+    } else {
+        quantity(condition);
+    }
+}
+
+void ConditionParser::quantity(Condition& condition) {
+    const Value::Kind kind = condition.value.kind;
+    if (kind == Value::Kind::timer && reader_.starts_duration()) {
+        condition.operand = static_cast<double>(reader_.duration("a time").count()) / 1e6;
+        return;
+    }
+    condition.operand = scaled(reader_.number("a number"), kind);
+    if (!reader_.take("+-")) return;
+    if (condition.relation != Relation::equal) throw LineMistake{"a tolerance (+-) goes with = only"};
+    condition.tolerance = scaled(reader_.number("a number after +-"), kind);
+    if (condition.tolerance < 0) throw LineMistake{"a tolerance is not negative; write it without the sign"};
+}
+
+double ConditionParser::scaled(double number, Value::Kind kind) {
+    const registers::Scale scale = registers::scale_of(names_.motor);
+    if (reader_.take("counts")) return number;
+    if (kind == Value::Kind::p_ist && reader_.take("rev")) return number * scale.counts_per_rev;
+    if (kind == Value::Kind::v_ist && reader_.take("rpm")) {
+        return number * scale.counts_per_rev / (60 * scale.samples_per_second);
+    }
+    return number;
+}
+
+double ConditionParser::step_number() {
+    const Token& token = reader_.peek();
+    if (token.kind == Token::Kind::number) {
+        const double number = reader_.next().number;
+        if (number != static_cast<int>(number) || number > 62)
+            throw LineMistake{"a step is a whole number 0 to 62"};
+        return number;
+    }
+    std::string known;
+    for (const auto& [number, name] : names_.steps) {
+        if (token.kind == Token::Kind::word && same_name(name, token.text)) {
+            reader_.next();
+            return number;
+        }
+        known += (known.empty() ? "" : ", ") + name;
+    }
+    if (token.kind != Token::Kind::word) reader_.fail("a step's name or number");
+    if (known.empty()) {
+        throw LineMistake{
+            fmt::format("\"{}\": this program has no step names; write the step's number", token.text)};
+    }
+    throw LineMistake{fmt::format("the program has no step \"{}\"; write one of {}", token.text, known)};
+}
+
+bool ConditionParser::level() {
+    const Token& token = reader_.peek();
+    const bool is_number = token.kind == Token::Kind::number && (token.number == 0 || token.number == 1);
+    if (is_number) return reader_.next().number == 1;
+    if (reader_.take("true") || reader_.take("on")) return true;
+    if (reader_.take("false") || reader_.take("off")) return false;
+    reader_.fail("0 or 1");
+}
+
+std::optional<Value> ConditionParser::lookup(std::string_view word) const {
+    if (same_name(word, "step")) return Value{.kind = Value::Kind::step};
+    if (const auto index = named(word, names_.inputs))
+        return Value{.kind = Value::Kind::input, .index = *index};
+    if (const auto index = named(word, names_.outputs))
+        return Value{.kind = Value::Kind::output, .index = *index};
+    if (const auto index = numbered(word, "IN", kInputs))
+        return Value{.kind = Value::Kind::input, .index = *index};
+    if (const auto index = numbered(word, "OUT", kOutputs))
+        return Value{.kind = Value::Kind::output, .index = *index};
+    for (const auto& [name, kind] : kValues) {
+        if (same_name(name, word)) return Value{.kind = kind};
+    }
+    return std::nullopt;
+}
+
+std::string ConditionParser::known_values() const {
+    std::string known;
+    append(known, names_.inputs);
+    append(known, names_.outputs);
+    return known +
+           "IN0..IN5, OUT0..OUT3, INPUTS, OUTPUTS, step, TIMER, COUNTER, INPOS, ERROR, LINK, RUNNING, P_IST, "
+           "V_IST or ordered \"...\"";
+}
+
+Value ConditionParser::value() {
+    if (reader_.peek().kind != Token::Kind::word)
+        reader_.fail("a condition, such as IN0, NOT OUT1 or step = 3");
+    const std::string_view word = reader_.peek().text;
+    const auto found = lookup(word);
+    if (!found) throw LineMistake{fmt::format("\"{}\" is not known; write one of {}", word, known_values())};
+    reader_.next();
+    return *found;
+}
+
+Event ConditionParser::event() {
+    const std::size_t begin = reader_.mark();
+    Event event{.condition = condition(), .text = {}};
+    const bool is_order = event.condition.kind == Condition::Kind::ordered;
+    if (reader_.take("rises")) {
+        event.edge = Event::Edge::rises;
+    } else if (reader_.take("falls")) {
+        event.edge = Event::Edge::falls;
+    } else if (reader_.take("changes")) {
+        event.edge = Event::Edge::changes;
+    }
+    if (is_order && event.edge != Event::Edge::true_now) {
+        throw LineMistake{
+            "an order is a moment, it does not rise, fall or change; remove the word behind it"};
+    }
+    if (is_order) event.edge = Event::Edge::each;
+    event.text = reader_.source_since(begin);
+    return event;
+}
+
+unsigned ConditionParser::input(std::string_view use) {
+    if (reader_.peek().kind != Token::Kind::word) reader_.fail(use);
+    const std::string_view word = reader_.peek().text;
+    const auto found = lookup(word);
+    if (found && found->kind == Value::Kind::output) {
+        throw LineMistake{fmt::format(
+            "{} is an output: the sequence sets it, a scenario can only watch it; name an input", word)};
+    }
+    if (!found || found->kind != Value::Kind::input) {
+        std::string known;
+        append(known, names_.inputs);
+        throw LineMistake{fmt::format("\"{}\" is no input; write one of {}IN0..IN5", word, known)};
+    }
+    reader_.next();
+    return found->index;
+}
+
+}  // namespace nplc::sim

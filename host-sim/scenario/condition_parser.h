@@ -1,0 +1,39 @@
+#pragma once
+
+#include "sim/condition.h"
+#include "tokens.h"
+
+namespace nplc::sim {
+
+/// Conditions and events of the language. All functions throw LineMistake.
+class ConditionParser {
+  public:
+    ConditionParser(Reader& reader, const Names& names) : reader_(reader), names_(names) {}
+
+    Condition condition() { return either(); }
+    Event event();
+    /// 0, 1, FALSE, TRUE, OFF, ON
+    bool level();
+    /// An input by its own or the program's name; `use` says what it is wanted for.
+    unsigned input(std::string_view use);
+    bool knows(std::string_view word) const { return lookup(word).has_value(); }
+
+  private:
+    Condition either();
+    Condition both();
+    Condition primary();
+    Condition comparison();
+    Condition order();
+    Value value();
+    void operand(Condition& condition);
+    void quantity(Condition& condition);
+    double step_number();
+    double scaled(double number, Value::Kind kind);
+    std::optional<Value> lookup(std::string_view word) const;
+    std::string known_values() const;
+
+    Reader& reader_;
+    const Names& names_;
+};
+
+}  // namespace nplc::sim

@@ -1,0 +1,126 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "sim/condition.h"
+#include "sim/names.h"
+
+namespace nplc::sim {
+
+namespace action {
+
+struct SetInput {
+    unsigned index = 0;
+    bool level = false;
+};
+struct ToggleInput {
+    unsigned index = 0;
+};
+struct CutLine {
+    bool cut = true;
+};
+/// Sets the shares that are named and leaves the others.
+struct SpoilLine {
+    bool to_motor = true;
+    bool from_motor = true;
+    std::optional<double> drop;
+    std::optional<double> damage;
+    std::optional<double> framing;
+    std::optional<double> delay;
+    std::optional<Time> longest_delay;
+};
+struct Seed {
+    std::uint64_t value = 1;
+};
+struct FailMotor {};  ///< the drive reports a follow error
+struct PowerMotor {
+    bool on = true;
+};
+struct LoadMotor {
+    int torque = 0;  ///< constant pull on the shaft, 1023 = the motor's full torque
+};
+enum class Gateway : std::uint8_t { stop, run, restart };
+struct Log {
+    std::string text;
+};
+struct End {};
+
+}  // namespace action
+
+struct Action {
+    Time after{0};  ///< since the moment that set it off
+    std::variant<action::SetInput, action::ToggleInput, action::CutLine, action::SpoilLine, action::Seed,
+                 action::FailMotor, action::PowerMotor, action::LoadMotor, action::Gateway, action::Log,
+                 action::End>
+        what;
+};
+using Actions = std::vector<Action>;
+
+struct AtRule {
+    Time time{0};
+    Actions actions;
+};
+struct EveryRule {
+    Time period{0};
+    Time from{0};
+    std::optional<Time> until;
+    Actions actions;
+};
+struct WhenRule {
+    Event event;
+    bool once = false;
+    Actions actions;
+    int line = 0;
+};
+
+struct Expectation {
+    enum class Kind : std::uint8_t {
+        at,      ///< the condition holds at `time`; at the end without one
+        by,      ///< it holds at least once until `time`, or the end
+        always,  ///< it holds from `from` until `time`, or the end
+        within,  ///< it holds at least once within `span` after each event
+        after,   ///< it holds `span` after each event
+        count,   ///< the event happens `least` to `most` times until `time`, or the end
+    };
+    Kind kind = Kind::at;
+    int line = 0;
+    std::string text;  ///< as the scenario has it
+    Condition condition;
+    Event event;
+    std::optional<Time> time;
+    Time from{0};
+    Time span{0};
+    std::uint64_t least = 1;
+    std::uint64_t most = UINT64_MAX;
+};
+
+struct Scenario {
+    std::string file;
+    std::vector<AtRule> at;
+    std::vector<EveryRule> every;
+    std::vector<WhenRule> when;
+    std::vector<Expectation> expectations;
+    std::optional<Time> end;
+
+    bool can_end() const;  ///< has an end, or a rule with the action `end`
+};
+
+struct Mistake {
+    int line = 0;
+    std::string message;  ///< what is wrong and what to write
+};
+
+struct ParsedScenario {
+    Scenario scenario;
+    std::vector<Mistake> mistakes;  ///< the scenario is of use only without any
+};
+
+/// The language: this folder's README. `file` is for messages only.
+ParsedScenario parse_scenario(std::string_view text, const std::string& file, const Names& names);
+
+}  // namespace nplc::sim

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sim/scenario.h"
+#include "sim/stage.h"
+
+namespace nplc::sim {
+
+struct Outcome {
+    int line = 0;
+    std::string expectation;  ///< as the scenario has it
+    bool passed = false;
+    std::string seen;  ///< what was seen instead, and when
+};
+
+/// Rules that set each other off without end at one instant; the message names file and line.
+struct EndlessRules : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Plays a Scenario on a Stage and judges its expectations. Must be shown every change of the machine, and
+/// the instants that next_due() asks for.
+class ScenarioRunner {
+  public:
+    ScenarioRunner(const Scenario& scenario, const Names& names, Stage& stage);
+
+    /// The next instant at which something is planned, later than the last one shown.
+    std::optional<Time> next_due() const;
+
+    /// Judges what is seen, then acts. True if it acted: the stage has changed and wants to be shown again,
+    /// at the same time. Throws EndlessRules.
+    bool observe(const Snapshot& snapshot);
+
+    bool ended() const { return ended_; }
+    /// To be called once, with the last snapshot.
+    void finish(const Snapshot& snapshot);
+
+    /// An expectation was decided against; called as soon as that is known.
+    void on_failure(std::function<void(const Outcome&, Time)> callback) { on_failure_ = std::move(callback); }
+    const std::vector<Outcome>& outcomes() const { return outcomes_; }  ///< all of them, after finish()
+    std::size_t failures() const;
+
+  private:
+    struct Planned {
+        const Action* action;
+        int line;
+    };
+    struct Watched {
+        EventWatch watch;
+        bool done = false;
+    };
+    struct Judgement {
+        explicit Judgement(const Expectation& wanted) : expectation(&wanted), watch(wanted.event) {}
+        const Expectation* expectation;
+        EventWatch watch;
+        bool decided = false;
+        std::uint64_t events = 0;
+        std::uint64_t fulfilled = 0;
+        std::vector<Time> deadlines;
+    };
+
+    void plan(const Actions& actions, Time now, int line);
+    void plan_every(Time now);
+    void guard_against_loops(Time now, int line);
+    bool act(Time now);
+    void perform(const Action& action);
+    void judge(Judgement& judgement, const Snapshot& snapshot);
+    void judge_at(Judgement& judgement, const Snapshot& snapshot);
+    void judge_by(Judgement& judgement, const Snapshot& snapshot);
+    void judge_always(Judgement& judgement, const Snapshot& snapshot);
+    void judge_after_event(Judgement& judgement, const Snapshot& snapshot);
+    void judge_count(Judgement& judgement, const Snapshot& snapshot);
+    void judge_at_end(Judgement& judgement, const Snapshot& snapshot);
+    void decide(Judgement& judgement, bool passed, Time now, std::string seen = {});
+    std::string seen_at(const Condition& condition, const Snapshot& snapshot) const;
+
+    const Scenario& scenario_;
+    const Names& names_;
+    Stage& stage_;
+    std::multimap<Time, Planned> planned_;
+    std::vector<Time> every_next_;
+    std::vector<Watched> watches_;
+    std::vector<Judgement> judgements_;
+    std::vector<Outcome> outcomes_;
+    std::function<void(const Outcome&, Time)> on_failure_;
+    Time last_shown_{-1};
+    int rounds_ = 0;
+    bool ended_ = false;
+};
+
+}  // namespace nplc::sim

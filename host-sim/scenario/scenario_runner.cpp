@@ -1,0 +1,121 @@
+#include "sim/scenario_runner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace nplc::sim {
+namespace {
+
+constexpr int kMostRoundsAtOnce = 100;
+
+void earliest(std::optional<Time>& best, Time candidate, Time after) {
+    if (candidate > after && (!best || candidate < *best)) best = candidate;
+}
+
+}  // namespace
+
+ScenarioRunner::ScenarioRunner(const Scenario& scenario, const Names& names, Stage& stage)
+    : scenario_(scenario), names_(names), stage_(stage) {
+    for (const AtRule& rule : scenario_.at) plan(rule.actions, rule.time, 0);
+    for (const EveryRule& rule : scenario_.every) every_next_.push_back(rule.from);
+    for (const WhenRule& rule : scenario_.when) watches_.push_back({EventWatch(rule.event)});
+    for (const Expectation& expectation : scenario_.expectations) judgements_.emplace_back(expectation);
+}
+
+void ScenarioRunner::plan(const Actions& actions, Time now, int line) {
+    for (const Action& action : actions) planned_.emplace(now + action.after, Planned{&action, line});
+}
+
+void ScenarioRunner::plan_every(Time now) {
+    for (std::size_t i = 0; i < scenario_.every.size(); ++i) {
+        const EveryRule& rule = scenario_.every[i];
+        while (every_next_[i] <= now && (!rule.until || every_next_[i] <= *rule.until)) {
+            plan(rule.actions, every_next_[i], 0);
+            every_next_[i] += rule.period;
+        }
+    }
+}
+
+std::optional<Time> ScenarioRunner::next_due() const {
+    std::optional<Time> best;
+    if (!planned_.empty()) best = planned_.begin()->first;
+    for (const Time time : every_next_) earliest(best, time, last_shown_);
+    for (const Judgement& judgement : judgements_) {
+        if (judgement.decided) continue;
+        if (judgement.expectation->time) earliest(best, *judgement.expectation->time, last_shown_);
+        for (const Time deadline : judgement.deadlines) earliest(best, deadline, last_shown_);
+    }
+    if (scenario_.end) earliest(best, *scenario_.end, last_shown_);
+    return best;
+}
+
+bool ScenarioRunner::observe(const Snapshot& snapshot) {
+    const Time now = snapshot.time;
+    if (now != last_shown_) rounds_ = 0;
+    last_shown_ = now;
+    for (Judgement& judgement : judgements_) judge(judgement, snapshot);
+    plan_every(now);
+    for (std::size_t i = 0; i < watches_.size(); ++i) {
+        const WhenRule& rule = scenario_.when[i];
+        if (!watches_[i].watch.happens(snapshot, names_) || watches_[i].done) continue;
+        watches_[i].done = rule.once;
+        plan(rule.actions, now, rule.line);
+    }
+    const bool acted = act(now);
+    if (scenario_.end && now >= *scenario_.end) ended_ = true;
+    return acted;
+}
+
+void ScenarioRunner::guard_against_loops(Time now, int line) {
+    if (++rounds_ <= kMostRoundsAtOnce) return;
+    throw EndlessRules(
+        fmt::format("{}:{}: this rule and others set each other off without end at {} ms; put `after` and a "
+                    "time into one of them",
+                    scenario_.file, line, in_milliseconds(now)));
+}
+
+bool ScenarioRunner::act(Time now) {
+    bool acted = false;
+    while (!planned_.empty() && planned_.begin()->first <= now) {
+        const Planned planned = planned_.begin()->second;
+        planned_.erase(planned_.begin());
+        if (planned.line != 0) guard_against_loops(now, planned.line);
+        perform(*planned.action);
+        acted = true;
+    }
+    return acted;
+}
+
+void ScenarioRunner::perform(const Action& action) {
+    struct Performer {
+        ScenarioRunner& self;
+        void operator()(const action::SetInput& a) const { self.stage_.set_input(a.index, a.level); }
+        void operator()(const action::ToggleInput& a) const { self.stage_.toggle_input(a.index); }
+        void operator()(const action::CutLine& a) const { self.stage_.cut_line(a.cut); }
+        void operator()(const action::SpoilLine& a) const { self.stage_.spoil_line(a); }
+        void operator()(const action::Seed& a) const { self.stage_.seed(a.value); }
+        void operator()(const action::FailMotor&) const { self.stage_.fail_motor(); }
+        void operator()(const action::PowerMotor& a) const { self.stage_.power_motor(a.on); }
+        void operator()(const action::LoadMotor& a) const { self.stage_.load_motor(a.torque); }
+        void operator()(const action::Gateway& a) const { self.stage_.gateway(a); }
+        void operator()(const action::Log& a) const { self.stage_.log(a.text); }
+        void operator()(const action::End&) const { self.ended_ = true; }
+    };
+    std::visit(Performer{*this}, action.what);
+}
+
+void ScenarioRunner::finish(const Snapshot& snapshot) {
+    for (Judgement& judgement : judgements_) {
+        if (!judgement.decided) judge_at_end(judgement, snapshot);
+    }
+    std::sort(outcomes_.begin(), outcomes_.end(),
+              [](const Outcome& a, const Outcome& b) { return a.line < b.line; });
+}
+
+std::size_t ScenarioRunner::failures() const {
+    return static_cast<std::size_t>(
+        std::count_if(outcomes_.begin(), outcomes_.end(), [](const Outcome& o) { return !o.passed; }));
+}
+
+}  // namespace nplc::sim

@@ -1,0 +1,192 @@
+#include "tokens.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cctype>
+#include <charconv>
+
+namespace nplc::sim {
+namespace {
+
+constexpr std::array<std::string_view, 13> kSymbols{":=", "<=", ">=", "<>", "+-", "=", "<",
+                                                    ">",  "(",  ")",  ",",  "%",  "-"};
+
+bool is_word_start(char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+bool is_word(char c) {
+    return is_word_start(c) || std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+
+bool is_digit(char c) {
+    return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+
+std::size_t length_of_digits(std::string_view text) {
+    std::size_t length = 0;
+    while (length < text.size() &&
+           (is_digit(text[length]) ||
+            (text[length] == '.' && length + 1 < text.size() && is_digit(text[length + 1])))) {
+        ++length;
+    }
+    return length;
+}
+
+/// 16#1F
+std::size_t length_of_hex(std::string_view text) {
+    if (!text.starts_with("16#")) return 0;
+    std::size_t length = 3;
+    while (length < text.size() && std::isxdigit(static_cast<unsigned char>(text[length])) != 0) ++length;
+    return length > 3 ? length : 0;
+}
+
+Token number_at(std::string_view rest, std::size_t begin) {
+    Token token{.kind = Token::Kind::number, .text = {}, .number = 0, .begin = begin, .end = begin};
+    if (const std::size_t hex = length_of_hex(rest); hex != 0) {
+        std::uint32_t value = 0;
+        const auto [stop, error] = std::from_chars(rest.data() + 3, rest.data() + hex, value, 16);
+        if (error != std::errc{}) throw LineMistake{"this hexadecimal number does not fit in 32 bits"};
+        token.text = rest.substr(0, hex);
+        token.number = value;
+    } else {
+        token.text = rest.substr(0, length_of_digits(rest));
+        const auto value = parse_decimal(token.text);
+        if (!value)
+            throw LineMistake{
+                fmt::format("\"{}\" is not a number; write digits such as 250 or 1.5", token.text)};
+        token.number = *value;
+    }
+    token.end = begin + token.text.size();
+    return token;
+}
+
+Token text_at(std::string_view rest, std::size_t begin) {
+    const auto close = rest.find('"', 1);
+    if (close == std::string_view::npos) throw LineMistake{"the text is not closed; end it with \""};
+    return {.kind = Token::Kind::text,
+            .text = rest.substr(1, close - 1),
+            .begin = begin,
+            .end = begin + close + 1};
+}
+
+Token word_at(std::string_view rest, std::size_t begin) {
+    std::size_t length = 1;
+    while (length < rest.size() && is_word(rest[length])) ++length;
+    return {.kind = Token::Kind::word, .text = rest.substr(0, length), .begin = begin, .end = begin + length};
+}
+
+Token symbol_at(std::string_view rest, std::size_t begin) {
+    if (rest.starts_with("==")) throw LineMistake{"\"==\" is not known here; write = to compare"};
+    if (rest.starts_with("!=")) throw LineMistake{"\"!=\" is not known here; write <> for unequal"};
+    for (const std::string_view symbol : kSymbols) {
+        if (!rest.starts_with(symbol)) continue;
+        return {.kind = Token::Kind::symbol, .text = symbol, .begin = begin, .end = begin + symbol.size()};
+    }
+    const auto c = static_cast<unsigned char>(rest.front());
+    const std::string shown =
+        c > ' ' && c < 127 ? fmt::format("\"{}\"", rest.front()) : fmt::format("byte {:02X}h", c);
+    throw LineMistake{fmt::format("{} has no meaning here; remove it (comments begin with # or //)", shown)};
+}
+
+}  // namespace
+
+std::vector<Token> tokens_of(std::string_view line) {
+    std::vector<Token> tokens;
+    std::size_t at = 0;
+    while (at < line.size()) {
+        const std::string_view rest = line.substr(at);
+        if (rest.front() == ' ' || rest.front() == '\t' || rest.front() == '\r') {
+            ++at;
+            continue;
+        }
+        if (rest.front() == '#' || rest.starts_with("//")) break;
+        if (is_digit(rest.front())) {
+            tokens.push_back(number_at(rest, at));
+        } else if (rest.front() == '"') {
+            tokens.push_back(text_at(rest, at));
+        } else if (is_word_start(rest.front())) {
+            tokens.push_back(word_at(rest, at));
+        } else {
+            tokens.push_back(symbol_at(rest, at));
+        }
+        at = tokens.back().end;
+    }
+    tokens.push_back({.kind = Token::Kind::end, .text = {}, .begin = line.size(), .end = line.size()});
+    return tokens;
+}
+
+const Token& Reader::peek(std::size_t ahead) const {
+    return tokens_[std::min(position_ + ahead, tokens_.size() - 1)];
+}
+
+const Token& Reader::next() {
+    const Token& token = peek();
+    if (position_ + 1 < tokens_.size()) ++position_;
+    return token;
+}
+
+bool Reader::is(std::string_view word_or_symbol, std::size_t ahead) const {
+    const Token& token = peek(ahead);
+    return (token.kind == Token::Kind::word || token.kind == Token::Kind::symbol) &&
+           same_name(token.text, word_or_symbol);
+}
+
+bool Reader::take(std::string_view word_or_symbol) {
+    if (!is(word_or_symbol)) return false;
+    next();
+    return true;
+}
+
+void Reader::want(std::string_view word_or_symbol, std::string_view what_to_write) {
+    if (!take(word_or_symbol)) fail(what_to_write);
+}
+
+void Reader::fail(std::string_view what_to_write) const {
+    const std::string found =
+        at_end() ? "the line ends too early" : fmt::format("\"{}\" is out of place", peek().text);
+    throw LineMistake{fmt::format("{}; write {}", found, what_to_write)};
+}
+
+std::string Reader::source_since(std::size_t mark) const {
+    if (position_ == mark) return {};
+    return std::string(line_.substr(tokens_[mark].begin, tokens_[position_ - 1].end - tokens_[mark].begin));
+}
+
+double Reader::number(std::string_view what_to_write) {
+    const bool negative = take("-");
+    if (peek().kind != Token::Kind::number) fail(what_to_write);
+    const double value = next().number;
+    return negative ? -value : value;
+}
+
+bool Reader::starts_duration() const {
+    return peek().kind == Token::Kind::number && peek(1).kind == Token::Kind::word &&
+           to_duration(peek().number, peek(1).text).has_value();
+}
+
+Time Reader::duration(std::string_view what_to_write) {
+    if (peek().kind != Token::Kind::number) fail(what_to_write);
+    const double value = peek().number;
+    const Token& unit = peek(1);
+    const auto time = to_duration(value, unit.kind == Token::Kind::word ? unit.text : "");
+    if (!time) {
+        throw LineMistake{
+            fmt::format("\"{}{}{}\" is not a time; write a number with us, ms, s or min, such as 250 ms",
+                        peek().text, unit.text.empty() ? "" : " ", unit.text)};
+    }
+    next();
+    next();
+    return *time;
+}
+
+double Reader::percent(std::string_view what_to_write) {
+    if (peek().kind != Token::Kind::number) fail(what_to_write);
+    const double value = next().number;
+    want("%", "a share with its sign, such as 1 %");
+    if (value > 100) throw LineMistake{"a share is 0 % to 100 %"};
+    return value / 100;
+}
+
+}  // namespace nplc::sim

@@ -1,0 +1,35 @@
+#include "sim/csv_trace.h"
+
+#include <fmt/format.h>
+
+#include "sim/names.h"
+
+namespace nplc::sim {
+namespace {
+
+bool same_row(const Snapshot& a, const Snapshot& b) {
+    return a.step == b.step && a.timer == b.timer && a.counter == b.counter && a.inputs == b.inputs &&
+           a.outputs == b.outputs && a.in_position == b.in_position && a.error == b.error &&
+           a.p_ist == b.p_ist && a.v_ist == b.v_ist && a.orders == b.orders;
+}
+
+}  // namespace
+
+CsvTrace::CsvTrace(const std::string& path) : file_(path) {
+    file_.write("time_ms,step,timer,counter,inputs,outputs,inpos,error,command,p_ist,v_ist\n");
+}
+
+Time CsvTrace::next_due() const {
+    return last_ ? last_->time + kLongestGap : Time{0};
+}
+
+void CsvTrace::observe(const Snapshot& s) {
+    if (last_ && s.time < next_due() && same_row(s, *last_)) return;
+    file_.write(fmt::format("{},{},{},{},{},{},{:d},{:d},{},{},{}\n", in_milliseconds(s.time), s.step,
+                            s.timer, s.counter, s.inputs, s.outputs, s.in_position, s.error,
+                            in_numbers(s.orders), s.p_ist, s.v_ist));
+    last_ = s;
+    last_->orders.clear();
+}
+
+}  // namespace nplc::sim

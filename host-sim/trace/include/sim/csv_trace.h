@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+
+#include "sim/output_file.h"
+#include "sim/snapshot.h"
+
+namespace nplc::sim {
+
+/// The trace as CSV:
+///     time_ms,step,timer,counter,inputs,outputs,inpos,error,command,p_ist,v_ist
+/// A row at every change of a column and at least every 10 ms; time_ms has three decimals; `command` holds
+/// the commands given at that instant, space separated: two hex digits without the toggle bit, or REG=VALUE
+/// in decimal.
+class CsvTrace {
+  public:
+    static constexpr Time kLongestGap = std::chrono::milliseconds{10};
+
+    explicit CsvTrace(const std::string& path);
+
+    /// When the next row is due without any change.
+    Time next_due() const;
+    /// Writes a row if there is a change or one is due; times must not fall.
+    void observe(const Snapshot& snapshot);
+    void finish() { file_.commit(); }
+
+  private:
+    OutputFile file_;
+    std::optional<Snapshot> last_;
+};
+
+}  // namespace nplc::sim

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+namespace nplc::sim {
+
+/// A file that appears under its name only when it is whole: written beside it, then renamed by commit().
+/// Something that is not an ordinary file (/dev/stdout, a pipe) is written directly. Throws FileError.
+class OutputFile {
+  public:
+    explicit OutputFile(const std::string& path);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    void write(const std::string& text) { stream_ << text; }
+    void commit();
+    const std::string& path() const { return path_; }
+
+  private:
+    std::string path_;
+    std::filesystem::path target_;
+    std::filesystem::path temporary_;  ///< empty when written directly
+    std::ofstream stream_;
+};
+
+struct FileError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+}  // namespace nplc::sim

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/text.h"
+
+namespace nplc::sim {
+
+/// One command or register write that the sequence gave to the motor.
+struct SentOrder {
+    bool is_register_write = false;
+    std::uint8_t command = 0;  ///< FastMAC, bits 6..0
+    std::uint8_t reg = 0;
+    std::uint32_t value = 0;
+    bool operator==(const SentOrder&) const = default;
+};
+
+/// Everything a trace or a condition can look at, as it stands at one instant. `inputs` are the levels at the
+/// terminals, before the gateway's debouncing; `in_position` and `error` are what the gateway believes of the
+/// motor; `p_ist` and `v_ist` are what the motor really does.
+struct Snapshot {
+    Time time{0};
+    std::uint8_t step = 0;
+    std::uint16_t timer = 0;  ///< ms
+    std::uint16_t counter = 0;
+    std::uint8_t inputs = 0;
+    std::uint8_t outputs = 0;
+    bool in_position = false;
+    bool error = false;
+    std::int32_t p_ist = 0;  ///< counts
+    std::int32_t v_ist = 0;  ///< counts/sample
+    bool link_up = false;
+    bool running = false;
+    std::vector<SentOrder> orders;  ///< given since the snapshot before
+};
+
+}  // namespace nplc::sim

@@ -1,0 +1,139 @@
+#include "sim/vcd_trace.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bitset>
+#include <cctype>
+
+namespace nplc::sim {
+namespace {
+
+constexpr Time kCommandShown = std::chrono::milliseconds{1};
+
+/// Identifier codes, one printable character each.
+constexpr char kStep = '!', kStepName = '"', kTimer = '#', kCounter = '$', kInPos = '%', kError = '&',
+               kLink = '\'', kCommand = '(', kPosition = ')', kSpeed = '*', kRpm = '+';
+constexpr char kFirstInput = 'A', kFirstOutput = 'a';
+
+std::string id(char c) {
+    return std::string(1, c);
+}
+
+std::string code(char first, unsigned index) {
+    return id(static_cast<char>(first + static_cast<char>(index)));
+}
+
+template <std::size_t Bits>
+std::string vector(std::uint32_t value, char name) {
+    return fmt::format("b{} {}", std::bitset<Bits>(value).to_string(), name);
+}
+
+std::string scalar(bool value, const std::string& name) {
+    return (value ? "1" : "0") + name;
+}
+
+/// Strings of a dump hold no blanks.
+std::string string_value(std::string text, char name) {
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c <= ' ' || c > '~'; }, '_');
+    return fmt::format("s{} {}", text, name);
+}
+
+std::string commands(const std::vector<SentOrder>& orders, registers::Model motor) {
+    std::string text;
+    for (const SentOrder& order : orders) {
+        if (!text.empty()) text += ',';
+        for (const char c : in_words(order, motor)) {
+            if (c != ' ') text += c;
+        }
+    }
+    return text;
+}
+
+double rpm_of(std::int32_t v_ist, registers::Model motor) {
+    const registers::Scale scale = registers::scale_of(motor);
+    return v_ist * scale.samples_per_second * 60 / scale.counts_per_rev;
+}
+
+}  // namespace
+
+VcdTrace::VcdTrace(const std::string& path, const Names& names) : file_(path), names_(names) {
+    header();
+}
+
+void VcdTrace::header() {
+    std::string text = "$version nanoplc-sim $end\n$timescale 1 us $end\n$scope module nanoplc $end\n";
+    const auto declare = [&](std::string_view type, int bits, const std::string& code_text,
+                             std::string_view name) {
+        text += fmt::format("$var {} {} {} {} $end\n", type, bits, code_text, name);
+    };
+    declare("wire", 6, id(kStep), "step");
+    declare("string", 1, id(kStepName), "step_name");
+    declare("wire", 16, id(kTimer), "timer");
+    declare("wire", 16, id(kCounter), "counter");
+    for (unsigned i = 0; i < kInputs; ++i) declare("wire", 1, code(kFirstInput, i), names_.input(i));
+    for (unsigned i = 0; i < kOutputs; ++i) declare("wire", 1, code(kFirstOutput, i), names_.output(i));
+    declare("string", 1, id(kCommand), "command");
+    text += "$upscope $end\n$scope module motor $end\n";
+    declare("wire", 1, id(kInPos), "in_position");
+    declare("wire", 1, id(kError), "error");
+    declare("wire", 1, id(kLink), "link_up");
+    declare("integer", 32, id(kPosition), "p_ist");
+    declare("integer", 32, id(kSpeed), "v_ist");
+    declare("real", 64, id(kRpm), "speed_rpm");
+    text += "$upscope $end\n$enddefinitions $end\n";
+    file_.write(text);
+}
+
+void VcdTrace::at(Time time) {
+    now_us_ = time.count() / 1000;
+}
+
+void VcdTrace::put(const std::string& name, const std::string& value) {
+    std::string& known = values_[name];
+    if (known == value) return;
+    known = value;
+    if (written_us_ != now_us_) file_.write(fmt::format("#{}\n", now_us_));
+    written_us_ = now_us_;
+    file_.write(value + "\n");
+}
+
+void VcdTrace::fall_back(Time time) {
+    if (!command_until_ || time < *command_until_) return;
+    at(*command_until_);
+    put(id(kCommand), string_value("-", kCommand));
+    command_until_.reset();
+}
+
+void VcdTrace::observe(const Snapshot& s) {
+    fall_back(s.time);
+    at(s.time);
+    put(id(kStep), vector<6>(s.step, kStep));
+    put(id(kStepName), string_value(names_.step(s.step), kStepName));
+    put(id(kTimer), vector<16>(s.timer, kTimer));
+    put(id(kCounter), vector<16>(s.counter, kCounter));
+    for (unsigned i = 0; i < kInputs; ++i) {
+        put(code(kFirstInput, i), scalar((s.inputs >> i & 1) != 0, code(kFirstInput, i)));
+    }
+    for (unsigned i = 0; i < kOutputs; ++i) {
+        put(code(kFirstOutput, i), scalar((s.outputs >> i & 1) != 0, code(kFirstOutput, i)));
+    }
+    put(id(kInPos), scalar(s.in_position, id(kInPos)));
+    put(id(kError), scalar(s.error, id(kError)));
+    put(id(kLink), scalar(s.link_up, id(kLink)));
+    put(id(kPosition), vector<32>(static_cast<std::uint32_t>(s.p_ist), kPosition));
+    put(id(kSpeed), vector<32>(static_cast<std::uint32_t>(s.v_ist), kSpeed));
+    put(id(kRpm), fmt::format("r{:.6g} {}", rpm_of(s.v_ist, names_.motor), kRpm));
+    if (s.orders.empty() && values_.contains(id(kCommand))) return;
+    put(id(kCommand), string_value(s.orders.empty() ? "-" : commands(s.orders, names_.motor), kCommand));
+    if (!s.orders.empty()) command_until_ = s.time + kCommandShown;
+}
+
+void VcdTrace::finish(Time end) {
+    fall_back(end);
+    if (written_us_ != end.count() / 1000) file_.write(fmt::format("#{}\n", end.count() / 1000));
+    file_.commit();
+}
+
+}  // namespace nplc::sim

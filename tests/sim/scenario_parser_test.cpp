@@ -1,0 +1,188 @@
+#include <gtest/gtest.h>
+
+#include "sim/scenario.h"
+
+namespace nplc::sim {
+namespace {
+
+using namespace std::chrono_literals;
+
+Names program_names() {
+    Names names;
+    names.inputs = {"Start", "Guard", "", "", "", ""};
+    names.outputs = {"Grip", "", "", "Lamp"};
+    names.steps = {{0, "POWER_UP"}, {1, "Idle"}, {2, "Travel"}};
+    return names;
+}
+
+ParsedScenario parse(const std::string& text) {
+    return parse_scenario(text, "x.scn", program_names());
+}
+
+/// The one mistake of a one-line scenario.
+std::string mistake(const std::string& line) {
+    const ParsedScenario parsed = parse(line);
+    return parsed.mistakes.size() == 1 ? parsed.mistakes.front().message : "(no mistake)";
+}
+
+TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
+    const ParsedScenario parsed = parse(R"scn(
+        # comment
+        Start := 0                       // at time 0
+        at 100 ms IN0 := 1
+        at 100ms Start := TRUE, after 50 ms Start := off, after 1 s log "done # not a comment"
+        at 1 s pulse Start 50 ms
+        at 1 s pulse Start for 50 ms
+        toggle IN5
+        every 500 ms pulse Start 50 ms
+        every 500 ms from 1 s until 2 min toggle Guard
+        when OUT0 rises after 300 ms IN2 := 1
+        when step = Travel and not (Guard or IN4) IN2 := 1
+        once P_IST > 4096 IN2 := 1
+        when P_IST = -1.5 rev +- 2 counts IN2 := 1
+        when step changes log "step"
+        when ordered "POSITION(P2)" after 10 ms IN3 := 1
+        at 2 s line cut
+        at 3 s line restored
+        at 3 s line drop 1 % damage 0.5% framing 1 % delay 2 % up to 10 ms
+        at 3 s line to motor drop 1 %
+        at 3 s line from motor clean
+        seed 7
+        at 4 s motor error
+        at 4 s motor power off, after 1 s motor power on
+        at 4 s motor load -500
+        at 5 s gateway stop, after 1 s gateway run, after 1 s gateway restart
+        expect at 3 s step = Idle
+        at 3 s expect step = 1
+        expect P_IST = 49152 +- 2 counts
+        expect V_IST = 1500 rpm +- 20 rpm at 2 s
+        expect at end Lamp
+        expect OUT1 = 1 within 200 ms after IN0 rises
+        expect Grip 100 ms after Start rises
+        expect eventually COUNTER = 16#0A by 5 s
+        expect TIMER <= 500 ms by 5 s
+        expect Grip rises 3 times
+        expect Grip falls at least 2 times by 9 s
+        expect ordered "RESET_ERROR" at most 1 times
+        never OUT0 and OUT1
+        always INPUTS <> 63 from 1 s until 2 s
+        expect never ERROR
+        end when step = Idle after 1 s
+        end at 10 s
+    )scn");
+    for (const Mistake& found : parsed.mistakes) ADD_FAILURE() << found.line << ": " << found.message;
+    EXPECT_EQ(parsed.scenario.expectations.size(), 15U);
+    EXPECT_EQ(parsed.scenario.when.size(), 7U);
+    EXPECT_EQ(parsed.scenario.every.size(), 2U);
+    EXPECT_EQ(parsed.scenario.end, Time(10s));
+    EXPECT_TRUE(parsed.scenario.can_end());
+}
+
+TEST(ScenarioParser, DelaysOfAListAddUp) {
+    const auto parsed = parse("at 1 s Start := 1, after 50 ms Start := 0, after 10 ms toggle IN1");
+    ASSERT_EQ(parsed.scenario.at.size(), 1U);
+    const Actions& actions = parsed.scenario.at[0].actions;
+    ASSERT_EQ(actions.size(), 3U);
+    EXPECT_EQ(actions[0].after, Time(0));
+    EXPECT_EQ(actions[1].after, Time(50ms));
+    EXPECT_EQ(actions[2].after, Time(60ms));
+}
+
+TEST(ScenarioParser, UnitsBecomeCounts) {
+    const auto parsed = parse("expect P_IST = 12 rev +- 0.5 rev\nexpect V_IST < 1500 rpm");
+    ASSERT_EQ(parsed.scenario.expectations.size(), 2U);
+    EXPECT_EQ(parsed.scenario.expectations[0].condition.operand, 49'152);
+    EXPECT_EQ(parsed.scenario.expectations[0].condition.tolerance, 2048);
+    // 1500 / 60 rev/s x 4096 counts / 520.8333 samples/s = 196.608
+    EXPECT_NEAR(parsed.scenario.expectations[1].condition.operand, 196.608, 1e-9);
+}
+
+TEST(ScenarioParser, ExpectationsKeepTheirText) {
+    const auto parsed = parse("\n  expect at 3 s   step = Idle  # why\nnever Grip");
+    EXPECT_EQ(parsed.scenario.expectations[0].text, "at 3 s   step = Idle");
+    EXPECT_EQ(parsed.scenario.expectations[0].line, 2);
+    EXPECT_EQ(parsed.scenario.expectations[1].text, "never Grip");
+}
+
+TEST(ScenarioParser, MistakesSayWhatIsWrongAndWhatToWrite) {
+    EXPECT_EQ(mistake("at 5 IN0 := 1"),
+              "\"5 IN0\" is not a time; write a number with us, ms, s or min, such as 250 ms");
+    EXPECT_EQ(mistake("at 5 s Strat := 1"), "\"Strat\" is no input; write one of Start, Guard, IN0..IN5");
+    EXPECT_EQ(mistake("at 5 s Grip := 1"),
+              "Grip is an output: the sequence sets it, a scenario can only watch it; name an input");
+    EXPECT_EQ(mistake("at 5 s Start := 2"), "\"2\" is out of place; write 0 or 1");
+    EXPECT_EQ(mistake("at 5 s Start = 1"), "\"=\" is out of place; write := and the level, such as IN0 := 1");
+    EXPECT_EQ(mistake("expect step = Hold"),
+              "the program has no step \"Hold\"; write one of POWER_UP, Idle, Travel");
+    EXPECT_EQ(mistake("expect step = 63"), "a step is a whole number 0 to 62");
+    EXPECT_EQ(mistake("expect P_IST"), "the line ends too early; write a comparison, such as P_IST = 0");
+    EXPECT_EQ(mistake("expect Grip == 1"), "\"==\" is not known here; write = to compare");
+    EXPECT_EQ(mistake("expect Grip < 1"), "a signal is 0 or 1; compare it with = or <>");
+    EXPECT_EQ(mistake("line drop 1"), "the line ends too early; write a share with its sign, such as 1 %");
+    EXPECT_EQ(mistake("line drop 101 %"), "a share is 0 % to 100 %");
+    EXPECT_EQ(mistake("expect (Grip and Lamp"), "the line ends too early; write ) to close the parenthesis");
+    EXPECT_EQ(mistake("log \"open"), "the text is not closed; end it with \"");
+    EXPECT_EQ(mistake("every 0 s toggle IN0"), "a period must be longer than 0; write such as every 500 ms");
+    EXPECT_EQ(mistake("expect P_IST > 5 +- 1"), "a tolerance (+-) goes with = only");
+    EXPECT_EQ(mistake("motor power"),
+              "the line ends too early; write motor error, motor load 500, motor power off, or "
+              "motor power on");
+    EXPECT_EQ(mistake("at 1 s IN0 := 1 IN1 := 1"),
+              "\"IN1\" is out of place; write one statement in a line, actions separated by commas");
+    EXPECT_EQ(mistake("at 1 s IN0 := 1 \x01"),
+              "byte 01h has no meaning here; remove it (comments begin with # or //)");
+}
+
+TEST(ScenarioParser, AMisspeltStatementIsNamed) {
+    EXPECT_TRUE(
+        mistake("wenn Grip IN0 := 1").starts_with("\"wenn\" is not known here; write at, every, when"));
+    EXPECT_TRUE(mistake("expect Gripp")
+                    .starts_with("\"Gripp\" is not known; write one of Start, Guard, Grip, Lamp, IN0"));
+}
+
+TEST(ScenarioParser, StepNamesNeedAProgramThatHasThem) {
+    const auto parsed = parse_scenario("expect step = Idle", "x.scn", Names{});
+    ASSERT_EQ(parsed.mistakes.size(), 1U);
+    EXPECT_EQ(parsed.mistakes[0].message,
+              "\"Idle\": this program has no step names; write the step's number");
+}
+
+TEST(ScenarioParser, EveryLineIsJudgedAndCounted) {
+    const auto parsed = parse("at x\r\n\r\nStart := 1\r\nfoo\n");
+    ASSERT_EQ(parsed.mistakes.size(), 2U);
+    EXPECT_EQ(parsed.mistakes[0].line, 1);
+    EXPECT_EQ(parsed.mistakes[1].line, 4);
+}
+
+TEST(ScenarioParser, LookingBeyondTheEndIsAMistake) {
+    const auto parsed = parse("expect at 12 s Grip\nend at 10 s");
+    ASSERT_EQ(parsed.mistakes.size(), 1U);
+    EXPECT_EQ(parsed.mistakes[0].line, 1);
+    EXPECT_EQ(parsed.mistakes[0].message,
+              "this looks at 12 s, but the scenario ends at 10 s; move one of the two");
+}
+
+TEST(ScenarioParser, TwoEndsAreAMistake) {
+    const auto parsed = parse("end at 10 s\nend at 11 s");
+    ASSERT_EQ(parsed.mistakes.size(), 1U);
+    EXPECT_EQ(parsed.mistakes[0].line, 2);
+}
+
+TEST(ScenarioParser, AnyBytesAreSurvived) {
+    std::uint32_t random = 12345;
+    constexpr std::string_view kPieces[] = {"at ", "1 s ",  "when ",   "IN0 ", ":= ",   "1 ",    "\"",
+                                            "(",   "16#F ", "expect ", "and ", "+- ",   "line ", "%",
+                                            "\n",  "\x01",  "P_IST ",  "=",    "drop ", "after "};
+    for (int round = 0; round < 2000; ++round) {
+        std::string text;
+        for (int i = 0; i < 12; ++i) {
+            random = random * 1664525U + 1013904223U;
+            text += kPieces[(random >> 16) % std::size(kPieces)];
+            if ((random >> 8) % 16 == 0) text += static_cast<char>(random >> 24);
+        }
+        parse(text);
+    }
+}
+
+}  // namespace
+}  // namespace nplc::sim

@@ -1,0 +1,257 @@
+#include "sim/scenario_runner.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace nplc::sim {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A machine without any behaviour: the test says what its values are.
+class Bench final : public Stage {
+  public:
+    explicit Bench(const std::string& text)
+        : parsed_(parse_scenario(text, "x.scn", names_)), runner_(parsed_.scenario, names_, *this) {
+        for (const Mistake& mistake : parsed_.mistakes)
+            ADD_FAILURE() << mistake.line << ": " << mistake.message;
+    }
+
+    /// Goes on to `time`, from 0 at first, stopping at what the scenario planned.
+    void run_to(Time time) {
+        if (!std::exchange(begun_, true)) run_to(Time(0));
+        while (true) {
+            const auto due = runner_.next_due();
+            const Time next = due && *due < time ? *due : time;
+            s.time = next;
+            while (runner_.observe(s)) s.orders.clear();
+            s.orders.clear();
+            if (next == time) return;
+        }
+    }
+
+    bool passes() {
+        runner_.finish(s);
+        return runner_.failures() == 0;
+    }
+    std::string seen() const { return runner_.outcomes().front().seen; }
+    bool ended() const { return runner_.ended(); }
+
+    void set_input(unsigned index, bool level) override {
+        s.inputs = static_cast<std::uint8_t>(level ? s.inputs | 1U << index : s.inputs & ~(1U << index));
+        did("IN" + std::to_string(index) + "=" + std::to_string(static_cast<int>(level)));
+    }
+    void toggle_input(unsigned index) override { set_input(index, (s.inputs >> index & 1) == 0); }
+    void cut_line(bool cut) override { did(cut ? "cut" : "restored"); }
+    void spoil_line(const action::SpoilLine& faults) override {
+        did("drop " + std::to_string(static_cast<int>(100 * faults.drop.value_or(-1))));
+    }
+    void seed(std::uint64_t value) override { did("seed " + std::to_string(value)); }
+    void fail_motor() override { did("error"); }
+    void load_motor(int torque) override { did("load " + std::to_string(torque)); }
+    void power_motor(bool on) override { did(on ? "on" : "off"); }
+    void gateway(action::Gateway what) override { did("gateway " + std::to_string(static_cast<int>(what))); }
+    void log(const std::string& text) override { did(text); }
+
+    std::vector<std::string> done;  ///< `milliseconds: action`
+    Snapshot s;
+
+  private:
+    void did(const std::string& what) { done.push_back(std::to_string(s.time / 1ms) + ": " + what); }
+
+    bool begun_ = false;
+    Names names_;
+    ParsedScenario parsed_;
+    ScenarioRunner runner_;
+};
+
+using Done = std::vector<std::string>;
+
+TEST(ScenarioRunner, ActsAtItsTimes) {
+    Bench bench(
+        "seed 7\nat 20 ms IN1 := 1, after 5 ms IN1 := 0\nat 10 ms pulse IN0 30 ms\nat 50 ms line cut");
+    bench.run_to(100ms);
+    EXPECT_EQ(bench.done, (Done{"0: seed 7", "10: IN0=1", "20: IN1=1", "25: IN1=0", "40: IN0=0", "50: cut"}));
+}
+
+TEST(ScenarioRunner, EveryRepeatsFromAndUntil) {
+    Bench bench("every 10 ms from 15 ms until 40 ms toggle IN0");
+    bench.run_to(100ms);
+    EXPECT_EQ(bench.done, (Done{"15: IN0=1", "25: IN0=0", "35: IN0=1"}));
+}
+
+TEST(ScenarioRunner, WhenActsEachTimeAndOnceOnlyOnce) {
+    Bench bench("when OUT0 rises after 10 ms log \"each\"\nonce OUT0 rises log \"once\"");
+    bench.run_to(5ms);
+    for (int i = 0; i < 2; ++i) {
+        bench.s.outputs = 1;
+        bench.run_to(bench.s.time + 5ms);
+        bench.s.outputs = 0;
+        bench.run_to(bench.s.time + 20ms);
+    }
+    EXPECT_EQ(bench.done, (Done{"10: once", "20: each", "45: each"}));
+}
+
+TEST(ScenarioRunner, AConditionTrueFromTheStartCountsButDoesNotRise) {
+    Bench bench("when not OUT0 log \"is\"\nwhen not OUT0 rises log \"rises\"");
+    bench.run_to(5ms);
+    EXPECT_EQ(bench.done, (Done{"0: is"}));
+}
+
+TEST(ScenarioRunner, OrdersAreMoments) {
+    Bench bench("when ordered \"position( p2 )\" log \"go\"");
+    bench.run_to(1ms);
+    bench.s.orders = {{.command = 0x41}};
+    bench.run_to(2ms);
+    bench.s.orders = {{.command = 0x41}};
+    bench.run_to(3ms);
+    EXPECT_EQ(bench.done, (Done{"2: go", "3: go"}));
+}
+
+TEST(ScenarioRunner, RulesThatSetEachOtherOffAreStopped) {
+    Bench bench("when IN0 rises IN0 := 0\nwhen IN0 falls IN0 := 1\nat 1 ms IN0 := 1");
+    try {
+        bench.run_to(2ms);
+        FAIL() << "no EndlessRules";
+    } catch (const EndlessRules& error) {
+        EXPECT_TRUE(std::string(error.what()).starts_with("x.scn:")) << error.what();
+    }
+}
+
+TEST(ScenarioRunner, EndsAtItsTimeAndOnItsCondition) {
+    Bench by_time("end at 10 ms");
+    by_time.run_to(9ms);
+    EXPECT_FALSE(by_time.ended());
+    by_time.run_to(10ms);
+    EXPECT_TRUE(by_time.ended());
+    Bench by_condition("end when step = 3 after 2 ms");
+    by_condition.s.step = 3;
+    by_condition.run_to(1ms);
+    EXPECT_FALSE(by_condition.ended());
+    by_condition.run_to(2ms);
+    EXPECT_TRUE(by_condition.ended());
+}
+
+TEST(ScenarioRunner, ExpectAtATime) {
+    Bench good("expect at 10 ms step = 3");
+    good.s.step = 3;
+    good.run_to(10ms);
+    good.s.step = 4;
+    good.run_to(20ms);
+    EXPECT_TRUE(good.passes());
+    Bench bad("expect at 10 ms step = 3 and OUT1");
+    bad.run_to(20ms);
+    EXPECT_FALSE(bad.passes());
+    EXPECT_EQ(bad.seen(), "at 10.000 ms step = 0, OUT1 = 0");
+}
+
+TEST(ScenarioRunner, ExpectAtTheEnd) {
+    Bench good("expect P_IST = 100 +- 2");
+    good.s.p_ist = 102;
+    good.run_to(10ms);
+    EXPECT_TRUE(good.passes());
+    Bench bad("expect P_IST = 100 +- 2");
+    bad.s.p_ist = 103;
+    bad.run_to(10ms);
+    EXPECT_FALSE(bad.passes());
+}
+
+TEST(ScenarioRunner, ARunThatEndsTooEarlyFails) {
+    Bench bench("expect at 10 ms not OUT0");
+    bench.run_to(9ms);
+    EXPECT_FALSE(bench.passes());
+    EXPECT_EQ(bench.seen(), "the run ended at 9.000 ms, before that time");
+}
+
+TEST(ScenarioRunner, NeverAndAlways) {
+    Bench good("never OUT0 and OUT1\nalways not ERROR until 5 ms");
+    good.s.outputs = 2;
+    good.run_to(5ms);
+    good.s.error = true;
+    good.run_to(10ms);
+    EXPECT_TRUE(good.passes());
+    Bench bad("never OUT0 and OUT1");
+    bad.run_to(5ms);
+    bad.s.outputs = 3;
+    bad.run_to(6ms);
+    bad.s.outputs = 0;
+    bad.run_to(10ms);
+    EXPECT_FALSE(bad.passes());
+    EXPECT_EQ(bad.seen(), "at 6.000 ms OUT0 = 1, OUT1 = 1");
+}
+
+TEST(ScenarioRunner, EventuallyAndBy) {
+    Bench good("expect eventually OUT0");
+    good.run_to(5ms);
+    good.s.outputs = 1;
+    good.run_to(6ms);
+    good.s.outputs = 0;
+    good.run_to(9ms);
+    EXPECT_TRUE(good.passes());
+    Bench late("expect OUT0 by 5 ms");
+    late.run_to(6ms);
+    late.s.outputs = 1;
+    late.run_to(9ms);
+    EXPECT_FALSE(late.passes());
+}
+
+TEST(ScenarioRunner, WithinATimeAfterAnEvent) {
+    constexpr const char* kText = "expect OUT1 within 20 ms after IN0 rises\nat 10 ms IN0 := 1";
+    Bench good(kText);
+    good.run_to(30ms);
+    good.s.outputs = 2;
+    good.run_to(30ms);
+    EXPECT_FALSE(good.passes()) << "at the limit it was still 0";
+    Bench in_time(kText);
+    in_time.run_to(29ms);
+    in_time.s.outputs = 2;
+    in_time.run_to(60ms);
+    EXPECT_TRUE(in_time.passes());
+    Bench too_late(kText);
+    too_late.run_to(31ms);
+    too_late.s.outputs = 2;
+    too_late.run_to(60ms);
+    EXPECT_FALSE(too_late.passes());
+    EXPECT_EQ(too_late.seen(), "at 30.000 ms OUT1 = 0, 20 ms after IN0 rises (10.000 ms)");
+    Bench never("expect OUT1 within 20 ms after IN1 rises");
+    never.run_to(60ms);
+    EXPECT_FALSE(never.passes());
+}
+
+TEST(ScenarioRunner, ATimeAfterAnEvent) {
+    Bench good("expect OUT1 20 ms after IN0 rises\nat 10 ms IN0 := 1");
+    good.run_to(29ms);
+    good.s.outputs = 2;
+    good.run_to(60ms);
+    EXPECT_TRUE(good.passes());
+    Bench bad("expect OUT1 20 ms after IN0 rises\nat 10 ms IN0 := 1");
+    bad.s.outputs = 2;
+    bad.run_to(29ms);
+    bad.s.outputs = 0;
+    bad.run_to(60ms);
+    EXPECT_FALSE(bad.passes());
+}
+
+TEST(ScenarioRunner, CountsEvents) {
+    const auto passes = [](const std::string& text) {
+        Bench bench("every 10 ms toggle IN0\n" + text);
+        bench.run_to(55ms);  // rises at 10, 30, 50 ms
+        return bench.passes();
+    };
+    EXPECT_TRUE(passes("expect IN0 rises 3 times"));
+    EXPECT_FALSE(passes("expect IN0 rises 2 times"));
+    EXPECT_FALSE(passes("expect IN0 rises 4 times"));
+    EXPECT_TRUE(passes("expect IN0 rises 2 times by 45 ms"));
+    EXPECT_TRUE(passes("expect IN0 falls at least 2 times"));
+    EXPECT_TRUE(passes("expect IN0 falls at most 2 times"));
+    EXPECT_FALSE(passes("expect IN0 falls at most 1 times"));
+    EXPECT_TRUE(passes("expect INPUTS changes 5 times"));
+    EXPECT_TRUE(passes("expect IN1 rises 0 times"));
+    EXPECT_FALSE(passes("expect IN1 rises"));
+}
+
+}  // namespace
+}  // namespace nplc::sim
