@@ -188,6 +188,24 @@ TEST(Diagnostics, ColumnsCountCharacters) {
     EXPECT_EQ(position_of(source, static_cast<std::uint32_t>(source.find("MOTR"))).column, 20U);
 }
 
+TEST(Diagnostics, MisspeltWordsAreGuessed) {
+    const auto help = [](const std::string& source) {
+        const Compilation result = compile(source);
+        EXPECT_EQ(result.diagnostics.size(), 1U) << test::shown(result, source);
+        return result.diagnostics.empty() ? std::string() : result.diagnostics[0].help;
+    };
+    EXPECT_EQ(help(in_branch("NXT := Other;")),
+              "only constants can be written; another step is named with NEXT := Name;");
+    EXPECT_EQ(help(in_branch("W := TRUE;")),
+              "an output belongs to its step: OUT Name; or OUT Name WHEN condition;");
+    EXPECT_EQ(help(in_branch("V_SOL := 5;")), "did you mean 'V_SOLL'?");
+    EXPECT_EQ(help(in_branch("COUNTDOWN;")), "did you mean 'COUNT_DOWN'?");
+    EXPECT_EQ(help(in_branch("POSITON(P1);")), "did you mean 'POSITION'?");
+    EXPECT_EQ(help(steps("IF IMPOS THEN NEXT := Other; END_IF")), "did you mean 'INPOS'?");
+    EXPECT_EQ(help(steps("IF A THEN NEXT := Ohter; END_IF")), "did you mean 'Other'?");
+    EXPECT_EQ(help(motor("VAR_MOTOR v AT V1 := 5 mm/s; END_VAR")), "use rpm or rev/s");
+}
+
 TEST(Diagnostics, OverlapShowsTheInputs) {
     const std::string source =
         steps("IF A AND NOT C THEN NEXT := Other; END_IF\nIF B THEN NEXT := Fault; END_IF");

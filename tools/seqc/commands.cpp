@@ -83,7 +83,7 @@ const NamedCommand* find_command(std::string_view name) {
 }
 
 std::vector<std::string_view> command_names() {
-    std::vector<std::string_view> names = {"USE_SET"};
+    std::vector<std::string_view> names = {"USE_SET", "COUNT_DOWN", "CLEAR_COUNTER"};
     for (const auto& mode : kModeNames) names.push_back(mode.first);
     for (const NamedCommand& command : kCommands) {
         if (command.refusal.empty()) names.push_back(command.name);
