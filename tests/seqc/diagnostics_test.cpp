@@ -206,6 +206,23 @@ TEST(Diagnostics, MisspeltWordsAreGuessed) {
     EXPECT_EQ(help(motor("VAR_MOTOR v AT V1 := 5 mm/s; END_VAR")), "use rpm or rev/s");
 }
 
+TEST(Diagnostics, ACommandOfAnEntryIsPointedAt) {
+    const std::string source = test::program(
+        "STEP S: IF TIMER.Q AND A THEN NEXT := Other; ELSIF A THEN NEXT := T; END_IF END_STEP\n"
+        "STEP T: ENTRY STOP; IF A THEN NEXT := Other; END_IF END_STEP");
+    const Compilation result = compile(source);
+    ASSERT_EQ(test::codes(result), "E071") << test::shown(result, source);
+    EXPECT_EQ(source.substr(result.diagnostics[0].span.offset, 9), "NEXT := T");
+    ASSERT_EQ(result.diagnostics[0].notes.size(), 1U);
+    EXPECT_EQ(source.substr(result.diagnostics[0].notes[0].span.offset, 4), "STOP");
+}
+
+TEST(Diagnostics, TimerAndCounterConflictIsOneMessage) {
+    const std::string source =
+        steps("IF TIMER.Q THEN STOP; NEXT := Other; ELSIF COUNTER.Q THEN HOME; NEXT := Other; END_IF");
+    EXPECT_EQ(test::codes(compile(source)), "E071") << test::shown(compile(source), source);
+}
+
 TEST(Diagnostics, OverlapShowsTheInputs) {
     const std::string source =
         steps("IF A AND NOT C THEN NEXT := Other; END_IF\nIF B THEN NEXT := Fault; END_IF");

@@ -193,15 +193,29 @@ class Lowering {
         Effect& overridden = effect(index);
         if (!overridden.cannot_be_undone() || overridden.reported) return;
         overridden.reported = true;
-        const char* zero = layer == kTimer     ? "timer"
-                           : layer == kCounter ? "counter"
-                                               : "timer and the counter";
-        report_.error("E071", overridden.span,
-                      std::string("this needs to know that the ") + zero +
-                          " has not run down, which a table cannot test",
-                      "test TIMER.Q or COUNTER.Q without NOT and in the branch that comes first, or go to a "
-                      "step of its "
-                      "own that waits; only NEXT and outputs can depend on a timer that still runs");
+        failed_ = true;
+        const char* zero = layer == kTimer     ? "timer has"
+                           : layer == kCounter ? "counter has"
+                                               : "timer and the counter have";
+        note_entry(
+            report_.error("E071", overridden.span,
+                          std::string("this needs to know that the ") + zero +
+                              " not run down, which a table cannot test",
+                          "test TIMER.Q or COUNTER.Q without NOT and in the branch that comes first, or go "
+                          "to a step of "
+                          "its own that waits; only NEXT and outputs can depend on a timer that still runs"),
+            overridden);
+    }
+
+    /// What cannot be undone may stand in the ENTRY of the step that is entered.
+    static void note_entry(Diagnostic& diagnostic, const Effect& effect) {
+        for (const Send& send : effect.action->sends) {
+            const bool own = send.span.offset >= effect.span.offset &&
+                             send.span.offset < effect.span.offset + effect.span.length;
+            if (own) continue;
+            diagnostic.notes.push_back({send.span, "it sends this, from the ENTRY of the step it goes to"});
+            return;
+        }
     }
 
     void place(int index, Cube cube, bool error, std::size_t layer) {
@@ -220,12 +234,13 @@ class Lowering {
     }
 
     void report_twice(int index) {
-        if (effect(index).reported) return;
-        effect(index).reported = true;
-        report_.error("E072", effect(index).span,
-                      "when TIMER.Q and COUNTER.Q hold together, this would be sent twice",
-                      "a table cannot test that a timer still runs: use two steps, or send it where only one "
-                      "of them counts");
+        if (failed_) return;
+        failed_ = true;
+        Diagnostic& diagnostic = report_.error(
+            "E072", effect(index).span, "when TIMER.Q and COUNTER.Q hold together, this would be sent twice",
+            "a table cannot test that a timer still runs: use two steps, or send it where only one "
+            "of them counts");
+        note_entry(diagnostic, effect(index));
     }
 
     using Owners = std::array<int, kCases>;
@@ -234,6 +249,7 @@ class Lowering {
     Effects effects_;
     bool overriding_;
     Report& report_;
+    bool failed_ = false;
     std::vector<Placed> placed_;
     Owners owner_{};
 };
