@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 
@@ -41,14 +40,6 @@ class PreparedTable {
         return static_cast<std::uint32_t>(state.step * kKeys + key_of(0, state));
     }
 
-    /// What every term of a step asks for, so that most scans end with one comparison.
-    struct Filter {
-        Key care = 0;
-        Key want = 0;
-        bool stops(std::uint32_t key) const { return ((key ^ want) & care) != 0; }
-    };
-    const Filter& filter(std::uint8_t step) const { return filters_[step]; }
-
     /// What a scan in a state of `row` does; null if nothing. Only after a prepare() that did not fail.
     const Action* find(std::uint32_t row, InputImage image) const {
         const std::uint16_t index = storage_.cells[row + image];
@@ -63,7 +54,6 @@ class PreparedTable {
     static constexpr std::size_t kNothing = 0;  ///< index of the action that all steps share
 
     Storage storage_;
-    std::array<Filter, 64> filters_{};
     std::size_t actions_used_ = 0;
     std::size_t orders_used_ = 0;
 };
@@ -71,26 +61,24 @@ class PreparedTable {
 /// Engine's scan on a PreparedTable; the same state, effects and orders.
 class PreparedEngine {
   public:
-    /// `table` must be prepared already.
-    explicit PreparedEngine(const PreparedTable& table) : table_(&table) { reset(); }
+    explicit PreparedEngine(const PreparedTable& table) : table_(&table) {}
 
     void reset() { restore({}); }
 
     /// Goes on from `state` (step 0..62).
     void restore(const State& state) {
         state_ = state;
-        find_row();
+        row_ = PreparedTable::row_of(state);
     }
     const State& state() const { return state_; }
 
     template <class Sink>
     ScanEffect scan(InputImage image, Sink&& sink) {
-        if (filter_.stops(row_ | image)) return {};
         const PreparedTable::Action* action = table_->find(row_, image);
         if (action == nullptr) return {};
         for (const MotorOrder& order : table_->orders(*action)) sink(order);
         const bool changed = apply(action->pending, state_);
-        find_row();
+        row_ = PreparedTable::row_of(state_);
         return {.changed = changed,
                 .sent = action->order_count != 0,
                 .timer_preset = action->pending.timer_preset != 0};
@@ -99,19 +87,13 @@ class PreparedEngine {
     void elapse(std::uint32_t milliseconds) {
         if (state_.timer == 0) return;
         sequencer::elapse(state_, milliseconds);
-        if (state_.timer == 0) find_row();
+        if (state_.timer == 0) row_ = PreparedTable::row_of(state_);
     }
 
   private:
-    void find_row() {
-        row_ = PreparedTable::row_of(state_);
-        filter_ = table_->filter(state_.step);
-    }
-
     const PreparedTable* table_;
     State state_;
-    PreparedTable::Filter filter_;  ///< of state_, like row_; kept, not worked out in each scan
-    std::uint32_t row_ = 0;
+    std::uint32_t row_ = PreparedTable::row_of(State{});  ///< of state_; kept, not worked out in each scan
 };
 
 }  // namespace nplc::sequencer
