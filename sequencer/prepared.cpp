@@ -33,6 +33,24 @@ struct PreparedTable::Fill {
         }
     }
 
+    /// The ten bits as a term wants them.
+    static Filter filter_of(TermView term) {
+        const unsigned zeros =
+            ((term[0] & 0x80U) == 0 ? 0x100U : 0U) | ((term[0] & 0x40U) == 0 ? 0x200U : 0U);
+        const unsigned care = (term[2] & 0x7FU) | kError | zeros;
+        return {.care = static_cast<Key>(care), .want = static_cast<Key>((term[1] | zeros) & care)};
+    }
+
+    Filter common_filter() const {
+        if (own_count == 0) return {};
+        Filter common = filter_of(table.term(own[0]));
+        for (std::size_t i = 1; i != own_count; ++i) {
+            const Filter other = filter_of(table.term(own[i]));
+            common.care = static_cast<Key>(common.care & other.care & ~(common.want ^ other.want));
+        }
+        return common;
+    }
+
     Action outcome(Key key) const {
         Action action;
         each_true(key, [&](TermView term) {
@@ -91,6 +109,7 @@ base::Status PreparedTable::prepare(const Table& table, const Storage& storage) 
     fill.actions = 1;
     for (std::uint8_t step = 0; step <= kLastStep; ++step) {
         if (!fill.fill_step(step)) return base::Error::no_space;
+        filters_[step] = fill.common_filter();
     }
     storage_ = storage;
     actions_used_ = fill.actions;

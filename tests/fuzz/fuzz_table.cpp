@@ -1,54 +1,106 @@
-// Any bytes are a table or are refused with a term's number. An accepted table runs without leaving its
-// bounds; what follows its end term serves as inputs.
-
+// Any bytes as a sequence table; the input's first 32 bytes are HW_INP and pauses. Engine, its halting form,
+// the prepared form and explain() must agree, and the state must stay in its bounds.
+#include <cstdint>
 #include <cstdlib>
+#include <span>
+#include <vector>
 
 #include "sequencer/engine.h"
-
-using namespace nplc;
+#include "sequencer/explain.h"
+#include "sequencer/prepared.h"
 
 namespace {
+
+using namespace nplc::sequencer;
+using Orders = std::vector<MotorOrder>;
+
+constexpr std::size_t kStimulusBytes = 32;
 
 void require(bool holds) {
     if (!holds) std::abort();
 }
 
-void check_order(const sequencer::MotorOrder& order) {
-    if (order.is_flex) {
-        require(order.reg >= 1 && order.reg <= 127);
-    } else {
-        require(order.command <= 0x7F);
-    }
+struct Room {
+    std::vector<std::uint16_t> cells = std::vector<std::uint16_t>(PreparedTable::kCells);
+    std::vector<PreparedTable::Action> actions =
+        std::vector<PreparedTable::Action>(PreparedTable::kMaxActions);
+    std::vector<MotorOrder> orders = std::vector<MotorOrder>(1U << 16);
+};
+
+void require_bounds(const State& state) {
+    require(state.step <= kLastStep && state.outputs <= 0x0F);
 }
 
-void run(const sequencer::Table& table, std::span<const std::uint8_t> inputs) {
-    sequencer::Engine engine(table);
-    for (const std::uint8_t image : inputs) {
-        std::size_t orders = 0;
-        engine.scan(image, [&](const sequencer::MotorOrder& order) {
-            check_order(order);
-            ++orders;
-        });
-        require(orders <= table.size());
-        require(engine.state().step <= sequencer::kLastStep);
-        require(engine.state().outputs <= 0x0F);
-        engine.elapse(image);
-    }
+void require_fault_in_range(const TableFault& fault, std::size_t bytes) {
+    require(fault.term <= kMaxTerms && fault.term <= bytes / kTermBytes);
+    require(!describe(fault.error).empty());
 }
+
+bool any_fires(const Table& table, const State& state, InputImage image) {
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        if (explain(table.term(i), state, image).fires()) return true;
+    }
+    return false;
+}
+
+class Run {
+  public:
+    explicit Run(const Table& table) : table_(table), whole_(table), halting_(table) {}
+
+    void step(InputImage image, std::uint8_t ms, PreparedEngine* prepared) {
+        const State before = whole_.state();
+        const bool fires = any_fires(table_, before, image);
+        Orders sent;
+        const auto keep = [](Orders& to) { return [&to](const MotorOrder& order) { to.push_back(order); }; };
+        const ScanEffect effect = whole_.scan(image, keep(sent));
+        require(fires || !effect.any());
+        require_bounds(whole_.state());
+
+        Orders one_by_one;
+        halting_.begin(image);
+        while (const auto order = halting_.next()) one_by_one.push_back(*order);
+        require(halting_.finish().any() == effect.any());
+        require(one_by_one == sent && halting_.state() == whole_.state());
+        require(effect.sent == !sent.empty() && sent.size() <= table_.size());
+
+        if (prepared != nullptr) {
+            Orders again;
+            require(prepared->scan(image, keep(again)).any() == effect.any());
+            require(again == sent && prepared->state() == whole_.state());
+            prepared->elapse(ms);
+        }
+        if (!effect.any()) require(whole_.state() == before);
+        whole_.elapse(ms);
+        halting_.elapse(ms);
+    }
+
+  private:
+    const Table& table_;
+    Engine whole_;
+    Engine halting_;
+};
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    const std::span<const std::uint8_t> bytes(data, size);
-    const auto loaded = sequencer::Table::load(bytes);
+    if (size < kStimulusBytes) return 0;
+    const std::span<const std::uint8_t> input(data, size);
+    const auto stimulus = input.first<kStimulusBytes>();
+    const auto bytes = input.subspan(kStimulusBytes);
+    const auto loaded = Table::load(bytes);
     if (!loaded.ok) {
-        require(loaded.fault.term <= sequencer::kMaxTerms);
-        require(!sequencer::describe(loaded.fault.error).empty());
+        require_fault_in_range(loaded.fault, bytes.size());
         return 0;
     }
-    require(loaded.table.size() <= sequencer::kMaxTerms);
-    const std::size_t used = (loaded.table.size() + 1) * sequencer::kTermBytes;
-    require(used <= size);
-    run(loaded.table, bytes.subspan(used));
+    static Room room;
+    PreparedTable prepared;
+    // Not every input: filling 64,512 cells costs more than all the scans.
+    const bool prepares =
+        stimulus[0] % 8 == 0 && prepared.prepare(loaded.table, {room.cells, room.actions, room.orders}).ok();
+    PreparedEngine prepared_engine(prepared);
+    Run run(loaded.table);
+    for (std::size_t i = 0; i < stimulus.size(); ++i) {
+        run.step(stimulus[i], stimulus[(i + 1) % stimulus.size()], prepares ? &prepared_engine : nullptr);
+    }
     return 0;
 }

@@ -129,19 +129,11 @@ class Duel {
         note(expected);
         if (std::string difference = check_explain(); !difference.empty()) return difference;
 
-        // A third of the scans halt between orders for up to 3 ms each, as a full queue makes them do.
         std::uint32_t halted_ms = 0;
-        const bool halts = dice_.one_in(3);
         Orders orders;
-        engine_.begin(image_);
-        while (const auto order = engine_.next()) {
-            orders.push_back(*order);
-            if (!halts) continue;
-            const std::uint32_t ms = dice_.below(4);
-            engine_.elapse(ms);
-            halted_ms += ms;
-        }
-        const ScanEffect effect = engine_.finish();
+        const ScanEffect effect =
+            dice_.one_in(2) ? engine_.scan(image_, [&](const MotorOrder& order) { orders.push_back(order); })
+                            : halting_scan(orders, halted_ms);
         if (!naive_.timer_was_preset) naive_.adjust_timer(halted_ms);
         if (!same(orders, expected)) return "orders of Engine";
         if (!same(engine_.state(), naive_)) return "state of Engine after the scan";
@@ -153,6 +145,20 @@ class Duel {
         if (prepared_) prepared_->elapse(ms);
         naive_.adjust_timer(ms);
         return same(engine_.state(), naive_) ? "" : "state after the time that passed";
+    }
+
+    /// The scan in its single steps; a third of them halt between orders for up to 3 ms each, as a full queue
+    /// makes them do.
+    ScanEffect halting_scan(Orders& orders, std::uint32_t& halted_ms) {
+        const bool halts = dice_.one_in(3);
+        engine_.begin(image_);
+        while (const auto order = engine_.next()) {
+            orders.push_back(*order);
+            const std::uint32_t ms = halts ? dice_.below(4) : 0;
+            engine_.elapse(ms);
+            halted_ms += ms;
+        }
+        return engine_.finish();
     }
 
     void note(const std::vector<naive::Order>& expected) {

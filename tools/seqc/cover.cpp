@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <utility>
 
 namespace nplc::seqc {
 namespace {
 
 constexpr std::size_t kVariables = 7;
-constexpr int kSearchBound = 20'000;
+constexpr int kSearchBound = 2'000;
 
 std::vector<Points> make_cubes() {
     std::vector<Points> cubes(kPoints * kPoints);
@@ -63,70 +64,73 @@ std::vector<Cube> primes_of(const Points& need, const Points& allowed) {
 
 class CoverSearch {
   public:
-    CoverSearch(const Points& need, std::vector<Cube> primes) : need_(need), primes_(std::move(primes)) {}
+    CoverSearch(const Points& need, std::vector<Cube> primes) : need_(need), primes_(std::move(primes)) {
+        for (Cube prime : primes_) useful_.push_back(points_of(prime) & need);
+        for (std::size_t point = 0; point < kPoints; ++point) {
+            if (!need.test(point)) continue;
+            for (std::size_t i = 0; i < primes_.size(); ++i) {
+                if (useful_[i].test(point)) choices_[point].push_back(i);
+            }
+        }
+    }
 
     std::vector<Cube> run() {
         best_ = greedy();
-        std::vector<Cube> chosen;
+        std::vector<std::size_t> chosen;
         search(need_, chosen);
-        return best_;
+        std::vector<Cube> cubes;
+        for (std::size_t i : best_) cubes.push_back(primes_[i]);
+        return cubes;
     }
 
   private:
-    std::vector<Cube> greedy() const {
-        std::vector<Cube> chosen;
-        Points open = need_;
-        while (open.any()) {
-            const auto widest = std::max_element(primes_.begin(), primes_.end(), [&](Cube a, Cube b) {
-                return (points_of(a) & open).count() < (points_of(b) & open).count();
-            });
-            chosen.push_back(*widest);
-            open &= ~points_of(*widest);
+    /// The prime that holds most open points, and how many.
+    std::pair<std::size_t, std::size_t> widest(const Points& open) const {
+        std::pair<std::size_t, std::size_t> best = {0, 0};
+        for (std::size_t i = 0; i < useful_.size(); ++i) {
+            const std::size_t count = (useful_[i] & open).count();
+            if (count > best.second) best = {i, count};
         }
+        return best;
+    }
+
+    std::vector<std::size_t> greedy() const {
+        std::vector<std::size_t> chosen;
+        for (Points open = need_; open.any(); open &= ~useful_[chosen.back()])
+            chosen.push_back(widest(open).first);
         return chosen;
     }
 
-    std::vector<Cube> choices_for(std::size_t point) const {
-        std::vector<Cube> choices;
-        for (Cube prime : primes_) {
-            if (points_of(prime).test(point)) choices.push_back(prime);
-        }
-        return choices;
-    }
-
-    std::vector<Cube> hardest_point(const Points& open) const {
-        std::vector<Cube> hardest;
+    /// The open point with the fewest primes to choose from.
+    std::size_t hardest_point(const Points& open) const {
+        std::size_t hardest = kPoints;
         for (std::size_t point = 0; point < kPoints; ++point) {
             if (!open.test(point)) continue;
-            std::vector<Cube> choices = choices_for(point);
-            if (hardest.empty() || choices.size() < hardest.size()) hardest = std::move(choices);
-            if (hardest.size() == 1) break;
+            if (hardest == kPoints || choices_[point].size() < choices_[hardest].size()) hardest = point;
         }
         return hardest;
     }
 
-    std::size_t at_least(const Points& open) const {
-        std::size_t widest = 1;
-        for (Cube prime : primes_) widest = std::max(widest, (points_of(prime) & open).count());
-        return (open.count() + widest - 1) / widest;
-    }
-
-    void search(const Points& open, std::vector<Cube>& chosen) {
+    void search(const Points& open, std::vector<std::size_t>& chosen) {
         if (open.none()) {
             if (chosen.size() < best_.size()) best_ = chosen;
             return;
         }
-        if (++steps_ > kSearchBound || chosen.size() + at_least(open) >= best_.size()) return;
-        for (Cube choice : hardest_point(open)) {
+        if (++steps_ > kSearchBound) return;
+        const std::size_t most = widest(open).second;
+        if (chosen.size() + (open.count() + most - 1) / most >= best_.size()) return;
+        for (std::size_t choice : choices_[hardest_point(open)]) {
             chosen.push_back(choice);
-            search(open & ~points_of(choice), chosen);
+            search(open & ~useful_[choice], chosen);
             chosen.pop_back();
         }
     }
 
     Points need_;
     std::vector<Cube> primes_;
-    std::vector<Cube> best_;
+    std::vector<Points> useful_;
+    std::array<std::vector<std::size_t>, kPoints> choices_;
+    std::vector<std::size_t> best_;
     int steps_ = 0;
 };
 

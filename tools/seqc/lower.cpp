@@ -161,6 +161,8 @@ class Lowering {
         for (std::size_t point = 0; point < kPoints; ++point) {
             const std::size_t c = case_of(point, error, layer);
             if (is_hard(effects_.target[c]) || !is_hard(owner_[c])) continue;
+            const Effect& owner = effect(owner_[c]);
+            if (owner.action == nullptr && owner.outputs == effects_.resting[c]) continue;
             override_owner(owner_[c], layer);
             need[effects_.resting[c]].set(point);
         }

@@ -242,7 +242,10 @@ void Parser::parse_on_error(ast::Program& program) {
 
 void Parser::parse_variables(std::vector<ast::Variable>& variables, bool motor) {
     const Span opened = tokens_[at_ - 1].span;
-    while (!at_block_end("END_VAR") && !at("STEP") && !at("POWER_UP") && !report_.full()) {
+    const auto declares = [&] {
+        return token(1).kind == TokenKind::identifier && same_name(token(1).text, "AT");
+    };
+    while (!at_block_end("END_VAR") && (!at_boundary() || declares()) && !report_.full()) {
         if (take_symbol(";")) continue;
         const std::size_t before = at_;
         parse_variable(variables, motor);

@@ -76,9 +76,22 @@ class Engine {
     /// table order.
     template <class Sink>
     ScanEffect scan(InputImage image, Sink&& sink) {
-        begin(image);
-        while (const auto order = next()) sink(*order);
-        return finish();
+        const Table::Range range = table_->terms_of(state_.step);
+        const Key key = key_of(image, state_);
+        Pending pending;
+        bool sent = false;
+        for (std::uint16_t i = range.begin; i != range.end; ++i) {
+            const TermView term = table_->term(i);
+            if ((term[0] & 0x3F) != state_.step || !is_true(term, key)) continue;
+            const bool is_flex = (term[2] & 0x80) != 0;
+            if (!is_flex) pending.fold(term);
+            if (is_flex || (term[4] & 0x80) == 0) {
+                sent = true;
+                sink(order_of(term));
+            }
+        }
+        const bool changed = apply(pending, state_);
+        return {.changed = changed, .sent = sent, .timer_preset = pending.timer_preset != 0};
     }
 
   private:

@@ -69,6 +69,7 @@ inline bool apply(const Pending& pending, State& state) {
 
 /// Takes `milliseconds` off the timer (item 4).
 inline void elapse(State& state, std::uint32_t milliseconds) {
+    if (state.timer == 0) return;
     state.timer = milliseconds >= state.timer ? std::uint16_t{0}
                                               : static_cast<std::uint16_t>(state.timer - milliseconds);
 }

@@ -1,0 +1,103 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace nplc::seqc {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Cli : public testing::Test {
+  protected:
+    void SetUp() override {
+        std::string name = (fs::temp_directory_path() / "seqc_test_XXXXXX").string();
+        folder_ = mkdtemp(name.data());
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    int run(const std::string& arguments) const {
+        const std::string command =
+            "cd '" + folder_.string() + "' && '" SEQC_PROGRAM "' " + arguments + " >out 2>err";
+        return WEXITSTATUS(std::system(command.c_str()));
+    }
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name) << text;
+    }
+    std::string read(const std::string& name) const {
+        std::stringstream text;
+        text << std::ifstream(folder_ / name, std::ios::binary).rdbuf();
+        return text.str();
+    }
+    bool exists(const std::string& name) const { return fs::exists(folder_ / name); }
+
+    fs::path folder_;
+};
+
+const char* const kGood = "PROGRAM P STEP S: OWN ERROR; END_STEP END_PROGRAM\n";
+
+TEST_F(Cli, BuildsAndTakesApart) {
+    write("a.seq", kGood);
+    EXPECT_EQ(run("build a.seq -o a.bin --listing a.lst"), 0) << read("err");
+    EXPECT_EQ(read("a.bin").size(), 16U);
+    EXPECT_NE(read("a.lst").find("C0 00 00 01 80 00 00 00"), std::string::npos);
+    EXPECT_EQ(run("disasm a.bin -o b.seq"), 0) << read("err");
+    EXPECT_EQ(run("build b.seq"), 0) << read("err");
+    EXPECT_EQ(read("b.bin"), read("a.bin"));
+    EXPECT_EQ(run("disasm a.bin"), 0);
+    EXPECT_EQ(read("out"), read("b.seq").replace(read("b.seq").find("PROGRAM a"), 9, "PROGRAM a"));
+}
+
+TEST_F(Cli, WritesNothingForAProgramWithErrors) {
+    write("a.seq", "PROGRAM P STEP S: OWN ERROR; NEXT := Q; END_STEP END_PROGRAM\n");
+    write("a.bin", "before");
+    EXPECT_EQ(run("build a.seq -o a.bin --listing a.lst"), 1);
+    EXPECT_EQ(read("a.bin"), "before");
+    EXPECT_FALSE(exists("a.lst"));
+    EXPECT_NE(read("err").find("a.seq:1:38: error E021"), std::string::npos) << read("err");
+    EXPECT_EQ(run("check a.seq"), 1);
+}
+
+TEST_F(Cli, CheckWritesNothing) {
+    write("a.seq", kGood);
+    EXPECT_EQ(run("check a.seq"), 0);
+    EXPECT_FALSE(exists("a.bin"));
+}
+
+TEST_F(Cli, FileAndUsageProblemsAreTwo) {
+    write("a.seq", kGood);
+    write("short.bin", "\x3F");
+    EXPECT_EQ(run("build missing.seq -o a.bin"), 2);
+    EXPECT_NE(read("err").find("missing.seq"), std::string::npos);
+    EXPECT_EQ(run("build . -o a.bin"), 2);
+    EXPECT_EQ(run("build a.seq -o no/such/folder/a.bin"), 2);
+    EXPECT_EQ(run("build a.seq -o a.seq"), 2);
+    EXPECT_EQ(read("a.seq"), kGood);
+    EXPECT_EQ(run("build a.seq -o ./x.bin --listing x.bin"), 2);
+    EXPECT_EQ(run("disasm short.bin"), 2);
+    EXPECT_EQ(run("disasm missing.bin"), 2);
+    EXPECT_EQ(run(""), 2);
+    EXPECT_EQ(run("make a.seq"), 2);
+    EXPECT_EQ(run("build"), 2);
+    EXPECT_EQ(run("--help"), 0);
+    EXPECT_NE(read("out").find("Exit codes"), std::string::npos);
+}
+
+TEST_F(Cli, LeavesNoTemporaryFiles) {
+    write("a.seq", kGood);
+    run("build a.seq -o a.bin");
+    run("build a.seq -o no/such/a.bin");
+    for (const auto& entry : fs::directory_iterator(folder_)) EXPECT_NE(entry.path().extension(), ".tmp");
+}
+
+TEST_F(Cli, ADeviceIsWrittenToNotReplaced) {
+    write("a.seq", kGood);
+    EXPECT_EQ(run("build a.seq -o /dev/null"), 0);
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+}  // namespace
+}  // namespace nplc::seqc
