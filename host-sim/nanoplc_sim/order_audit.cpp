@@ -2,19 +2,20 @@
 
 #include <algorithm>
 
-#include "protocol/fastmac.h"
 #include "registers/mac.h"
 
 namespace nplc::sim {
 namespace {
 
+namespace fastmac = protocol::fastmac;
+
 /// Alignment costs the product of both lengths; beyond this only the last orders are compared.
 constexpr std::size_t kMostOrders = 4000;
 
 bool concerns_the_link_only(const SentOrder& order) {
-    using protocol::fastmac::Number;
+    using fastmac::Number;
     if (order.is_register_write) return order.reg == registers::MODE_REG && order.value == 0;
-    const auto command = protocol::fastmac::decode_command(order.command);
+    const auto command = fastmac::decode_command(order.command);
     if (command.mode != protocol::fastmac::Mode::command) return false;
     switch (static_cast<Number>(command.number)) {
         case Number::nop:
@@ -30,8 +31,9 @@ bool concerns_the_link_only(const SentOrder& order) {
     }
 }
 
-SentOrder as_sent(const Order& order) {
-    if (!order.flexmac) return {.command = order.command};
+SentOrder as_sent(const Order& order, fastmac::RegisterCode code) {
+    if (!order.flexmac)
+        return {.command = fastmac::encode_command(fastmac::decode_command(order.command, code))};
     return {.is_register_write = true, .reg = order.reg, .value = order.message.value};
 }
 
@@ -59,11 +61,12 @@ std::vector<std::vector<std::uint16_t>> common_lengths(const std::vector<SentOrd
 
 }  // namespace
 
-OrderAudit audit(const std::vector<SentOrder>& ordered, const std::deque<Order>& executed) {
+OrderAudit audit(const std::vector<SentOrder>& ordered, const std::deque<Order>& executed,
+                 fastmac::RegisterCode code) {
     std::vector<SentOrder> wanted;
     std::vector<SentOrder> done;
     for (const SentOrder& order : ordered) keep(wanted, order);
-    for (const Order& order : executed) keep(done, as_sent(order));
+    for (const Order& order : executed) keep(done, as_sent(order, code));
     cut(wanted);
     cut(done);
     const auto lengths = common_lengths(wanted, done);

@@ -3,6 +3,7 @@
 #include <deque>
 #include <vector>
 
+#include "protocol/fastmac.h"
 #include "sim/fastmac_slave.h"
 #include "sim/snapshot.h"
 
@@ -16,6 +17,8 @@ struct OrderAudit {
     std::vector<SentOrder> unordered;  ///< executed and not ordered
 };
 
-OrderAudit audit(const std::vector<SentOrder>& ordered, const std::deque<Order>& executed);
+/// `code`: the register code that the motor executed its commands by; the sequence's is the format list's.
+OrderAudit audit(const std::vector<SentOrder>& ordered, const std::deque<Order>& executed,
+                 protocol::fastmac::RegisterCode code = protocol::fastmac::RegisterCode::format_list);
 
 }  // namespace nplc::sim

@@ -186,7 +186,10 @@ void Session::summary() const {
 }
 
 void Session::compare_orders() const {
-    const OrderAudit found = audit(ordered_, world_.mac().orders());
+    const OrderAudit found =
+        audit(ordered_, world_.mac().orders(),
+              options_.old_register_codes ? protocol::fastmac::RegisterCode::older_example
+                                          : protocol::fastmac::RegisterCode::format_list);
     if (found.missing.empty() && found.unordered.empty()) {
         fmt::print("the motor executed what was ordered, and nothing else\n");
         return;

@@ -52,6 +52,13 @@ TEST(OrderAudit, ADoubleExecutionIsStrange) {
     EXPECT_EQ(found.unordered, (std::vector<SentOrder>{ordered(kGo)}));
 }
 
+// P2 in position mode: 10 00001 by the format list; P is 11xxx in the example's older code, so 10 11001.
+TEST(OrderAudit, TheOlderCodeIsTheSameOrder) {
+    const auto older = protocol::fastmac::RegisterCode::older_example;
+    EXPECT_TRUE(audit({ordered(0x41)}, {executed(0x59)}, older).missing.empty());
+    EXPECT_FALSE(audit({ordered(0x41)}, {executed(0x41)}, older).missing.empty());
+}
+
 TEST(OrderAudit, AnotherValueIsAnotherOrder) {
     const OrderAudit found =
         audit({{.is_register_write = true, .reg = 65, .value = 300}}, {executed(65, 301)});
