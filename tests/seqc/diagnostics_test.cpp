@@ -188,6 +188,41 @@ TEST(Diagnostics, ColumnsCountCharacters) {
     EXPECT_EQ(position_of(source, static_cast<std::uint32_t>(source.find("MOTR"))).column, 20U);
 }
 
+TEST(Diagnostics, MisspeltWordsAreGuessed) {
+    const auto help = [](const std::string& source) {
+        const Compilation result = compile(source);
+        EXPECT_EQ(result.diagnostics.size(), 1U) << test::shown(result, source);
+        return result.diagnostics.empty() ? std::string() : result.diagnostics[0].help;
+    };
+    EXPECT_EQ(help(in_branch("NXT := Other;")),
+              "only constants can be written; another step is named with NEXT := Name;");
+    EXPECT_EQ(help(in_branch("W := TRUE;")),
+              "an output belongs to its step: OUT Name; or OUT Name WHEN condition;");
+    EXPECT_EQ(help(in_branch("V_SOL := 5;")), "did you mean 'V_SOLL'?");
+    EXPECT_EQ(help(in_branch("COUNTDOWN;")), "did you mean 'COUNT_DOWN'?");
+    EXPECT_EQ(help(in_branch("POSITON(P1);")), "did you mean 'POSITION'?");
+    EXPECT_EQ(help(steps("IF IMPOS THEN NEXT := Other; END_IF")), "did you mean 'INPOS'?");
+    EXPECT_EQ(help(steps("IF A THEN NEXT := Ohter; END_IF")), "did you mean 'Other'?");
+    EXPECT_EQ(help(motor("VAR_MOTOR v AT V1 := 5 mm/s; END_VAR")), "use rpm or rev/s");
+}
+
+TEST(Diagnostics, ACommandOfAnEntryIsPointedAt) {
+    const std::string source = test::program(
+        "STEP S: IF TIMER.Q AND A THEN NEXT := Other; ELSIF A THEN NEXT := T; END_IF END_STEP\n"
+        "STEP T: ENTRY STOP; IF A THEN NEXT := Other; END_IF END_STEP");
+    const Compilation result = compile(source);
+    ASSERT_EQ(test::codes(result), "E071") << test::shown(result, source);
+    EXPECT_EQ(source.substr(result.diagnostics[0].span.offset, 9), "NEXT := T");
+    ASSERT_EQ(result.diagnostics[0].notes.size(), 1U);
+    EXPECT_EQ(source.substr(result.diagnostics[0].notes[0].span.offset, 4), "STOP");
+}
+
+TEST(Diagnostics, TimerAndCounterConflictIsOneMessage) {
+    const std::string source =
+        steps("IF TIMER.Q THEN STOP; NEXT := Other; ELSIF COUNTER.Q THEN HOME; NEXT := Other; END_IF");
+    EXPECT_EQ(test::codes(compile(source)), "E071") << test::shown(compile(source), source);
+}
+
 TEST(Diagnostics, OverlapShowsTheInputs) {
     const std::string source =
         steps("IF A AND NOT C THEN NEXT := Other; END_IF\nIF B THEN NEXT := Fault; END_IF");

@@ -88,6 +88,18 @@ TEST(Lowering, ConditionalOutputsInFewTerms) {
     EXPECT_EQ(terms_for("OUT X WHEN NOT TIMER.Q;"), 2);
 }
 
+TEST(Lowering, OverrideWhereItSavesTerms) {
+    // D first, then A AND B AND C over it: 2. Made exclusive, D would need NOT A, NOT B and NOT C: 4.
+    EXPECT_EQ(terms_for("IF A AND B AND C THEN NEXT := Fault; ELSIF D THEN NEXT := Other; END_IF"), 2);
+    EXPECT_EQ(terms_for("IF A AND B AND C THEN STOP; NEXT := Fault; ELSIF D THEN NEXT := Other; END_IF"), 2);
+    // A command cannot be overridden: D AND NOT (A AND B AND C) stays.
+    EXPECT_EQ(terms_for("IF A AND B AND C THEN NEXT := Fault; ELSIF D THEN STOP; NEXT := Other; END_IF"), 4);
+    // Nothing to save: exclusive products stay exclusive.
+    const std::string source =
+        test::program("STEP S: IF A THEN NEXT := Fault; ELSIF B THEN NEXT := Other; END_IF END_STEP");
+    EXPECT_EQ(test::term_text(compile(source).table, 3), "C1 02 03 02 80 02 00 00");
+}
+
 TEST(Lowering, SameEffectInSeveralBranchesIsOneCondition) {
     EXPECT_EQ(terms_for("IF A THEN NEXT := Other; ELSIF B THEN NEXT := Other; END_IF"), 2);
     EXPECT_EQ(terms_for("IF A THEN STOP; NEXT := Other; END_IF IF NOT A THEN STOP; NEXT := Other; END_IF"),

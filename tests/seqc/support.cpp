@@ -16,8 +16,8 @@ Scan scan(const std::vector<std::uint8_t>& table, int step, unsigned image, bool
         if (!holds) continue;
         char text[40];
         if ((t[2] & 0x80) != 0) {
-            const unsigned low = t[4] | (t[5] << 8U);
-            const unsigned high = t[6] | (t[7] << 8U);
+            const unsigned low = t[4] + 256U * t[5];
+            const unsigned high = t[6] + 256U * t[7];
             std::snprintf(text, sizeof text, "%d=%u%s", t[3] & 0x7F,
                           (t[3] & 0x80) != 0 ? low | (high << 16U) : low, (t[3] & 0x80) != 0 ? "L" : "");
             result.sends.emplace_back(text);

@@ -42,21 +42,19 @@ constexpr std::array kCommands = {
     NamedCommand{"USE_FLEXMAC", Number::use_flexmac, kLink},
 };
 
-/// Where each group's registers stand, and the code of bits 4..0 that selects its first.
+/// Where each group's registers stand.
 struct GroupPlace {
     Group group;
     std::uint8_t first_register;
     std::uint8_t spacing;
     std::uint8_t count;
-    std::uint8_t code;
     char letter;
 };
 
-// The codes are the format list's of 001 §5.2.1.4, not the example's that contradicts it.
 constexpr std::array kGroups = {
-    GroupPlace{Group::p, 49, 2, 8, 0b0'0000, 'P'}, GroupPlace{Group::v, 65, 1, 8, 0b0'1000, 'V'},
-    GroupPlace{Group::a, 73, 1, 4, 0b1'0000, 'A'}, GroupPlace{Group::t, 77, 1, 4, 0b1'0100, 'T'},
-    GroupPlace{Group::l, 81, 1, 4, 0b1'1000, 'L'}, GroupPlace{Group::z, 85, 1, 4, 0b1'1100, 'Z'},
+    GroupPlace{Group::p, 49, 2, 8, 'P'}, GroupPlace{Group::v, 65, 1, 8, 'V'},
+    GroupPlace{Group::a, 73, 1, 4, 'A'}, GroupPlace{Group::t, 77, 1, 4, 'T'},
+    GroupPlace{Group::l, 81, 1, 4, 'L'}, GroupPlace{Group::z, 85, 1, 4, 'Z'},
 };
 
 constexpr std::array kModeNames = {
@@ -83,7 +81,7 @@ const NamedCommand* find_command(std::string_view name) {
 }
 
 std::vector<std::string_view> command_names() {
-    std::vector<std::string_view> names = {"USE_SET"};
+    std::vector<std::string_view> names = {"USE_SET", "COUNT_DOWN", "CLEAR_COUNTER"};
     for (const auto& mode : kModeNames) names.push_back(mode.first);
     for (const NamedCommand& command : kCommands) {
         if (command.refusal.empty()) names.push_back(command.name);
@@ -109,24 +107,14 @@ std::optional<Selection> selection_of(std::uint8_t register_number) {
 }
 
 std::optional<SelectCommand> select_command(std::uint8_t command) {
-    const auto mode = static_cast<Mode>((command >> 5) & 3);
-    if (mode == Mode::command) return std::nullopt;
-    const int code = command & 0x1F;
-    for (const GroupPlace& place : kGroups) {
-        if (code >= place.code && code < place.code + place.count) {
-            return SelectCommand{mode, {place.group, static_cast<std::uint8_t>(code - place.code + 1)}};
-        }
-    }
-    return std::nullopt;
+    const auto decoded = protocol::fastmac::decode_command(command);
+    if (decoded.mode == Mode::command) return std::nullopt;
+    return SelectCommand{decoded.mode, {decoded.group, decoded.index}};
 }
 
 std::uint8_t command_byte(Mode mode, Selection selection) {
-    for (const GroupPlace& place : kGroups) {
-        if (place.group != selection.group) continue;
-        return static_cast<std::uint8_t>((static_cast<unsigned>(mode) << 5) |
-                                         (place.code + selection.index - 1U));
-    }
-    return 0;
+    return protocol::fastmac::encode_command(
+        {.mode = mode, .group = selection.group, .index = selection.index});
 }
 
 std::string describe_command(std::uint8_t command) {

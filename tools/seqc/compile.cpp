@@ -67,7 +67,7 @@ Compilation compile(std::string_view source) {
             terms.insert(terms.end(), own.begin(), own.end());
         }
     }
-    if (terms.size() + plan.terms.size() >= kTermsEverywhere) {
+    if (!checks.has_errors() && terms.size() + plan.terms.size() >= kTermsEverywhere) {
         checks.warning("W010", program.name.span,
                        fmt::format("{} terms: a gateway need not hold more than {}",
                                    terms.size() + plan.terms.size() + 1, kTermsEverywhere),

@@ -51,9 +51,8 @@ std::string excerpt(std::string_view source, Span span) {
     const std::size_t marked = std::min<std::size_t>(span.length, line.text.size() - column);
     const std::uint32_t width = std::max(1U, characters(line.text.substr(column, marked)));
     const std::string number = std::to_string(position_of(source, span.offset).line);
-    return fmt::format(" {} | {}\n {} | {}{}\n", number, printable(line.text),
-                       std::string(number.size(), ' '), margin,
-                       std::string(1, '^') + std::string(width - 1, '~'));
+    return fmt::format(" {} | {}\n {:{}} | {}^{:~<{}}\n", number, printable(line.text), "", number.size(),
+                       margin, "", width - 1);
 }
 
 }  // namespace

@@ -39,8 +39,10 @@ struct Placed {
 
 class Lowering {
   public:
-    Lowering(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of, Report& report)
-        : step_(step), effects_(effects_of(step, outputs_of)), report_(report) {
+    /// With `overriding`, a branch that can be undone may also hold where a later term decides: fewer
+    /// products.
+    Lowering(const StepPlan& step, const Effects& effects, bool overriding, Report& report)
+        : step_(step), effects_(effects), overriding_(overriding), report_(report) {
         owner_.fill(kNobody);
     }
 
@@ -129,7 +131,8 @@ class Lowering {
 
     void place_effects(std::size_t layer, bool firm) {
         const int given = static_cast<int>(effects_.list.size());
-        for (int i = 0; i < given; ++i) {
+        for (int k = 0; k < given; ++k) {
+            const int i = overriding_ ? given - 1 - k : k;  // the branch written first decides last
             if (!effect(i).is_hard() || effect(i).action == nullptr || effect(i).cannot_be_undone() != firm)
                 continue;
             for (bool error : {false, true}) place_effect(i, error, layer);
@@ -141,8 +144,10 @@ class Lowering {
         Points allowed;
         for (std::size_t point = 0; point < kPoints; ++point) {
             const std::size_t c = case_of(point, error, layer);
-            if (effects_.target[c] != index) continue;
-            allowed.set(point);
+            const int wanted = effects_.target[c];
+            const bool undone_later = overriding_ && is_hard(wanted) && owner_[c] != wanted;
+            allowed[point] = wanted == index || undone_later;
+            if (wanted != index) continue;
             if (owner_[c] == index) continue;
             need.set(point);
             if (!is_hard(owner_[c])) continue;
@@ -188,15 +193,29 @@ class Lowering {
         Effect& overridden = effect(index);
         if (!overridden.cannot_be_undone() || overridden.reported) return;
         overridden.reported = true;
-        const char* zero = layer == kTimer     ? "timer"
-                           : layer == kCounter ? "counter"
-                                               : "timer and the counter";
-        report_.error("E071", overridden.span,
-                      std::string("this needs to know that the ") + zero +
-                          " has not run down, which a table cannot test",
-                      "test TIMER.Q or COUNTER.Q without NOT and in the branch that comes first, or go to a "
-                      "step of its "
-                      "own that waits; only NEXT and outputs can depend on a timer that still runs");
+        failed_ = true;
+        const char* zero = layer == kTimer     ? "timer has"
+                           : layer == kCounter ? "counter has"
+                                               : "timer and the counter have";
+        note_entry(
+            report_.error("E071", overridden.span,
+                          std::string("this needs to know that the ") + zero +
+                              " not run down, which a table cannot test",
+                          "test TIMER.Q or COUNTER.Q without NOT and in the branch that comes first, or go "
+                          "to a step of "
+                          "its own that waits; only NEXT and outputs can depend on a timer that still runs"),
+            overridden);
+    }
+
+    /// What cannot be undone may stand in the ENTRY of the step that is entered.
+    static void note_entry(Diagnostic& diagnostic, const Effect& effect) {
+        for (const Send& send : effect.action->sends) {
+            const bool own = send.span.offset >= effect.span.offset &&
+                             send.span.offset < effect.span.offset + effect.span.length;
+            if (own) continue;
+            diagnostic.notes.push_back({send.span, "it sends this, from the ENTRY of the step it goes to"});
+            return;
+        }
     }
 
     void place(int index, Cube cube, bool error, std::size_t layer) {
@@ -215,19 +234,22 @@ class Lowering {
     }
 
     void report_twice(int index) {
-        if (effect(index).reported) return;
-        effect(index).reported = true;
-        report_.error("E072", effect(index).span,
-                      "when TIMER.Q and COUNTER.Q hold together, this would be sent twice",
-                      "a table cannot test that a timer still runs: use two steps, or send it where only one "
-                      "of them counts");
+        if (failed_) return;
+        failed_ = true;
+        Diagnostic& diagnostic = report_.error(
+            "E072", effect(index).span, "when TIMER.Q and COUNTER.Q hold together, this would be sent twice",
+            "a table cannot test that a timer still runs: use two steps, or send it where only one "
+            "of them counts");
+        note_entry(diagnostic, effect(index));
     }
 
     using Owners = std::array<int, kCases>;
 
     const StepPlan& step_;
     Effects effects_;
+    bool overriding_;
     Report& report_;
+    bool failed_ = false;
     std::vector<Placed> placed_;
     Owners owner_{};
 };
@@ -236,7 +258,13 @@ class Lowering {
 
 std::vector<LoweredTerm> lower(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of,
                                Report& report) {
-    return Lowering(step, outputs_of, report).run();
+    const Effects effects = effects_of(step, outputs_of);
+    const std::size_t errors = report.error_count();
+    std::vector<LoweredTerm> plain = Lowering(step, effects, false, report).run();
+    if (report.error_count() != errors) return plain;
+    Report tried;
+    std::vector<LoweredTerm> overriding = Lowering(step, effects, true, tried).run();
+    return !tried.has_errors() && overriding.size() < plain.size() ? overriding : plain;
 }
 
 }  // namespace nplc::seqc

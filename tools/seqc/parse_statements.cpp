@@ -204,7 +204,10 @@ bool Parser::parse_value(ast::Value& value) {
     const bool is_literal = literal.kind == TokenKind::number || literal.kind == TokenKind::based ||
                             literal.kind == TokenKind::time;
     if (!is_literal) {
-        error_here("a value", "only constants can be written: a table cannot compute");
+        error_here("a value",
+                   at("TRUE") || at("FALSE")
+                       ? "an output belongs to its step: OUT Name; or OUT Name WHEN condition;"
+                       : "only constants can be written; another step is named with NEXT := Name;");
         return false;
     }
     ++at_;

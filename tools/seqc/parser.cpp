@@ -276,7 +276,7 @@ void Parser::parse_variable(std::vector<ast::Variable>& variables, bool motor) {
         variable.value.emplace();
         if (!parse_value(*variable.value)) return recover();
     }
-    variables.push_back(std::move(variable));
+    variables.push_back(variable);
     end_statement();
 }
 

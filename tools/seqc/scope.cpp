@@ -207,6 +207,7 @@ std::optional<std::size_t> Scope::signal(const ast::Name& name, const std::vecto
     const bool other = input ? is_output(name.text) || address_number(name.text, 'Q').has_value()
                              : is_input(name.text) || address_number(name.text, 'I').has_value();
     std::vector<std::string_view> names;
+    names.reserve(variables.size() + 2);
     for (const Variable& variable : variables) names.push_back(variable.name);
     if (input) names.insert(names.end(), {"INPOS", "ERROR"});
     std::string help = suggestion(name.text, names);

@@ -44,11 +44,11 @@ const Register* Scope::find_register(std::string_view name) const {
 }
 
 const Register* Scope::reg(const ast::Name& name) {
-    require_motor(name.span);
     if (const Register* found = find_register(name.text)) {
+        require_motor(name.span);
         return is_reachable(found, name.span, found->name) ? found : nullptr;
     }
-    std::vector<std::string_view> names;
+    std::vector<std::string_view> names = {"TIMER", "COUNTER"};
     for (const Variable& variable : motor_variables_) names.push_back(variable.name);
     for (const Register& r : registers::map_of(model_)) names.push_back(r.name);
     std::string help = suggestion(name.text, names);

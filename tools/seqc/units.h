@@ -19,7 +19,7 @@ struct LengthUnit {
 /// How many of a register's raw steps one `unit` is; nothing if the unit does not fit the register. An empty
 /// unit is the raw step itself, and for the fixed-point formats the number 1.
 std::optional<double> raw_per_unit(const registers::Register& reg, registers::Model model,
-                                   const std::optional<LengthUnit>& length, std::string_view unit);
+                                   const std::optional<LengthUnit>& length, std::string_view written);
 
 /// The units that fit a register, for messages.
 std::string units_for(const registers::Register& reg, const std::optional<LengthUnit>& length);
