@@ -107,6 +107,10 @@ void run_realtime(Session& session, const volatile std::sig_atomic_t& interrupte
 
 int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted) {
     Program program = load_program(options.program);
+    if (options.motor && *options.motor != program.names.motor && !program.names.steps.empty()) {
+        fmt::print(stderr, "{}: was compiled for {} and runs on {}; its register values may not fit\n",
+                   program.file, registers::name_of(program.names.motor), registers::name_of(*options.motor));
+    }
     if (options.motor) program.names.motor = *options.motor;
     const Scenario scenario = load_scenario(options, program.names);
     if (!program.remark.empty()) fmt::print(stderr, "{}\n", program.remark);

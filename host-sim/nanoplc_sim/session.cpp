@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "order_audit.h"
+
 namespace nplc::sim {
 namespace {
 
@@ -49,6 +51,15 @@ std::string in_words(std::string_view direction, const LineCounters& c) {
     return fmt::format(
         "{}: {} characters, {} lost, {} damaged, {} with framing error, {} delayed, {} while cut", direction,
         c.sent, c.dropped, c.damaged, c.framing, c.delayed, c.cut);
+}
+
+std::string list(const std::vector<SentOrder>& orders, const Names& names) {
+    constexpr std::size_t kMost = 8;
+    std::vector<std::string> words;
+    for (std::size_t i = 0; i < std::min(kMost, orders.size()); ++i)
+        words.push_back(in_words(orders[i], names.motor));
+    const std::string more = orders.size() > kMost ? fmt::format(" and {} more", orders.size() - kMost) : "";
+    return words.empty() ? "nothing" : fmt::format("{}{}", fmt::join(words, ", "), more);
 }
 
 }  // namespace
@@ -98,8 +109,9 @@ void Session::show() {
     bool acted = false;
     do {
         last_ = world_.take_snapshot();
-        acted = runner_.observe(last_);
+        ordered_.insert(ordered_.end(), last_.orders.begin(), last_.orders.end());
         note_changes();
+        acted = runner_.observe(last_);
         if (!options_.quiet) timeline_.observe(last_);
         if (csv_) csv_->observe(last_);
         if (vcd_) vcd_->observe(last_);
@@ -143,7 +155,7 @@ bool Session::finish() {
     runner_.finish(last_);
     note_changes();
     if (!options_.quiet) timeline_.observe(last_);
-    if (csv_) csv_->finish();
+    if (csv_) csv_->finish(last_);
     if (vcd_) vcd_->finish(now());
     summary();
     return runner_.failures() == 0;
@@ -167,8 +179,26 @@ void Session::summary() const {
         driver.counters().link_losses, world_.board().bites());
     fmt::print("{}\n", in_words("line to the motor", world_.line().to_motor().counters()));
     fmt::print("{}\n", in_words("line from the motor", world_.line().from_motor().counters()));
+    compare_orders();
     if (csv_) fmt::print("trace: {}\n", *options_.csv);
     if (vcd_) fmt::print("trace: {}\n", *options_.vcd);
+    judgements();
+}
+
+void Session::compare_orders() const {
+    const OrderAudit found =
+        audit(ordered_, world_.mac().orders(),
+              options_.old_register_codes ? protocol::fastmac::RegisterCode::older_example
+                                          : protocol::fastmac::RegisterCode::format_list);
+    if (found.missing.empty() && found.unordered.empty()) {
+        fmt::print("the motor executed what was ordered, and nothing else\n");
+        return;
+    }
+    fmt::print("ordered and not executed: {}\nexecuted and not ordered: {}\n",
+               list(found.missing, program_.names), list(found.unordered, program_.names));
+}
+
+void Session::judgements() const {
     if (runner_.outcomes().empty()) return;
     const std::size_t failed = runner_.failures();
     fmt::print("expectations: {} passed, {}{} failed{}\n", runner_.outcomes().size() - failed,

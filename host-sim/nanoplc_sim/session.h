@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "program.h"
 #include "run_options.h"
@@ -42,6 +43,8 @@ class Session {
     void show();
     void note_changes();
     void summary() const;
+    void compare_orders() const;
+    void judgements() const;
 
     const Program& program_;
     const RunOptions& options_;
@@ -54,6 +57,7 @@ class Session {
     std::optional<VcdTrace> vcd_;
     std::optional<Time> length_;
     Snapshot last_;
+    std::vector<SentOrder> ordered_;
     gateway::SafeReason reason_ = gateway::SafeReason::not_started;
     std::string motor_note_;
     std::uint32_t bites_ = 0;

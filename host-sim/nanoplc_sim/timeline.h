@@ -32,7 +32,7 @@ class Timeline {
 
   private:
     std::vector<std::string> events(const Snapshot& snapshot) const;
-    void print(const Snapshot& snapshot, const std::vector<std::string>& events);
+    void print(const Snapshot& s, const std::vector<std::string>& list);
     std::string inputs(const Snapshot& snapshot) const;
     std::string outputs(const Snapshot& snapshot) const;
 

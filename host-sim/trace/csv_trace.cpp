@@ -25,6 +25,15 @@ Time CsvTrace::next_due() const {
 
 void CsvTrace::observe(const Snapshot& s) {
     if (last_ && s.time < next_due() && same_row(s, *last_)) return;
+    write_row(s);
+}
+
+void CsvTrace::finish(const Snapshot& last) {
+    if (!last_ || last.time > last_->time) write_row(last);
+    file_.commit();
+}
+
+void CsvTrace::write_row(const Snapshot& s) {
     file_.write(fmt::format("{},{},{},{},{},{},{:d},{:d},{},{},{}\n", in_milliseconds(s.time), s.step,
                             s.timer, s.counter, s.inputs, s.outputs, s.in_position, s.error,
                             in_numbers(s.orders), s.p_ist, s.v_ist));

@@ -64,13 +64,15 @@ TEST_F(Trace, CsvHasARowForEveryChangeAndEveryTenMilliseconds) {
     s.in_position = s.error = true;
     s.counter = 7;
     trace.observe(s);
-    trace.finish();
+    s.time = 12ms;
+    trace.finish(s);
     const std::vector<std::string> expected{
         "time_ms,step,timer,counter,inputs,outputs,inpos,error,command,p_ist,v_ist",
         "0.000,0,0,0,0,0,0,0,,0,0",
         "0.500,3,490,0,5,0,0,0,41 65=3146,0,0",
         "10.500,3,490,0,5,0,0,0,,0,0",
         "11.000,3,490,7,5,9,1,1,,-12,-3",
+        "12.000,3,490,7,5,9,1,1,,-12,-3",
     };
     EXPECT_EQ(lines(path("t.csv")), expected);
 }
@@ -83,7 +85,7 @@ TEST_F(Trace, TheFileAppearsOnlyWhenItIsWhole) {
     }
     EXPECT_TRUE(fs::is_empty(folder_)) << "an abandoned trace leaves nothing behind";
     CsvTrace trace(path("t.csv"));
-    trace.finish();
+    trace.finish({});
     EXPECT_TRUE(fs::exists(path("t.csv")));
 }
 
@@ -185,7 +187,8 @@ TEST(Words, CommandsReadAsInAProgram) {
 
 TEST(Words, NumbersAreAsInTheTraceFormat) {
     EXPECT_EQ(in_numbers(SentOrder{.command = 0x01}), "01");
-    EXPECT_EQ(in_numbers(SentOrder{.is_register_write = true, .reg = 127, .value = 0xFFFFFFFF}), "127=4294967295");
+    EXPECT_EQ(in_numbers(SentOrder{.is_register_write = true, .reg = 127, .value = 0xFFFFFFFF}),
+              "127=4294967295");
 }
 
 }  // namespace

@@ -22,9 +22,12 @@ class CsvTrace {
     Time next_due() const;
     /// Writes a row if there is a change or one is due; times must not fall.
     void observe(const Snapshot& snapshot);
-    void finish() { file_.commit(); }
+    /// Writes `last` if it is newer than the last row.
+    void finish(const Snapshot& last);
 
   private:
+    void write_row(const Snapshot& snapshot);
+
     OutputFile file_;
     std::optional<Snapshot> last_;
 };

@@ -24,8 +24,8 @@ class VcdTrace {
   private:
     void header();
     void at(Time time);
-    /// Writes `value` under `id` if it is not what the file says already.
-    void put(const std::string& id, const std::string& value);
+    /// Writes `value` under `name` if it is not what the file says already.
+    void put(const std::string& name, const std::string& value);
     void fall_back(Time time);
 
     OutputFile file_;

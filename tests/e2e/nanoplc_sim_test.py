@@ -1,0 +1,342 @@
+#!/usr/bin/env python3
+"""nanoplc-sim from the outside.
+
+usage: nanoplc_sim_test.py PROGRAM
+"""
+
+import csv
+import os
+import pty
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM = ""
+END = bytes([0x3F, 0, 0, 0, 0, 0, 0, 0])
+
+# Step 0: at once to step 1 with OUT0 and a timer of 500 ms. Step 1: timer 0 and IN0 = 1: OUT1, step 2. Bytes by
+# 001 sections 6.1.5 and 6.1.7.
+TABLE = bytes([0xC0, 0x00, 0x00, 0x01, 0x80, 0x01, 0xF4, 0x01,
+               0x41, 0x01, 0x01, 0x02, 0x80, 0x02, 0x00, 0x00]) + END
+HEADER = "dt_ms,inputs,inpos,error\n"
+TRACE_HEADER = "time_ms,step,timer,counter,inputs,outputs,inpos,error,command,p_ist,v_ist"
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.table = self.write("t.bin", TABLE)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def write(self, name, content):
+        path = self.path(name)
+        with open(path, "wb") as file:
+            file.write(content if isinstance(content, bytes) else content.encode())
+        return path
+
+    def read(self, name):
+        with open(self.path(name), encoding="ascii") as file:
+            return file.read()
+
+    def call(self, *arguments, stdin=b""):
+        return subprocess.run([PROGRAM, *arguments], input=stdin, capture_output=True, timeout=120, check=False)
+
+    def refused(self, *arguments, stdin=b"", says=""):
+        """Exit code 2, nothing on standard output, one line on standard error that holds `says`."""
+        done = self.call(*arguments, stdin=stdin)
+        error = done.stderr.decode(errors="replace")
+        self.assertEqual(done.returncode, 2, f"{arguments}: {error}")
+        self.assertEqual(done.stdout, b"", arguments)
+        self.assertEqual(error.count("\n"), 1, error)
+        self.assertIn(says, error)
+        return error
+
+
+class Scan(Case):
+    def scan(self, rows, table=None):
+        stimulus = self.write("s.csv", HEADER + rows)
+        done = self.call("scan", table or self.table, "--stimulus", stimulus)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        return done.stdout.decode()
+
+    def test_prints_what_stands_after_each_scan(self):
+        self.assertEqual(self.scan("10,0,0,0\n490,1,0,0\n5,1,0,0\n"),
+                         "scan,step,timer,counter,outputs,fastmac,flexmac\n"
+                         "1,1,490,0,1,,\n"
+                         "2,1,0,0,1,,\n"
+                         "3,2,0,0,2,,\n")
+
+    def test_standard_input(self):
+        done = self.call("scan", self.table, "--stimulus", "-", stdin=(HEADER + "10,0,0,0\n").encode())
+        self.assertEqual(done.stdout.decode().splitlines()[1], "1,1,490,0,1,,")
+
+    def test_bytes_after_the_end_term_are_ignored(self):
+        table = self.write("more.bin", TABLE + b"rubbish")
+        self.assertIn("1,1,490,0,1,,", self.scan("10,0,0,0\n", table))
+
+    def test_bad_tables(self):
+        stimulus = self.write("s.csv", HEADER + "10,0,0,0\n")
+        bad = {
+            b"": "the file is empty",
+            TABLE[:12]: "term 1 (byte 8)",
+            TABLE[:16]: "term 2 (byte 16): the table has no end",
+            bytes([0xC0, 0, 0, 0x3F, 0x80, 0, 0, 0]) + END: "term 0 (byte 0): NEXT_STATE is 3Fh",
+            bytes([0xC0, 0, 0x80, 0x80, 0, 0, 0, 0]) + END: "REG_NMB is 0",
+            bytes([0xC0, 0, 0, 0x3E, 0x80, 0, 0, 0]) * 1025 + END: "more than 1024 terms",
+        }
+        for content, says in bad.items():
+            with self.subTest(says):
+                table = self.write("bad.bin", content)
+                self.refused("scan", table, "--stimulus", stimulus, says=says)
+                self.assertIn("bad.bin", self.refused("scan", table, "--stimulus", stimulus))
+
+    def test_bad_stimuli(self):
+        bad = {
+            "": "s.csv:1:",
+            "dt_ms,inputs,inpos\n": "s.csv:1:",
+            HEADER + "10,0,0,0\n10,64,0,0\n": "s.csv:3: inputs is \"64\"",
+            HEADER + "10,0,0\n": "s.csv:2:",
+            HEADER + "10,0,0,0,0\n": "s.csv:2:",
+            HEADER + "-1,0,0,0\n": "dt_ms is \"-1\"",
+            HEADER + "4294967296,0,0,0\n": "0 to 4294967295",
+            HEADER + "1,0,0,2\n": "error is \"2\"",
+            HEADER + "1,0,x,0\n": "inpos is \"x\"",
+            HEADER + "1, 0,0,0\n": "inputs is \" 0\"",
+            HEADER + "1,0,0,0\n\n1,0,0,0\n": "s.csv:3:",
+            HEADER + "1,0,0,\0\n": "s.csv:2:",
+        }
+        for content, says in bad.items():
+            with self.subTest(content):
+                self.refused("scan", self.table, "--stimulus", self.write("s.csv", content), says=says)
+
+    def test_files_that_are_not_there(self):
+        stimulus = self.write("s.csv", HEADER)
+        self.refused("scan", self.path("no.bin"), "--stimulus", stimulus, says="no.bin: cannot be opened")
+        self.refused("scan", self.table, "--stimulus", self.path("no.csv"), says="no.csv: cannot be opened")
+        self.refused("scan", self.folder.name, "--stimulus", stimulus, says="it is a folder")
+        self.refused("scan", self.write("x.seq", "PROGRAM X"), "--stimulus", stimulus, says="seqc build")
+
+
+class CommandLine(Case):
+    def test_help_names_the_exit_codes(self):
+        for arguments in (["--help"], ["run", "--help"], ["scan", "--help"]):
+            done = self.call(*arguments)
+            self.assertEqual(done.returncode, 0)
+            self.assertIn("Exit code: 0", done.stdout.decode())
+
+    def test_mistakes(self):
+        self.refused(says="see nanoplc-sim --help")
+        self.refused("walk", says="see nanoplc-sim --help")
+        self.refused("run", says="program")
+        self.refused("scan", self.table, says="--stimulus")
+        self.refused("run", self.table, "--nonsense", says="--nonsense")
+        self.refused("run", self.table, self.table, says="see nanoplc-sim --help")
+        self.refused("run", self.table, "--for", "5", says="such as 500ms, 5s or 2min")
+        self.refused("run", self.table, "--for", "0s", says="--for \"0s\"")
+        self.refused("run", self.table, "--for", "-5s", says="--for \"-5s\"")
+        self.refused("run", self.table, "--for", says="--for")
+        self.refused("run", self.table, "--motor", "MAC999", says="MAC50, MAC95, MAC140, MAC141 or MAC800")
+        self.refused("run", self.table, "--drop", "1", says="--drop \"1\": write a share")
+        self.refused("run", self.table, "--damage", "101%", says="--damage \"101%\"")
+        self.refused("run", self.table, "--delay", "1%:5", says="--delay \"1%:5\"")
+        self.refused("run", self.table, "--baud", "0", says="--baud \"0\"")
+        self.refused("run", self.table, "--seed", "x", says="--seed \"x\"")
+        self.refused("run", self.table, "--debounce", "2s", says="--debounce \"2s\"")
+
+
+class Run(Case):
+    def run_with(self, scenario, *more):
+        return self.call("run", self.table, "--scenario", self.write("s.scn", scenario), *more)
+
+    def test_timeline_and_summary(self):
+        done = self.run_with("at 1 s IN0 := 1\nend at 2 s\nexpect step = 2\nexpect at 100 ms OUT0\n")
+        text = done.stdout.decode()
+        self.assertEqual(done.returncode, 0, text)
+        self.assertNotIn("\033", text, "no colours off a terminal")
+        self.assertIn("0 -> 1", text)
+        self.assertIn("1000.000", text)
+        self.assertIn("expectations: 2 passed, 0 failed", text)
+
+    def test_a_failed_expectation_is_exit_code_1(self):
+        done = self.run_with("end at 2 s\nexpect at 1 s step = 2\n")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("s.scn:2: expected: at 1 s step = 2; seen: at 1000.000 ms step = 1", done.stdout.decode())
+
+    def test_a_run_that_ends_before_an_expectation_fails(self):
+        done = self.run_with("expect at 1 s step = 1\n", "--for", "500ms")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("the run ended at 500.000 ms, before that time", done.stdout.decode())
+
+    def test_the_earlier_end_counts(self):
+        self.assertIn("ended at 300.000 ms", self.run_with("end at 2 s", "--for", "300ms").stdout.decode())
+        self.assertIn("ended at 300.000 ms", self.run_with("end at 300 ms", "--for", "1s").stdout.decode())
+
+    def test_mistakes_in_scenarios(self):
+        bad = {
+            "end at 1 s\nat 5 IN0 := 1\n": "s.scn:2: \"5 IN0\" is not a time",
+            "end at 1 s\nexpect step = Idle\n": "s.scn:2: \"Idle\": this program has no step names",
+            "at 1 s IN0 := 1\n": "s.scn: the scenario has no end",
+            "end at 1 s\nwhen IN0 rises IN0 := 0\nwhen not IN0 IN0 := 1\n": "",
+            "foo\nbar\nbaz\n": "(and 2 more mistakes in this file)",
+            "\x00\xff\n": "s.scn:1:",
+        }
+        for content, says in bad.items():
+            with self.subTest(content):
+                scenario = self.write("s.scn", content.encode("latin-1"))
+                if says:
+                    self.refused("run", self.table, "--scenario", scenario, says=says)
+                else:
+                    done = self.call("run", self.table, "--scenario", scenario)
+                    self.assertEqual(done.returncode, 2)
+                    self.assertIn(b"set each other off without end", done.stderr)
+        self.refused("run", self.table, "--scenario", self.path("no.scn"), says="no.scn: cannot be opened")
+
+    def test_trace_format(self):
+        done = self.run_with("at 1003 ms IN0 := 1\nend at 2 s\n", "--trace", self.path("t.csv"))
+        self.assertEqual(done.returncode, 0)
+        lines = self.read("t.csv").splitlines()
+        self.assertEqual(lines[0], TRACE_HEADER)
+        rows = list(csv.DictReader(lines))
+        times = [float(row["time_ms"]) for row in rows]
+        self.assertEqual(times[0], 0)
+        self.assertEqual(times[-1], 2000)
+        for before, after in zip(times, times[1:]):
+            self.assertGreaterEqual(after, before)
+            self.assertLessEqual(after - before, 10.0005, "a row at least every 10 ms")
+        for before, after in zip(lines[1:], lines[2:]):
+            same = before.split(",")[1:] == after.split(",")[1:]
+            gap = float(after.split(",")[0]) - float(before.split(",")[0])
+            self.assertTrue(not same or gap > 9.999 or after == lines[-1], f"{before} and {after}")
+        self.assertEqual([float(row["time_ms"]) for row in rows if row["inputs"] == "1"][0], 1003)
+        # 3 ms of debouncing and a scan
+        first = next(float(row["time_ms"]) for row in rows if row["step"] == "2")
+        self.assertGreaterEqual(first, 1006)
+        self.assertLessEqual(first, 1007)
+        # The timer was set to 500 by the first scan and runs down to 0 by 1 each millisecond.
+        self.assertEqual([int(row["timer"]) for row in rows if row["step"] == "1"][0], 500)
+        timers = {int(row["timer"]) for row in rows}
+        self.assertEqual(timers, set(range(0, 501)))
+
+    def test_commands_in_the_trace(self):
+        # NOP (60h) and register 65 := 300, once; 001 sections 6.1.7 and 6.1.8.
+        self.table = self.write("c.bin", bytes([0xC0, 0, 0, 0x01, 0x60, 0, 0, 0, 0xC0, 0, 0x80, 65, 44, 1, 0, 0]) + END)
+        self.run_with("end at 200 ms\n", "--trace", self.path("t.csv"))
+        commands = [row["command"] for row in csv.DictReader(self.read("t.csv").splitlines()) if row["command"]]
+        self.assertEqual(commands, ["60 65=300"])
+
+    def test_vcd_begins_as_viewers_want_it(self):
+        self.run_with("end at 100 ms\n", "--vcd", self.path("t.vcd"))
+        text = self.read("t.vcd")
+        self.assertIn("$timescale 1 us $end", text)
+        self.assertIn("$enddefinitions $end\n#0\n", text)
+        self.assertTrue(text.endswith("#100000\n"))
+
+    def test_traces_that_cannot_be_written(self):
+        for option in ("--trace", "--vcd"):
+            self.refused("run", self.table, "--for", "1s", option, self.path("no/t"), says="no/t: cannot be written")
+            self.refused("run", self.table, "--for", "1s", option, self.folder.name, says="it is a folder")
+
+    def test_a_trace_is_written_whole_or_not_at_all(self):
+        self.write("s.scn", "when IN0 rises IN0 := 0\nwhen not IN0 IN0 := 1\nend at 1 s\n")
+        self.call("run", self.table, "--scenario", self.path("s.scn"), "--trace", self.path("t.csv"))
+        self.assertEqual(sorted(os.listdir(self.folder.name)), ["s.scn", "t.bin"])
+
+    def test_devices_are_written_directly(self):
+        done = self.call("run", self.table, "--for", "20ms", "--quiet", "--trace", "/dev/stderr")
+        self.assertEqual(done.returncode, 0)
+        self.assertTrue(done.stderr.decode().startswith(TRACE_HEADER))
+
+    def test_a_full_disk_is_told(self):
+        with open("/dev/full", "wb") as full:
+            done = subprocess.run([PROGRAM, "run", self.table, "--for", "1s"], stdout=full, stderr=subprocess.PIPE,
+                                  check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn(b"standard output: cannot be written", done.stderr)
+
+    def test_the_same_seed_gives_the_same_run(self):
+        def output(seed):
+            return self.call("run", self.table, "--for", "2s", "--drop", "5%", "--damage", "2%", "--delay", "2%:10ms",
+                             "--seed", seed).stdout
+        self.assertEqual(output("3"), output("3"))
+        self.assertNotEqual(output("3"), output("4"))
+
+
+SOURCE = """PROGRAM Blink
+MOTOR MAC140;
+VAR_INPUT Go AT %IX0.0 : BOOL; END_VAR
+VAR_OUTPUT Lamp AT %QX0.0 : BOOL; END_VAR
+ON ERROR NEXT := Fault;
+POWER_UP NEXT := Off; END_POWER_UP
+STEP Off: IF Go THEN NEXT := Lit; END_IF END_STEP
+STEP Lit: OUT Lamp; IF NOT Go THEN NEXT := Off; END_IF END_STEP
+STEP Fault: OWN ERROR; IF ANY ERROR AND Go THEN RESET_ERROR; NEXT := Off; END_IF END_STEP
+END_PROGRAM
+"""
+
+
+class Source(Case):
+    def test_a_source_runs_with_its_names(self):
+        source = self.write("blink.seq", SOURCE)
+        scenario = self.write("s.scn", "at 100 ms pulse Go 50 ms\nexpect Lamp within 10 ms after Go rises\n"
+                                       "expect at 125 ms step = Lit\nexpect step = Off\nend at 1 s\n")
+        done = self.call("run", source, "--scenario", scenario)
+        self.assertEqual(done.returncode, 0, done.stdout.decode() + done.stderr.decode())
+        self.assertIn("Off -> Lit\n", done.stdout.decode())
+
+    def test_mistakes_of_a_source_are_the_compilers(self):
+        source = self.write("bad.seq", SOURCE.replace("NEXT := Lit", "NEXT := Lid"))
+        done = self.call("run", source)
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(done.stdout, b"")
+        self.assertIn("bad.seq:7:", done.stderr.decode())
+
+
+class Realtime(Case):
+    def test_without_a_terminal_there_are_no_keys(self):
+        begin = time.monotonic()
+        done = self.call("run", self.table, "--realtime", "--for", "300ms", stdin=b"q")
+        self.assertEqual(done.returncode, 0)
+        self.assertGreaterEqual(time.monotonic() - begin, 0.3)
+        self.assertIn("ended at 300.000 ms", done.stdout.decode())
+
+    def test_keys_toggle_inputs_and_q_ends(self):
+        terminal, end = pty.openpty()
+        with subprocess.Popen([PROGRAM, "run", self.table, "--realtime", "--for", "60s"], stdin=end, stdout=end,
+                              stderr=end, close_fds=True) as process:
+            os.close(end)
+            shown = self.read_until(terminal, b"link up")
+            os.write(terminal, b"3")
+            shown += self.read_until(terminal, b"IN3 on")
+            os.write(terminal, b"q")
+            shown += self.read_until(terminal, b"ended at")
+            self.assertEqual(process.wait(30), 0, shown)
+        os.close(terminal)
+
+    def read_until(self, terminal, wanted):
+        shown = b""
+        while wanted not in shown:
+            block = os.read(terminal, 65536)
+            self.assertTrue(block, shown)
+            shown += block
+        return shown
+
+    def test_an_interrupt_ends_in_good_order(self):
+        with subprocess.Popen([PROGRAM, "run", self.table, "--realtime", "--trace", self.path("t.csv")],
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE) as process:
+            process.stdout.read1(1)  # it has begun
+            process.send_signal(2)
+            process.communicate(timeout=30)
+            self.assertEqual(process.returncode, 0)
+        self.assertTrue(self.read("t.csv").startswith(TRACE_HEADER))
+
+
+if __name__ == "__main__":
+    PROGRAM = sys.argv.pop(1)
+    unittest.main()

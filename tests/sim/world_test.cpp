@@ -1,0 +1,236 @@
+#include "sim/world.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "sequencer/term.h"
+
+namespace nplc::sim {
+namespace {
+
+using namespace std::chrono_literals;
+using sequencer::Term;
+
+// FastMAC, 001 §5.2.1.4: position mode 10, P register 00xxx; P1 is 40h, P2 41h; command mode 11, number 01h
+// is 61h.
+constexpr std::uint8_t kPositionP1 = 0x40;
+constexpr std::uint8_t kResetError = 0x61;
+constexpr std::int32_t kTarget = 8192;  // two revolutions
+
+Term term(std::uint8_t step, std::uint8_t input, std::uint8_t care, std::uint8_t next, std::uint8_t outputs) {
+    Term result;
+    result.condition = {
+        .step = step, .needs_counter_zero = false, .needs_timer_zero = false, .input = input, .care = care};
+    result.fast.next_step = next;
+    result.fast.outputs = outputs;
+    return result;
+}
+
+Term write(std::uint8_t step, std::uint8_t reg, bool longword, std::uint16_t value) {
+    Term result = term(step, 0, 0, 0, 0);
+    result.is_flex = true;
+    result.flex = {.reg = reg, .longword = longword, .low_word = value, .high_word = 0};
+    return result;
+}
+
+Term with_command(Term base, std::uint8_t command) {
+    base.fast.sends = true;
+    base.fast.command = command;
+    return base;
+}
+
+/// Step 0 writes P1, V1 and A1; step 1 waits for IN0; step 2 goes to P1 with OUT0 and waits for INPOS; step 3
+/// has OUT1. An error leads to step 4, where IN1 acknowledges and leads to step 5.
+std::vector<std::uint8_t> table() {
+    const std::vector<Term> terms{
+        write(0, registers::P1, true, kTarget),
+        write(0, registers::V1, false, 2000),
+        write(0, registers::A1, false, 80),
+        with_command(term(0, 0, 0, 1, 0), 0x08),        // INIT(V1)
+        with_command(term(1, 0x01, 0x01, 2, 1), 0x10),  // INIT(A1)
+        with_command(term(2, 0, 0x40, 6, 1), kPositionP1),
+        term(6, 0x40, 0x40, 3, 2),
+        term(1, 0x80, 0, 4, 8),
+        term(2, 0x80, 0, 4, 8),
+        term(3, 0x80, 0, 4, 8),
+        term(6, 0x80, 0, 4, 8),
+        with_command(term(4, 0x82, 0x02, 5, 8), kResetError),
+    };
+    std::vector<std::uint8_t> bytes;
+    for (const Term& one : terms) {
+        const auto encoded = encode(one);
+        bytes.insert(bytes.end(), encoded.begin(), encoded.end());
+    }
+    bytes.insert(bytes.end(), {0x3F, 0, 0, 0, 0, 0, 0, 0});
+    return bytes;
+}
+
+class WorldRun : public testing::Test {
+  protected:
+    explicit WorldRun(const WorldOptions& options = {}) : world_(table(), options) {}
+
+    void run_to(Time time) {
+        while (world_.now() < time) world_.step(time);
+    }
+    /// False when it has not come true by `limit`.
+    template <class Condition>
+    bool run_until(Condition condition, Time limit) {
+        while (world_.now() < limit) {
+            world_.step(limit);
+            if (condition()) return true;
+        }
+        return false;
+    }
+    std::uint8_t step() const { return world_.gateway().state().step; }
+
+    World world_;
+};
+
+TEST_F(WorldRun, TimeStopsExactlyAtTheLimit) {
+    run_to(Time(12'345'678));
+    EXPECT_EQ(world_.now(), Time(12'345'678));
+    run_to(Time(12'345'679));
+    EXPECT_EQ(world_.now(), Time(12'345'679));
+}
+
+TEST_F(WorldRun, TheMotorsLineIsFullWithoutPause) {
+    run_to(1s);
+    // 19200 baud, 10 bits: 1920 characters end in a second, one more is under way.
+    EXPECT_EQ(world_.line().from_motor().counters().delivered, 1920U);
+    EXPECT_EQ(world_.line().from_motor().counters().sent, 1921U);
+    EXPECT_EQ(world_.line().overruns(), 0U);
+}
+
+TEST_F(WorldRun, ASequenceMovesTheMotor) {
+    ASSERT_TRUE(run_until([&] { return step() == 1; }, 1s));
+    EXPECT_EQ(world_.board().outputs(), 0);
+    world_.set_input(0, true);
+    ASSERT_TRUE(run_until([&] { return step() == 3; }, 3s)) << "step " << int{step()};
+    EXPECT_EQ(world_.board().outputs(), 2);
+    run_to(world_.now() + 500ms);
+    EXPECT_NEAR(world_.mac().p_ist(), kTarget, 2);
+}
+
+TEST_F(WorldRun, SnapshotsHandOverTheOrdersOnce) {
+    ASSERT_TRUE(run_until([&] { return step() == 1; }, 1s));
+    const Snapshot first = world_.take_snapshot();
+    ASSERT_EQ(first.orders.size(), 4U);
+    EXPECT_EQ(first.orders[0],
+              (SentOrder{.is_register_write = true, .reg = registers::P1, .value = std::uint32_t{kTarget}}));
+    EXPECT_EQ(first.orders[3], (SentOrder{.command = 0x08}));
+    EXPECT_TRUE(first.link_up);
+    EXPECT_TRUE(first.running);
+    EXPECT_TRUE(world_.take_snapshot().orders.empty());
+}
+
+TEST_F(WorldRun, ACutLineIsAnErrorUntilItIsAcknowledged) {
+    ASSERT_TRUE(run_until([&] { return step() == 1; }, 1s));
+    const Time cut = world_.now();
+    world_.cut_line(true);
+    ASSERT_TRUE(run_until([&] { return step() == 4; }, cut + 1s));
+    EXPECT_EQ(world_.gateway().safe_reason(), gateway::SafeReason::link_down);
+    EXPECT_EQ(world_.board().outputs(), 0) << "safe outputs while the link is down";
+    // Silence of 20 ms, counted from the last character; one poll and one character more at the most.
+    EXPECT_LE(world_.now() - cut, Time(21ms));
+    world_.cut_line(false);
+    run_to(world_.now() + 200ms);
+    EXPECT_TRUE(world_.take_snapshot().error);
+    world_.set_input(1, true);
+    ASSERT_TRUE(run_until([&] { return step() == 5; }, world_.now() + 1s));
+    run_to(world_.now() + 100ms);
+    EXPECT_FALSE(world_.take_snapshot().error);
+    EXPECT_EQ(world_.board().outputs(), 8);
+}
+
+TEST_F(WorldRun, AMotorErrorIsSeenAndCanBeReset) {
+    ASSERT_TRUE(run_until([&] { return step() == 1; }, 1s));
+    world_.fail_motor();
+    ASSERT_TRUE(run_until([&] { return step() == 4; }, world_.now() + 100ms));
+    world_.set_input(1, true);
+    ASSERT_TRUE(run_until([&] { return step() == 5; }, world_.now() + 100ms));
+    run_to(world_.now() + 100ms);
+    EXPECT_FALSE(world_.take_snapshot().error);
+}
+
+TEST_F(WorldRun, AMotorWithoutPowerIsSilent) {
+    ASSERT_TRUE(run_until([&] { return step() == 1; }, 1s));
+    world_.power_motor(false);
+    ASSERT_TRUE(run_until([&] { return step() == 4; }, world_.now() + 100ms));
+    const auto sent = world_.line().from_motor().counters().sent;
+    run_to(world_.now() + 100ms);
+    EXPECT_EQ(world_.line().from_motor().counters().sent, sent);
+    world_.power_motor(true);
+    run_to(world_.now() + 200ms);
+    EXPECT_TRUE(world_.take_snapshot().link_up);
+}
+
+TEST_F(WorldRun, TheGatewayCanBeStoppedRunAndRestarted) {
+    ASSERT_TRUE(run_until([&] { return step() == 1; }, 1s));
+    world_.gateway(action::Gateway::stop);
+    EXPECT_FALSE(world_.take_snapshot().running);
+    EXPECT_EQ(world_.gateway().safe_reason(), gateway::SafeReason::stop_command);
+    world_.gateway(action::Gateway::run);
+    EXPECT_EQ(step(), 0);
+    ASSERT_TRUE(run_until([&] { return step() == 1; }, world_.now() + 1s));
+    world_.gateway(action::Gateway::restart);
+    EXPECT_EQ(step(), 0);
+    EXPECT_TRUE(run_until([&] { return step() == 1; }, world_.now() + 1s));
+}
+
+TEST(World, TheSameOptionsGiveTheSameRun) {
+    const auto run = [](std::uint64_t seed) {
+        WorldOptions options;
+        options.seed = seed;
+        options.faults = {.drop = 0.02, .damage = 0.02, .delay = 0.02};
+        World world(table(), options);
+        std::vector<std::int32_t> trail;
+        while (world.now() < Time(1s)) {
+            world.step(1s);
+            if (world.gateway().state().step == 1) world.set_input(0, true);
+            trail.push_back(world.mac().p_ist());
+        }
+        return trail;
+    };
+    EXPECT_EQ(run(11), run(11));
+    EXPECT_NE(run(11), run(12));
+}
+
+class Models : public testing::TestWithParam<registers::Model> {};
+
+TEST_P(Models, RunTheirSequence) {
+    WorldOptions options;
+    options.motor = GetParam();
+    World world(table(), options);
+    while (world.now() < Time(500ms)) world.step(500ms);
+    EXPECT_EQ(world.gateway().state().step, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(World, Models,
+                         testing::Values(registers::Model::mac50, registers::Model::mac95,
+                                         registers::Model::mac140, registers::Model::mac141));
+
+TEST(SimBoard, InputsAndOutputsAreWhatWasSet) {
+    SimBoard board(base::Microseconds(1000));
+    board.set_input(5, true);
+    board.set_input(0, true);
+    board.set_input(5, false);
+    EXPECT_EQ(board.read(), 1);
+    board.write(0xFF);
+    EXPECT_EQ(board.outputs(), 0x0F);
+}
+
+TEST(SimBoard, TheWatchdogBitesWhenItIsNotFed) {
+    SimBoard board(base::Microseconds(1000));
+    const auto at = [](std::int64_t us) { return base::Instant(base::Microseconds(us)); };
+    EXPECT_FALSE(board.watchdog_bites(at(5000))) << "it begins with the first feeding";
+    board.feed();
+    EXPECT_FALSE(board.watchdog_bites(at(6000)));
+    EXPECT_FALSE(board.watchdog_bites(at(7000)));
+    EXPECT_TRUE(board.watchdog_bites(at(7001)));
+    EXPECT_FALSE(board.watchdog_bites(at(9000)));
+    EXPECT_EQ(board.bites(), 1U);
+}
+
+}  // namespace
+}  // namespace nplc::sim
