@@ -88,6 +88,9 @@ void JvlMotor::on_executed(const Order& order, base::Instant now) {
     if (order.command == command_byte(Number::transmit_slowly)) slowed_ = true;
 }
 
+/// R: a NOP in each polarity proves that the link is in step. Safe communication comes before, and in each
+/// polarity too: until the motor has it, a damaged byte is another command, and an echo does not tell which
+/// was executed.
 void JvlMotor::start_up(base::Instant now) {
     switch (phase_) {
         case Phase::down:
@@ -104,19 +107,22 @@ void JvlMotor::start_up(base::Instant now) {
                 link_.leave_flexmac(now);
                 return;
             }
-            phase_ = Phase::first_nop;
+            phase_ = Phase::first_safety;
             [[fallthrough]];
+        case Phase::first_safety:
+        case Phase::second_safety:
+            return command(Sending::start_up, safety_command(), now);
         case Phase::first_nop:
         case Phase::second_nop:
             return command(Sending::start_up, command_byte(Number::nop), now);
-        case Phase::choose_safety:
-            return command(Sending::start_up,
-                           command_byte(settings_.safe_communication ? Number::safe_communication
-                                                                     : Number::rapid_communication),
-                           now);
         case Phase::up:
             return;
     }
+}
+
+std::uint8_t JvlMotor::safety_command() const {
+    return command_byte(settings_.safe_communication ? Number::safe_communication
+                                                     : Number::rapid_communication);
 }
 
 /// A stream without a pause may never come in step: "transmit slowly" with either toggle, twice for safe

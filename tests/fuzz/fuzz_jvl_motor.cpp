@@ -52,7 +52,7 @@ class Run {
   public:
     Run() {
         line_.driver = &driver_;
-        for (const int echo : {0x00, 0x80, 0x00, 0x80}) {
+        for (const int echo : {0x00, 0x80, 0x00, 0x80, 0x00}) {
             for (int i = 0; i < 4; ++i) hear(static_cast<std::uint8_t>(echo), false);
         }
         require(driver_.link() == motor::Link::up);

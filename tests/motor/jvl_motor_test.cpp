@@ -27,27 +27,45 @@ struct MotorTest : testing::Test {
         motor.hear(after);
         motor.hear(after);
     }
+    /// Whatever the toggle `status` shows: safe communication and a NOP, both in each polarity. Ends as it
+    /// began.
+    void come_up(std::uint8_t status) {
+        const auto other = static_cast<std::uint8_t>(status ^ 0x80);
+        const auto byte = [&](int command, std::uint8_t shown) {
+            return static_cast<std::uint8_t>(command | (~shown & 0x80));
+        };
+        for (const int command : {0x6B, 0x60}) {
+            exchange({byte(command, status), byte(command, status)}, status, other);
+            exchange({byte(command, other), byte(command, other)}, other, status);
+        }
+    }
     void start() {
-        motor.hear(0x00);
-        motor.hear(0x00);
-        exchange({0xE0, 0xE0}, 0x00, 0x80);
-        exchange({0x60, 0x60}, 0x80, 0x00);
-        exchange({0xEB, 0xEB}, 0x00, 0x80);
+        motor.hear_times(2, 0x80);
+        come_up(0x80);
         ASSERT_EQ(driver.link(), Link::up);
         ASSERT_TRUE(driver.settled());
     }
 };
 
-TEST_F(MotorTest, StartsWithANopInEachPolarityAndSafeCommunication) {
-    start();
+TEST_F(MotorTest, StartsWithSafeCommunicationAndANopInEachPolarity) {
+    motor.hear(0x00);
+    motor.hear(0x00);
+    exchange({0xEB, 0xEB}, 0x00, 0x80);
+    exchange({0x6B, 0x6B}, 0x80, 0x00);
+    exchange({0xE0, 0xE0}, 0x00, 0x80);
+    EXPECT_EQ(driver.link(), Link::starting);
+    exchange({0x60, 0x60}, 0x80, 0x00);
+    EXPECT_EQ(driver.link(), Link::up);
+    EXPECT_TRUE(driver.settled());
 }
 
 TEST_F(MotorTest, StartsFromAnyToggle) {
     motor.hear(0x80);
     motor.hear(0x80);
+    exchange({0x6B, 0x6B}, 0x80, 0x00);
+    exchange({0xEB, 0xEB}, 0x00, 0x80);
     exchange({0x60, 0x60}, 0x80, 0x00);
     exchange({0xE0, 0xE0}, 0x00, 0x80);
-    exchange({0x6B, 0x6B}, 0x80, 0x00);
     EXPECT_EQ(driver.link(), Link::up);
 }
 
@@ -55,22 +73,20 @@ TEST_F(MotorTest, AMotorLeftInFlexMacIsBroughtBackFirst) {
     motor.hear(0x08);
     motor.hear(0x08);
     exchange({0x7E, 0x7E, 0x7E}, 0x08, 0x80);
-    exchange({0x60, 0x60}, 0x80, 0x00);
-    exchange({0xE0, 0xE0}, 0x00, 0x80);
-    exchange({0x6B, 0x6B}, 0x80, 0x00);
+    come_up(0x80);
     EXPECT_EQ(driver.link(), Link::up);
 }
 
 TEST_F(MotorTest, RapidCommunicationIsASetting) {
     JvlMotor rapid(line, {.safe_communication = false});
     Script<JvlMotor> peer{line, rapid};
-    peer.hear_times(3, 0x00);
-    EXPECT_EQ(line.take(), (Bytes{0xE0, 0xE0}));
-    peer.hear_times(4, 0x80);
-    EXPECT_EQ(line.take(), (Bytes{0x60, 0x60}));
-    peer.hear_times(4, 0x00);
-    EXPECT_EQ(line.take(), (Bytes{0xEA, 0xEA}));
-    peer.hear_times(4, 0x80);
+    peer.hear_times(3, 0x80);
+    EXPECT_EQ(line.take(), (Bytes{0x6A, 0x6A}));
+    for (const int echo : {0x00, 0x80, 0x00, 0x80}) {
+        EXPECT_EQ(rapid.link(), Link::starting);
+        peer.hear_times(4, static_cast<std::uint8_t>(echo));
+    }
+    EXPECT_EQ(line.take(), (Bytes{0xEA, 0xEA, 0x60, 0x60, 0xE0, 0xE0}));
     ASSERT_EQ(rapid.link(), Link::up);
     rapid.send(command(0x42));
     peer.hear(0x80);
@@ -95,10 +111,8 @@ TEST_F(MotorTest, OrdersGoOutInOrderWithAlternatingToggle) {
 TEST_F(MotorTest, TheOlderRegisterCodeIsASetting) {
     JvlMotor older(line, {.register_code = protocol::fastmac::RegisterCode::older_example});
     Script<JvlMotor> peer{line, older};
-    peer.hear_times(3, 0x00);
-    peer.hear_times(4, 0x80);
-    peer.hear_times(4, 0x00);
-    peer.hear_times(4, 0x80);
+    peer.hear_times(3, 0x80);
+    for (const int echo : {0x00, 0x80, 0x00, 0x80}) peer.hear_times(4, static_cast<std::uint8_t>(echo));
     ASSERT_EQ(older.link(), Link::up);
     line.take();
     older.send(command(0x45));  // position mode, P6: 5Dh in the manual's example
@@ -181,10 +195,8 @@ TEST_F(MotorTest, StopOfAMac800IsALongword) {
     JvlMotor mac800(line, {.registers_are_32_bit = true});
     Script<JvlMotor> peer{line, mac800};
     mac800.stop();
-    peer.hear_times(3, 0x00);
-    peer.hear_times(4, 0x80);
-    peer.hear_times(4, 0x00);
-    peer.hear_times(4, 0x80);
+    peer.hear_times(3, 0x80);
+    for (const int echo : {0x00, 0x80, 0x00, 0x80}) peer.hear_times(4, static_cast<std::uint8_t>(echo));
     ASSERT_EQ(mac800.link(), Link::up);
     line.take();
     peer.hear_times(4, 0x08);
@@ -200,10 +212,8 @@ struct LostLink : MotorTest {
         for (int i = 0; i < 45; ++i) motor.silence();
     }
     void restart() {
-        motor.hear_times(2, 0x90);
-        exchange({0x60, 0x60}, 0x90, 0x10);
-        exchange({0xE0, 0xE0}, 0x10, 0x90);
-        exchange({0x6B, 0x6B}, 0x90, 0x10);
+        motor.hear_times(2, 0x10);
+        come_up(0x10);
     }
 };
 

@@ -42,7 +42,7 @@ if(NPLC_SANITIZE)
   target_link_options(nplc_options INTERFACE -fsanitize=address,undefined)
 endif()
 if(NPLC_FUZZ)
-  target_compile_options(nplc_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined
+  target_compile_options(nplc_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize=vptr
                                                 -fno-sanitize-recover=all)
   target_link_options(nplc_options INTERFACE -fsanitize=address,undefined)
 endif()

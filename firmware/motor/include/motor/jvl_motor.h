@@ -42,13 +42,14 @@ class JvlMotor final : public Motor {
     const Counters& counters() const { return counters_; }
 
   private:
-    enum class Phase : std::uint8_t { down, look, first_nop, second_nop, choose_safety, up };
+    enum class Phase : std::uint8_t { down, look, first_safety, second_safety, first_nop, second_nop, up };
     enum class Sending : std::uint8_t { nothing, start_up, link_command, order, stop };
 
     void lose_link(base::Instant now);
     void on_accepted(base::Instant now);
     void on_executed(const Order& order, base::Instant now);
     void start_up(base::Instant now);
+    std::uint8_t safety_command() const;
     void free_the_line(base::Instant now);
     void work(base::Instant now);
     void write_register(Sending what, const Order& order, base::Instant now);
