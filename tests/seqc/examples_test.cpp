@@ -54,7 +54,7 @@ TEST(Examples, PickAndPlaceWalk) {
     EXPECT_EQ(at(3, 0x40, false), test::Scan{});
     EXPECT_EQ(at(3, 0x40, true), (test::Scan{.next = 4, .outputs = 0, .sends = {"40"}}));
     EXPECT_EQ(at(4, 0x40, true), (test::Scan{.next = 1, .outputs = 8}));
-    EXPECT_EQ(at(4, 0xC0, true), (test::Scan{.next = 5, .outputs = 0}));
+    EXPECT_EQ(at(4, 0xC0, true), (test::Scan{.next = 5, .outputs = 0, .sends = {"65"}}));
     EXPECT_EQ(at(5, 0x84, true), (test::Scan{.next = 6, .outputs = 0, .sends = {"61"}}));
     EXPECT_EQ(at(6, 0x00, true), (test::Scan{.next = 0, .outputs = 0}));
     EXPECT_EQ(at(6, 0x04, true), test::Scan{});
