@@ -13,8 +13,6 @@ struct PreparedTable::Fill {
     std::array<std::uint16_t, kMaxTerms> own{};  ///< the terms of the step in hand
     std::size_t own_count = 0;
 
-    static bool has_order(TermView term) { return (term[2] & 0x80) != 0 || (term[4] & 0x80) == 0; }
-
     /// Calls `visit(term)` for each true term until it answers false.
     template <class Visit>
     bool each_true(Key key, Visit&& visit) const {
@@ -29,14 +27,14 @@ struct PreparedTable::Fill {
         own_count = 0;
         const Table::Range range = table.terms_of(step);
         for (std::uint16_t i = range.begin; i != range.end; ++i) {
-            if ((table.term(i)[0] & 0x3F) == step) own[own_count++] = i;
+            if (step_of(table.term(i)) == step) own[own_count++] = i;
         }
     }
 
     Action outcome(Key key) const {
         Action action;
         each_true(key, [&](TermView term) {
-            if ((term[2] & 0x80) == 0) action.pending.fold(term);
+            if (!is_flex(term)) action.pending.fold(term);
             if (has_order(term)) ++action.order_count;
             return true;
         });

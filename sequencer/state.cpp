@@ -5,7 +5,7 @@
 namespace nplc::sequencer {
 
 MotorOrder order_of(TermView term) {
-    if ((term[2] & 0x80) == 0) return {.command = static_cast<std::uint8_t>(term[4] & 0x7F)};
+    if (!is_flex(term)) return {.command = static_cast<std::uint8_t>(term[4] & 0x7F)};
     const bool longword = (term[3] & 0x80) != 0;
     return {
         .is_flex = true,

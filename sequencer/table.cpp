@@ -55,7 +55,7 @@ Table::LoadResult Table::load(std::span<const std::uint8_t> bytes) {
         if (is_end(term)) return result;
         if (index == kMaxTerms) return refuse(base::Error::no_space, index);
         if (const auto fault = fault_of(term)) return refuse(*fault, index);
-        table.note(term[0] & 0x3F, static_cast<std::uint16_t>(index));
+        table.note(step_of(term), static_cast<std::uint16_t>(index));
         table.size_ = static_cast<std::uint16_t>(index + 1);
     }
 }

@@ -52,10 +52,9 @@ class Engine {
     std::optional<MotorOrder> next() {
         while (range_.begin != range_.end) {
             const TermView term = table_->term(range_.begin++);
-            if ((term[0] & 0x3F) != state_.step || !is_true(term, key_)) continue;
-            const bool is_flex = (term[2] & 0x80) != 0;
-            if (!is_flex) pending_.fold(term);
-            if (is_flex || (term[4] & 0x80) == 0) {
+            if (step_of(term) != state_.step || !is_true(term, key_)) continue;
+            if (!is_flex(term)) pending_.fold(term);
+            if (has_order(term)) {
                 sent_ = true;
                 return order_of(term);
             }
@@ -73,7 +72,7 @@ class Engine {
     Key key(InputImage image) const { return key_of(image, state_); }
 
     /// Steps 1 to 3 at once, for a motor that never halts the scan. `sink(const MotorOrder&)` is called in
-    /// table order.
+    /// table order. A loop of its own because it keeps what a halted scan must remember in registers.
     template <class Sink>
     ScanEffect scan(InputImage image, Sink&& sink) {
         const Table::Range range = table_->terms_of(state_.step);
@@ -82,10 +81,9 @@ class Engine {
         bool sent = false;
         for (std::uint16_t i = range.begin; i != range.end; ++i) {
             const TermView term = table_->term(i);
-            if ((term[0] & 0x3F) != state_.step || !is_true(term, key)) continue;
-            const bool is_flex = (term[2] & 0x80) != 0;
-            if (!is_flex) pending.fold(term);
-            if (is_flex || (term[4] & 0x80) == 0) {
+            if (step_of(term) != state_.step || !is_true(term, key)) continue;
+            if (!is_flex(term)) pending.fold(term);
+            if (has_order(term)) {
                 sent = true;
                 sink(order_of(term));
             }

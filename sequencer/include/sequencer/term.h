@@ -70,8 +70,19 @@ Term decode(TermView bytes);
 /// Fields wider than their bits are cut to them.
 TermBytes encode(const Term& term);
 
+/// Single bits of a term, for whoever has no use for the rest.
+constexpr std::uint8_t step_of(TermView bytes) {
+    return bytes[0] & 0x3F;
+}
+constexpr bool is_flex(TermView bytes) {
+    return (bytes[2] & 0x80) != 0;
+}
+/// A register write, or a FastMAC command that is not disabled.
+constexpr bool has_order(TermView bytes) {
+    return is_flex(bytes) || (bytes[4] & 0x80) == 0;
+}
 constexpr bool is_end(TermView bytes) {
-    return (bytes[0] & 0x3F) == kEndOfTable;
+    return step_of(bytes) == kEndOfTable;
 }
 
 }  // namespace nplc::sequencer
