@@ -10,6 +10,9 @@ namespace {
 
 using Relation = Condition::Relation;
 
+/// Conditions are read, judged and given up by recursion.
+constexpr int kDeepest = 100;
+
 constexpr std::array<std::pair<std::string_view, Relation>, 6> kRelations{{{"=", Relation::equal},
                                                                            {"<>", Relation::unequal},
                                                                            {"<", Relation::less},
@@ -76,15 +79,28 @@ Condition ConditionParser::both() {
 
 Condition ConditionParser::primary() {
     if (reader_.take("not")) {
-        return {.kind = Condition::Kind::negated, .value = {}, .order = {}, .parts = {primary()}};
+        return {.kind = Condition::Kind::negated,
+                .value = {},
+                .order = {},
+                .parts = {nested(&ConditionParser::primary)}};
     }
     if (reader_.take("(")) {
-        Condition inner = either();
+        Condition inner = nested(&ConditionParser::either);
         reader_.want(")", ") to close the parenthesis");
         return inner;
     }
     if (reader_.take("ordered")) return order();
     return comparison();
+}
+
+Condition ConditionParser::nested(Condition (ConditionParser::*part)()) {
+    if (++depth_ > kDeepest) {
+        throw LineMistake{fmt::format(
+            "parentheses and NOTs are more than {} deep; write the condition in a simpler way", kDeepest)};
+    }
+    Condition inner = (this->*part)();
+    --depth_;
+    return inner;
 }
 
 Condition ConditionParser::order() {

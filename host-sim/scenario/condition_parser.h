@@ -22,6 +22,7 @@ class ConditionParser {
     Condition either();
     Condition both();
     Condition primary();
+    Condition nested(Condition (ConditionParser::*part)());
     Condition comparison();
     Condition order();
     Value value();
@@ -34,6 +35,7 @@ class ConditionParser {
 
     Reader& reader_;
     const Names& names_;
+    int depth_ = 0;  ///< of parentheses and NOTs
 };
 
 }  // namespace nplc::sim

@@ -10,6 +10,8 @@
 namespace nplc::sim {
 namespace {
 
+constexpr std::size_t kLongestLine = 1'000'000;
+
 /// Statements of one line. Throws LineMistake.
 class LineParser {
   public:
@@ -227,6 +229,10 @@ ParsedScenario parse_scenario(std::string_view text, const std::string& file, co
         const auto length = std::min(text.find('\n'), text.size());
         ++number;
         try {
+            if (length > kLongestLine) {
+                throw LineMistake{
+                    fmt::format("the line is longer than {} characters; write several", kLongestLine)};
+            }
             LineParser(text.substr(0, length), number, names, parsed.scenario).parse();
         } catch (const LineMistake& mistake) {
             parsed.mistakes.push_back({number, mistake.message});

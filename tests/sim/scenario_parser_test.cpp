@@ -184,5 +184,33 @@ TEST(ScenarioParser, AnyBytesAreSurvived) {
     }
 }
 
+std::string repeated(const std::string& text, int times) {
+    std::string result;
+    for (int i = 0; i < times; ++i) result += text;
+    return result;
+}
+
+TEST(ScenarioParser, DeepNestingIsRefused) {
+    const auto nots = [](int count) { return "expect " + repeated("not ", count) + "IN0"; };
+    const auto parentheses = [](int count) {
+        return "expect " + repeated("(", count) + "IN0" + repeated(")", count);
+    };
+    EXPECT_TRUE(parse(nots(100)).mistakes.empty());
+    EXPECT_TRUE(parse(parentheses(100)).mistakes.empty());
+    for (const std::string& line : {nots(101), nots(40'000), parentheses(101), parentheses(10'000),
+                                    "expect " + repeated("not (", 10'000), "when " + repeated("(", 10'000)}) {
+        EXPECT_NE(mistake(line).find("more than 100 deep"), std::string::npos) << mistake(line);
+    }
+}
+
+TEST(ScenarioParser, LongConditionsBesideEachOtherAreNotDeep) {
+    EXPECT_TRUE(parse("expect IN0" + repeated(" and not (IN1)", 10'000)).mistakes.empty());
+    EXPECT_TRUE(parse("expect IN0" + repeated(" or (IN1 and IN2)", 10'000)).mistakes.empty());
+}
+
+TEST(ScenarioParser, AnEndlessLineIsRefused) {
+    EXPECT_NE(mistake("# " + std::string(1'000'000, 'x')).find("longer than 1000000"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace nplc::sim
