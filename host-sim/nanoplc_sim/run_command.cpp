@@ -10,6 +10,7 @@
 
 #include "hal_linux/terminal.h"
 #include "input_file.h"
+#include "output_check.h"
 #include "session.h"
 
 namespace nplc::sim {
@@ -106,6 +107,7 @@ void run_realtime(Session& session, const volatile std::sig_atomic_t& interrupte
 }  // namespace
 
 int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted) {
+    check_outputs(options);
     Program program = load_program(options.program);
     if (options.motor && *options.motor != program.names.motor && !program.names.steps.empty()) {
         fmt::print(stderr, "{}: was compiled for {} and runs on {}; its register values may not fit\n",

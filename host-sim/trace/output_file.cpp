@@ -16,25 +16,39 @@ namespace fs = std::filesystem;
         fmt::format("{}: cannot be written: {}; name a file in a folder where you may write", path, why));
 }
 
-/// Where a chain of symbolic links ends, so that a link stays a link.
-fs::path follow(const std::string& path) {
+/// Where a chain of symbolic links ends, also if nothing is there yet, so that a link stays a link.
+fs::path follow(const fs::path& path) {
+    constexpr int kMostLinks = 40;
     std::error_code error;
-    const fs::path real = fs::weakly_canonical(path, error);
-    return error ? fs::path(path) : real;
+    fs::path end = path;
+    for (int i = 0; i < kMostLinks && fs::is_symlink(end, error); ++i) {
+        end = end.parent_path() / fs::read_symlink(end, error);
+    }
+    const fs::path real = fs::weakly_canonical(fs::absolute(end, error), error);
+    return error ? path : real;
 }
 
 }  // namespace
 
-OutputFile::OutputFile(const std::string& path) : path_(path) {
+std::vector<fs::path> OutputFile::written_for(const std::string& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
-    if (fs::is_directory(status)) fail(path, "it is a folder");
-    if (fs::exists(status) && !fs::is_regular_file(status)) {
+    if (fs::exists(status) && !fs::is_regular_file(status)) return {};
+    const fs::path target = follow(path);
+    fs::path temporary = target;
+    temporary += ".part";
+    return {target, temporary};
+}
+
+OutputFile::OutputFile(const std::string& path) : path_(path) {
+    std::error_code error;
+    if (fs::is_directory(path, error)) fail(path, "it is a folder");
+    const auto files = written_for(path);
+    if (files.empty()) {
         stream_.open(path);
     } else {
-        target_ = follow(path);
-        temporary_ = target_;
-        temporary_ += ".part";
+        target_ = files[0];
+        temporary_ = files[1];
         stream_.open(temporary_, std::ios::trunc);
     }
     if (!stream_) fail(path, std::strerror(errno));

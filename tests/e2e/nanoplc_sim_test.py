@@ -186,6 +186,8 @@ class Run(Case):
             "end at 1 s\nwhen IN0 rises IN0 := 0\nwhen not IN0 IN0 := 1\n": "",
             "foo\nbar\nbaz\n": "(and 2 more mistakes in this file)",
             "\x00\xff\n": "s.scn:1:",
+            "end at 1 s\nexpect " + "(" * 10000 + "IN0" + ")" * 10000 + "\n": "s.scn:2: parentheses and NOTs are more",
+            "expect " + "not " * 40000 + "IN0\n": "s.scn:1: parentheses and NOTs are more",
         }
         for content, says in bad.items():
             with self.subTest(content):
@@ -242,6 +244,42 @@ class Run(Case):
         for option in ("--trace", "--vcd"):
             self.refused("run", self.table, "--for", "1s", option, self.path("no/t"), says="no/t: cannot be written")
             self.refused("run", self.table, "--for", "1s", option, self.folder.name, says="it is a folder")
+
+    def test_a_trace_never_lands_on_an_input(self):
+        scenario = self.write("s.scn", "end at 1 s\n")
+        os.symlink(self.table, self.path("symbolic.bin"))
+        os.link(self.table, self.path("hard.bin"))
+        around = os.path.join(self.folder.name, ".", "t.bin")
+        for option in ("--trace", "--vcd"):
+            for name in (self.table, around, self.path("symbolic.bin"), self.path("hard.bin")):
+                with self.subTest(option=option, name=name):
+                    self.refused("run", self.table, "--for", "1s", option, name, says="overwrite the program")
+            self.refused("run", self.path("symbolic.bin"), "--for", "1s", option, self.table, says="overwrite the program")
+            self.refused("run", self.table, "--scenario", scenario, option, scenario, says="overwrite the scenario")
+            # A trace is gathered in NAME.part.
+            part = self.write("k.part", TABLE)
+            self.refused("run", part, "--for", "1s", option, self.path("k"), says="overwrite the program")
+        with open(self.table, "rb") as file:
+            self.assertEqual(file.read(), TABLE)
+        self.assertEqual(self.read("s.scn"), "end at 1 s\n")
+
+    def test_two_traces_are_two_files(self):
+        os.symlink(self.path("new"), self.path("dangling"))
+        self.write("old", "old")
+        for csv_name, vcd_name in (("new", "new"), ("new", "./new"), ("dangling", "new"), ("old", "old"),
+                                   ("new", "new.part"), ("new.part", "new")):
+            with self.subTest(csv=csv_name, vcd=vcd_name):
+                self.refused("run", self.table, "--for", "1s", "--trace", self.path(csv_name), "--vcd",
+                             self.path(vcd_name), says="name two files")
+        self.assertEqual(sorted(os.listdir(self.folder.name)), ["dangling", "old", "t.bin"])
+        self.assertEqual(self.call("run", self.table, "--for", "20ms", "--trace", "/dev/null", "--vcd",
+                                   "/dev/null").returncode, 0)
+
+    def test_a_link_to_a_trace_stays_a_link(self):
+        os.symlink("new.csv", self.path("link.csv"))
+        self.assertEqual(self.call("run", self.table, "--for", "20ms", "--trace", self.path("link.csv")).returncode, 0)
+        self.assertTrue(os.path.islink(self.path("link.csv")))
+        self.assertTrue(self.read("new.csv").startswith(TRACE_HEADER))
 
     def test_a_trace_is_written_whole_or_not_at_all(self):
         self.write("s.scn", "when IN0 rises IN0 := 0\nwhen not IN0 IN0 := 1\nend at 1 s\n")

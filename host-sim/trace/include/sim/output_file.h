@@ -4,6 +4,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace nplc::sim {
 
@@ -15,6 +16,9 @@ class OutputFile {
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
+
+    /// The files that writing to `path` touches: none for what is written directly.
+    static std::vector<std::filesystem::path> written_for(const std::string& path);
 
     void write(const std::string& text) { stream_ << text; }
     void commit();
