@@ -24,11 +24,25 @@ Time CsvTrace::next_due() const {
 }
 
 void CsvTrace::observe(const Snapshot& s) {
-    if (last_ && s.time < next_due() && same_row(s, *last_)) return;
-    write_row(s);
+    const bool changed = !last_ || !same_row(s, *last_);
+    if (!changed && s.time < next_due()) return;
+    if (!changed || s.time > last_->time) write_held();
+    if (changed) {
+        write_row(s);
+    } else {
+        last_ = s;
+    }
+    holds_ = !changed;
+}
+
+void CsvTrace::write_held() {
+    if (!holds_) return;
+    holds_ = false;
+    write_row(Snapshot{*last_});
 }
 
 void CsvTrace::finish(const Snapshot& last) {
+    write_held();
     if (!last_ || last.time > last_->time) write_row(last);
     file_.commit();
 }

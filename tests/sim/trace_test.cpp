@@ -77,6 +77,37 @@ TEST_F(Trace, CsvHasARowForEveryChangeAndEveryTenMilliseconds) {
     EXPECT_EQ(lines(path("t.csv")), expected);
 }
 
+TEST_F(Trace, AChangeTakesThePlaceOfARowThatWasOnlyDue) {
+    CsvTrace trace(path("t.csv"));
+    Snapshot s;
+    trace.observe(s);
+    s.time = 10ms;
+    trace.observe(s);  // due
+    s.inputs = 4;
+    trace.observe(s);  // and at the same instant a change
+    s.step = 1;
+    trace.observe(s);  // a second one
+    s.time = 20ms;
+    trace.observe(s);  // due
+    EXPECT_EQ(trace.next_due(), Time(30ms));
+    s.time = 30ms;
+    trace.observe(s);  // due
+    s.time = 31ms;
+    s.step = 2;
+    trace.observe(s);
+    s.time = 41ms;
+    trace.observe(s);  // due
+    trace.finish(s);
+    const std::vector<std::string> expected{
+        "0.000,0,0,0,0,0,0,0,,0,0",  "10.000,0,0,0,4,0,0,0,,0,0", "10.000,1,0,0,4,0,0,0,,0,0",
+        "20.000,1,0,0,4,0,0,0,,0,0", "30.000,1,0,0,4,0,0,0,,0,0", "31.000,2,0,0,4,0,0,0,,0,0",
+        "41.000,2,0,0,4,0,0,0,,0,0",
+    };
+    auto rows = lines(path("t.csv"));
+    rows.erase(rows.begin());
+    EXPECT_EQ(rows, expected);
+}
+
 TEST_F(Trace, TheFileAppearsOnlyWhenItIsWhole) {
     {
         CsvTrace trace(path("t.csv"));

@@ -26,10 +26,13 @@ class CsvTrace {
     void finish(const Snapshot& last);
 
   private:
+    void write_held();
     void write_row(const Snapshot& snapshot);
 
     OutputFile file_;
     std::optional<Snapshot> last_;
+    bool holds_ =
+        false;  ///< last_ was only due: it is written unless a change at its instant takes its place
 };
 
 }  // namespace nplc::sim
