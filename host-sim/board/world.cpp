@@ -50,6 +50,8 @@ World::World(std::vector<std::uint8_t> table, const WorldOptions& options)
 
 void World::start_gateway(gateway::StartCause cause) {
     gateway_.reset();
+    on_their_way_.clear();
+    followed_ = {};
     driver_.emplace(line_.port(), driver_settings(options_, mac_.sample_period()));
     const gateway::Gateway::Ports ports{board_, board_, board_, *driver_};
     gateway_.emplace(ports, options_.gateway, cause);
@@ -116,9 +118,22 @@ void World::fail_in_this_sample() {
 
 void World::poll_gateway() {
     gateway_->poll(instant());
+    follow_orders();
     line_.service(now_);
     next_poll_ = now_ + kPollPeriod;
     if (board_.watchdog_bites(instant())) start_gateway(gateway::StartCause::watchdog);
+}
+
+/// The driver executes in the order given, and gives up all that waits behind the one under way, or all.
+void World::follow_orders() {
+    const motor::JvlMotor::Counters& counters = driver_->counters();
+    for (; followed_.orders != counters.orders && !on_their_way_.empty(); ++followed_.orders) {
+        on_their_way_.pop_front();
+    }
+    const std::size_t given_up =
+        std::min<std::size_t>(counters.discarded - followed_.discarded, on_their_way_.size());
+    on_their_way_.resize(on_their_way_.size() - given_up);
+    followed_ = counters;
 }
 
 Snapshot World::take_snapshot() {
@@ -140,6 +155,7 @@ Snapshot World::take_snapshot() {
 
 void World::ordered(base::Instant /*now*/, const sequencer::MotorOrder& order) {
     orders_.push_back({order.is_flex, order.command, order.reg, order.value});
+    on_their_way_.push_back(orders_given_++);
 }
 
 void World::scanned(base::Instant /*now*/, const sequencer::State& /*before*/,
@@ -174,6 +190,7 @@ void World::gateway(action::Gateway what) {
     switch (what) {
         case action::Gateway::stop:
             gateway_->stop(instant());
+            follow_orders();
             return;
         case action::Gateway::run:
             static_cast<void>(gateway_->run());

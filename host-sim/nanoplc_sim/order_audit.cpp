@@ -37,14 +37,23 @@ SentOrder as_sent(const Order& order, fastmac::RegisterCode code) {
     return {.is_register_write = true, .reg = order.reg, .value = order.message.value};
 }
 
-void keep(std::vector<SentOrder>& list, const SentOrder& order) {
-    if (!concerns_the_link_only(order)) list.push_back(order);
-}
+/// What is compared of a list of orders.
+struct Compared {
+    std::vector<SentOrder> orders;
+    std::vector<bool> under_way;
 
-void cut(std::vector<SentOrder>& list) {
-    if (list.size() > kMostOrders)
-        list.erase(list.begin(), list.end() - static_cast<std::ptrdiff_t>(kMostOrders));
-}
+    void keep(const SentOrder& order, bool is_under_way = false) {
+        if (concerns_the_link_only(order)) return;
+        orders.push_back(order);
+        under_way.push_back(is_under_way);
+    }
+    void cut() {
+        if (orders.size() <= kMostOrders) return;
+        const auto excess = static_cast<std::ptrdiff_t>(orders.size() - kMostOrders);
+        orders.erase(orders.begin(), orders.begin() + excess);
+        under_way.erase(under_way.begin(), under_way.begin() + excess);
+    }
+};
 
 /// lengths[i][j]: the longest common subsequence of a from i and b from j.
 std::vector<std::vector<std::uint16_t>> common_lengths(const std::vector<SentOrder>& a,
@@ -62,25 +71,29 @@ std::vector<std::vector<std::uint16_t>> common_lengths(const std::vector<SentOrd
 }  // namespace
 
 OrderAudit audit(const std::vector<SentOrder>& ordered, const std::deque<Order>& executed,
-                 fastmac::RegisterCode code) {
-    std::vector<SentOrder> wanted;
-    std::vector<SentOrder> done;
-    for (const SentOrder& order : ordered) keep(wanted, order);
-    for (const Order& order : executed) keep(done, as_sent(order, code));
-    cut(wanted);
-    cut(done);
-    const auto lengths = common_lengths(wanted, done);
+                 const std::deque<std::size_t>& on_their_way, fastmac::RegisterCode code) {
+    Compared wanted;
+    Compared done;
+    for (std::size_t i = 0; i < ordered.size(); ++i) {
+        wanted.keep(ordered[i], std::binary_search(on_their_way.begin(), on_their_way.end(), i));
+    }
+    for (const Order& order : executed) done.keep(as_sent(order, code));
+    wanted.cut();
+    done.cut();
+    const auto lengths = common_lengths(wanted.orders, done.orders);
     OrderAudit result;
     std::size_t i = 0;
     std::size_t j = 0;
-    while (i < wanted.size() || j < done.size()) {
-        if (i < wanted.size() && j < done.size() && wanted[i] == done[j]) {
+    while (i < wanted.orders.size() || j < done.orders.size()) {
+        const bool both = i < wanted.orders.size() && j < done.orders.size();
+        if (both && wanted.orders[i] == done.orders[j]) {
             ++i;
             ++j;
-        } else if (j == done.size() || (i < wanted.size() && lengths[i + 1][j] >= lengths[i][j + 1])) {
-            result.missing.push_back(wanted[i++]);
+        } else if (j == done.orders.size() || (both && lengths[i + 1][j] >= lengths[i][j + 1])) {
+            (wanted.under_way[i] ? result.under_way : result.missing).push_back(wanted.orders[i]);
+            ++i;
         } else {
-            result.unordered.push_back(done[j++]);
+            result.unordered.push_back(done.orders[j++]);
         }
     }
     return result;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <deque>
 #include <vector>
 
@@ -14,11 +15,14 @@ namespace nplc::sim {
 /// itself.
 struct OrderAudit {
     std::vector<SentOrder> missing;    ///< ordered and not executed
+    std::vector<SentOrder> under_way;  ///< ordered and not executed yet
     std::vector<SentOrder> unordered;  ///< executed and not ordered
 };
 
-/// `code`: the register code that the motor executed its commands by; the sequence's is the format list's.
+/// `on_their_way`: places in `ordered`, ascending, of what the driver has not finished. `code`: the register
+/// code that the motor executed its commands by; the sequence's is the format list's.
 OrderAudit audit(const std::vector<SentOrder>& ordered, const std::deque<Order>& executed,
+                 const std::deque<std::size_t>& on_their_way = {},
                  protocol::fastmac::RegisterCode code = protocol::fastmac::RegisterCode::format_list);
 
 }  // namespace nplc::sim

@@ -187,11 +187,15 @@ void Session::summary() const {
 
 void Session::compare_orders() const {
     const OrderAudit found =
-        audit(ordered_, world_.mac().orders(),
+        audit(ordered_, world_.mac().orders(), world_.on_their_way(),
               options_.old_register_codes ? protocol::fastmac::RegisterCode::older_example
                                           : protocol::fastmac::RegisterCode::format_list);
+    if (!found.under_way.empty()) {
+        fmt::print("still on their way: {}\n", list(found.under_way, program_.names));
+    }
     if (found.missing.empty() && found.unordered.empty()) {
-        fmt::print("the motor executed what was ordered, and nothing else\n");
+        fmt::print("{}the motor executed what was ordered, and nothing else\n",
+                   found.under_way.empty() ? "" : "apart from that ");
         return;
     }
     fmt::print("ordered and not executed: {}\nexecuted and not ordered: {}\n",

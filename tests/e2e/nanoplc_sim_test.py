@@ -233,6 +233,18 @@ class Run(Case):
         commands = [row["command"] for row in csv.DictReader(self.read("t.csv").splitlines()) if row["command"]]
         self.assertEqual(commands, ["60 65=300"])
 
+    def test_orders_on_their_way_at_the_end_are_not_lost(self):
+        # VELOCITY(V1) is mode 01, register 01000: 28h; 001 sections 5.2.1.4 and 6.1.7.
+        self.table = self.write("c.bin", bytes([0xC0, 0, 0, 0x01, 0x28, 0, 0, 0]) + END)
+        good = "the motor executed what was ordered, and nothing else\n"
+        whole = self.call("run", self.table, "--for", "1s").stdout.decode()
+        self.assertIn("\n" + good, whole)
+        ordered = next(line for line in whole.splitlines() if "VELOCITY(V1)" in line).split()[0]
+        # A byte takes 10 bits at 19200 baud, 521 us: 100 us after the order none of its has arrived.
+        cut = self.call("run", self.table, "--for", f"{round(float(ordered) * 1000) + 100}us").stdout.decode()
+        self.assertIn("still on their way: VELOCITY(V1)\napart from that " + good, cut)
+        self.assertNotIn("not executed", cut)
+
     def test_vcd_begins_as_viewers_want_it(self):
         self.run_with("end at 100 ms\n", "--vcd", self.path("t.vcd"))
         text = self.read("t.vcd")

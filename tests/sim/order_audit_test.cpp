@@ -55,8 +55,24 @@ TEST(OrderAudit, ADoubleExecutionIsStrange) {
 // P2 in position mode: 10 00001 by the format list; P is 11xxx in the example's older code, so 10 11001.
 TEST(OrderAudit, TheOlderCodeIsTheSameOrder) {
     const auto older = protocol::fastmac::RegisterCode::older_example;
-    EXPECT_TRUE(audit({ordered(0x41)}, {executed(0x59)}, older).missing.empty());
-    EXPECT_FALSE(audit({ordered(0x41)}, {executed(0x41)}, older).missing.empty());
+    EXPECT_TRUE(audit({ordered(0x41)}, {executed(0x59)}, {}, older).missing.empty());
+    EXPECT_FALSE(audit({ordered(0x41)}, {executed(0x41)}, {}, older).missing.empty());
+}
+
+// The first go was lost, the second one and what follows it have not been sent yet.
+TEST(OrderAudit, WhatIsOnItsWayIsNotMissing) {
+    const OrderAudit found =
+        audit({ordered(kGo), ordered(kStop), ordered(kGo), ordered(kNop), ordered(kStop)}, {executed(kStop)},
+              {2, 3, 4});
+    EXPECT_EQ(found.missing, (std::vector<SentOrder>{ordered(kGo)}));
+    EXPECT_EQ(found.under_way, (std::vector<SentOrder>{ordered(kGo), ordered(kStop)}));
+    EXPECT_TRUE(found.unordered.empty());
+}
+
+TEST(OrderAudit, WhatTheMotorHasAlreadyIsNotOnItsWay) {
+    const OrderAudit found = audit({ordered(kGo), ordered(kStop)}, {executed(kGo)}, {0, 1});
+    EXPECT_TRUE(found.missing.empty());
+    EXPECT_EQ(found.under_way, (std::vector<SentOrder>{ordered(kStop)}));
 }
 
 TEST(OrderAudit, AnotherValueIsAnotherOrder) {

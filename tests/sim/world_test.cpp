@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <deque>
 #include <vector>
 
 #include "sequencer/term.h"
@@ -122,6 +123,36 @@ TEST_F(WorldRun, SnapshotsHandOverTheOrdersOnce) {
     EXPECT_TRUE(first.link_up);
     EXPECT_TRUE(first.running);
     EXPECT_TRUE(world_.take_snapshot().orders.empty());
+}
+
+// The first scan gives four orders; each takes some milliseconds on the line.
+TEST_F(WorldRun, OrdersAreOnTheirWayUntilTheyAreExecuted) {
+    using Numbers = std::deque<std::size_t>;
+    ASSERT_TRUE(run_until([&] { return !world_.on_their_way().empty(); }, 1s));
+    EXPECT_EQ(world_.on_their_way(), (Numbers{0, 1, 2, 3}));
+    ASSERT_TRUE(run_until([&] { return world_.on_their_way().size() != 4; }, 1s));
+    EXPECT_EQ(world_.on_their_way(), (Numbers{1, 2, 3}));
+    ASSERT_TRUE(run_until([&] { return world_.on_their_way().empty(); }, 1s));
+    EXPECT_EQ(world_.driver().counters().orders, 4U);
+}
+
+TEST_F(WorldRun, OrdersThatAreGivenUpAreNotOnTheirWay) {
+    ASSERT_TRUE(run_until([&] { return !world_.on_their_way().empty(); }, 1s));
+    world_.gateway(action::Gateway::stop);
+    EXPECT_LE(world_.on_their_way().size(), 1U) << "only what is on the line already";
+    ASSERT_TRUE(run_until([&] { return world_.on_their_way().empty(); }, 2s));
+    world_.gateway(action::Gateway::run);
+    ASSERT_TRUE(run_until([&] { return !world_.on_their_way().empty(); }, 3s));
+    EXPECT_EQ(world_.on_their_way(), (std::deque<std::size_t>{4, 5, 6, 7}));
+    world_.cut_line(true);
+    ASSERT_TRUE(run_until([&] { return !motor::delivers(world_.driver().link()); }, 6s));
+    EXPECT_TRUE(world_.on_their_way().empty());
+}
+
+TEST_F(WorldRun, ARestartForgetsWhatWasOnItsWay) {
+    ASSERT_TRUE(run_until([&] { return !world_.on_their_way().empty(); }, 1s));
+    world_.gateway(action::Gateway::restart);
+    EXPECT_TRUE(world_.on_their_way().empty());
 }
 
 TEST_F(WorldRun, ACutLineIsAnErrorUntilItIsAcknowledged) {

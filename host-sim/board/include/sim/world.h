@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
@@ -47,6 +49,10 @@ class World final : public Stage, private gateway::Observer {
     /// As things stand, with the orders since the last call.
     Snapshot take_snapshot();
 
+    /// The orders that the driver has neither executed nor given up, by their numbers among all orders given,
+    /// counted from 0. The motor may have executed one of them already, unknown to the driver.
+    const std::deque<std::size_t>& on_their_way() const { return on_their_way_; }
+
     const gateway::Gateway& gateway() const { return *gateway_; }
     const motor::JvlMotor& driver() const { return *driver_; }
     const MacMotor& mac() const { return mac_; }
@@ -80,6 +86,7 @@ class World final : public Stage, private gateway::Observer {
     void sample_motor();
     void fail_in_this_sample();
     void poll_gateway();
+    void follow_orders();
 
     std::vector<std::uint8_t> table_;
     WorldOptions options_;
@@ -96,6 +103,9 @@ class World final : public Stage, private gateway::Observer {
     bool motor_powered_ = true;
     bool motor_fails_ = false;
     std::vector<SentOrder> orders_;
+    std::size_t orders_given_ = 0;
+    std::deque<std::size_t> on_their_way_;
+    motor::JvlMotor::Counters followed_;  ///< the driver's, as on_their_way_ stands
     std::function<void(const std::string&)> on_log_;
 };
 
