@@ -70,10 +70,17 @@ class Line {
     std::size_t number_;
 };
 
+std::string_view without_blank_end(std::string_view text) {
+    const auto last = text.find_last_not_of(" \t\r\n");
+    if (last == std::string_view::npos) return {};
+    return text.substr(0, std::min(text.find('\n', last), text.size()));
+}
+
 }  // namespace
 
 std::vector<StimulusRow> parse_stimulus(std::string_view text, const std::string& file) {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    text = without_blank_end(text);
     std::vector<StimulusRow> rows;
     std::size_t number = 0;
     do {

@@ -14,8 +14,8 @@ struct StimulusRow {
     bool operator==(const StimulusRow&) const = default;
 };
 
-/// CSV with the header `dt_ms,inputs,inpos,error` and plain decimal numbers; CR LF is taken too. Throws
-/// InputError with file and line.
+/// CSV with the header `dt_ms,inputs,inpos,error` and plain decimal numbers; CR LF and blank lines at the end
+/// are taken too. Throws InputError with file and line.
 std::vector<StimulusRow> parse_stimulus(std::string_view text, const std::string& file);
 
 }  // namespace nplc::sim
