@@ -89,6 +89,7 @@ void show_status(const Session& session) {
 void run_realtime(Session& session, const volatile std::sig_atomic_t& interrupted) {
     hal_linux::KeyReader keys;
     const bool live = hal_linux::stdout_is_terminal();
+    if (live && keys.has_keys()) fmt::print("{}\n", session.keys());
     if (live) session.clear_line_before_each("\r\033[K");
     const auto start = Clock::now();
     auto next_status = start;

@@ -139,16 +139,21 @@ void Session::press(unsigned input) {
     show();
 }
 
+std::string Session::keys() const {
+    std::string text = "keys:";
+    for (unsigned i = 0; i < kInputs; ++i) text += fmt::format(" {} {},", i, program_.names.input(i));
+    text.back() = ';';
+    return text + " q ends";
+}
+
 std::string Session::status_line() const {
     const registers::Scale scale = registers::scale_of(program_.names.motor);
     std::string inputs;
-    for (unsigned i = 0; i < kInputs; ++i) {
-        inputs += fmt::format(" {}={:d}", program_.names.input(i), (last_.inputs >> i & 1) != 0);
-    }
-    return fmt::format("{:.1f} s  {}  P_IST {} ({:.2f} rev) {} | keys 0-5 toggle{}, q ends",
-                       static_cast<double>(now().count()) / 1e9, program_.names.step(last_.step), last_.p_ist,
-                       static_cast<double>(last_.p_ist) / scale.counts_per_rev, last_.error ? "ERROR" : "",
-                       inputs);
+    for (unsigned i = 0; i < kInputs; ++i) inputs += (last_.inputs >> i & 1) != 0 ? '1' : '0';
+    return fmt::format("q ends, 0-5 toggle: {} | {:.1f} s  {}{}  P_IST {} ({:.2f} rev)", inputs,
+                       static_cast<double>(now().count()) / 1e9, program_.names.step(last_.step),
+                       last_.error ? "  ERROR" : "", last_.p_ist,
+                       static_cast<double>(last_.p_ist) / scale.counts_per_rev);
 }
 
 bool Session::finish() {

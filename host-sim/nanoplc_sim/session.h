@@ -34,6 +34,8 @@ class Session {
     /// Judges, writes the files and prints the summary. True if every expectation passed.
     bool finish();
 
+    std::string keys() const;
+    /// What matters most stands first: a narrow terminal shows the beginning only.
     std::string status_line() const;
     /// What goes out before every line of the timeline, to wipe a status line away.
     void clear_line_before_each(const std::string& code) { timeline_.begin_lines_with(code); }
