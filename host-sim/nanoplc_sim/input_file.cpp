@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include <iostream>
 
 #include "sequencer/table.h"
+#include "sim/text.h"
 
 namespace nplc::sim {
 namespace {
@@ -30,7 +32,18 @@ std::string read_all(std::istream& stream, const std::string& path, const std::s
     return text;
 }
 
+bool is_printable(const std::string& text) {
+    return std::all_of(text.begin(), text.end(), [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return byte == '\t' || byte == '\r' || byte == '\n' || (byte >= ' ' && byte != 0x7F);
+    });
+}
+
 }  // namespace
+
+bool has_extension(const std::string& path, std::string_view extension) {
+    return lower(std::filesystem::path(path).extension().string()) == extension;
+}
 
 std::string read_input(const std::string& path, const std::string& what, bool dash_is_stdin) {
     if (dash_is_stdin && path == "-") return read_all(std::cin, "standard input", what);
@@ -42,7 +55,7 @@ std::string read_input(const std::string& path, const std::string& what, bool da
 }
 
 std::vector<std::uint8_t> read_table(const std::string& path) {
-    if (path.ends_with(".seq")) {
+    if (has_extension(path, ".seq")) {
         throw InputError(fmt::format(
             "{0}: a program's source, not a table; build the table first: seqc build {0} -o {1}.bin", path,
             path.substr(0, path.size() - 4)));
@@ -50,6 +63,12 @@ std::vector<std::uint8_t> read_table(const std::string& path) {
     const std::string text = read_input(path, "a sequence table as `seqc build` writes it");
     if (text.empty()) refuse(path, "a sequence table as `seqc build` writes it", "the file is empty");
     std::vector<std::uint8_t> bytes(text.begin(), text.end());
+    if (is_printable(text) && !sequencer::Table::load(bytes).ok) {
+        throw InputError(
+            fmt::format("{0}: text, not a raw table; if it is a program's source, build the table first: "
+                        "seqc build {0} -o {1}",
+                        path, std::filesystem::path(path).replace_extension(".bin").string()));
+    }
     check_table(bytes, path);
     return bytes;
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace nplc::sim {
@@ -14,6 +15,9 @@ struct InputError : std::runtime_error {
 
 /// The whole file; `-` is standard input where `dash_is_stdin`. `what` names its purpose in messages.
 std::string read_input(const std::string& path, const std::string& what, bool dash_is_stdin = false);
+
+/// Without regard to case; `extension` is lower case and begins with its dot.
+bool has_extension(const std::string& path, std::string_view extension);
 
 /// A raw sequence table, checked: Table::load takes these bytes.
 std::vector<std::uint8_t> read_table(const std::string& path);

@@ -51,7 +51,7 @@ Program compile(const std::string& file) {
 
 Program load_program(const std::string& file) {
     Program program;
-    if (file.ends_with(".seq")) {
+    if (has_extension(file, ".seq")) {
         program = compile(file);
     } else {
         program.file = file;
