@@ -28,7 +28,7 @@ int run_command_line(int argc, const char* const* argv) {
     }
     const auto* options = std::get_if<RunOptions>(&command);
     if (options == nullptr) return 0;
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_signal);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(signal, on_signal);
     return run(*options, g_interrupted);
 }
 
