@@ -40,6 +40,11 @@ struct Output {
 };
 
 void check(const Output& output, const RunOptions& options) {
+    if (output.path.empty() || output.path == "-") {
+        throw InputError(
+            fmt::format("{} \"{}\": this is no file's name; write one, or /dev/stdout for standard output",
+                        output.option, output.path));
+    }
     output.check_against(options.program, "program");
     if (options.scenario) output.check_against(*options.scenario, "scenario");
 }
