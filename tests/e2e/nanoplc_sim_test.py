@@ -7,9 +7,11 @@ usage: nanoplc_sim_test.py PROGRAM
 import csv
 import os
 import pty
+import signal
 import subprocess
 import sys
 import tempfile
+import termios
 import time
 import unittest
 
@@ -121,7 +123,22 @@ class Scan(Case):
         self.refused("scan", self.path("no.bin"), "--stimulus", stimulus, says="no.bin: cannot be opened")
         self.refused("scan", self.table, "--stimulus", self.path("no.csv"), says="no.csv: cannot be opened")
         self.refused("scan", self.folder.name, "--stimulus", stimulus, says="it is a folder")
-        self.refused("scan", self.write("x.seq", "PROGRAM X"), "--stimulus", stimulus, says="seqc build")
+        for name in ("x.seq", "X.SEQ"):
+            self.refused("scan", self.write(name, "PROGRAM X"), "--stimulus", stimulus, says="source, not a table")
+
+    def test_text_is_no_table(self):
+        stimulus = self.write("s.csv", HEADER)
+        for content in (SOURCE, "Täglich\r\n"):
+            source = self.write("my.st", content)
+            says = f"my.st: text, not a raw table; if it is a program's source, build the table first: seqc build {source}"
+            self.refused("scan", source, "--stimulus", stimulus, says=says)
+            self.refused("run", source, says=says)
+
+    def test_blank_lines_at_the_end(self):
+        whole = self.scan("10,0,0,0\n5,0,0,0\n")
+        for end in ("", "\n\n", "\r\n\r\n", "\n \t\n\n "):
+            self.assertEqual(self.scan("10,0,0,0\n5,0,0,0" + end), whole, repr(end))
+        self.refused("scan", self.table, "--stimulus", self.write("s.csv", "\n\n"), says="s.csv:1: the header")
 
 
 class CommandLine(Case):
@@ -275,6 +292,10 @@ class Run(Case):
             self.assertEqual(file.read(), TABLE)
         self.assertEqual(self.read("s.scn"), "end at 1 s\n")
 
+    def test_a_trace_needs_a_name(self):
+        for option in ("--trace", "--vcd"):
+            self.refused("run", self.table, "--for", "20ms", option, "-", says=f'{option} "-": this is no file')
+
     def test_two_traces_are_two_files(self):
         os.symlink(self.path("new"), self.path("dangling"))
         self.write("old", "old")
@@ -340,6 +361,11 @@ class Source(Case):
         self.assertEqual(done.returncode, 0, done.stdout.decode() + done.stderr.decode())
         self.assertIn("Off -> Lit\n", done.stdout.decode())
 
+    def test_the_extension_is_read_without_case(self):
+        done = self.call("run", self.write("BLINK.SEQ", SOURCE), "--for", "50ms")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("Off", done.stdout.decode())
+
     def test_mistakes_of_a_source_are_the_compilers(self):
         source = self.write("bad.seq", SOURCE.replace("NEXT := Lit", "NEXT := Lid"))
         done = self.call("run", source)
@@ -362,6 +388,11 @@ class Realtime(Case):
                               stderr=end, close_fds=True) as process:
             os.close(end)
             shown = self.read_until(terminal, b"link up")
+            self.assertIn(b"keys: 0 IN0, 1 IN1, 2 IN2, 3 IN3, 4 IN4, 5 IN5; q ends", shown)
+            shown += self.read_until(terminal, b" rev)")
+            status = next(part for part in shown.split(b"\r\x1b[K") if part.endswith(b" rev)"))
+            self.assertTrue(status.startswith(b"q ends, 0-5 toggle: 000000 | "), status)
+            self.assertLess(len(status), 80)
             os.write(terminal, b"3")
             shown += self.read_until(terminal, b"IN3 on")
             os.write(terminal, b"q")
@@ -376,6 +407,20 @@ class Realtime(Case):
             self.assertTrue(block, shown)
             shown += block
         return shown
+
+    def test_a_quit_from_the_keyboard_puts_the_terminal_back(self):
+        terminal, end = pty.openpty()
+        before = termios.tcgetattr(end)
+        with subprocess.Popen([PROGRAM, "run", self.table, "--realtime", "--for", "60s"], stdin=end, stdout=end,
+                              stderr=end, close_fds=True) as process:
+            shown = self.read_until(terminal, b"link up")
+            self.assertNotEqual(termios.tcgetattr(end), before)
+            process.send_signal(signal.SIGQUIT)
+            shown += self.read_until(terminal, b"ended at")
+            self.assertEqual(process.wait(30), 0, shown)
+        self.assertEqual(termios.tcgetattr(end), before)
+        os.close(end)
+        os.close(terminal)
 
     def test_an_interrupt_ends_in_good_order(self):
         with subprocess.Popen([PROGRAM, "run", self.table, "--realtime", "--trace", self.path("t.csv")],
