@@ -33,6 +33,8 @@ std::string_view describe(base::Error table_error) {
             return "NEXT_STATE is 3Fh; a step is 0..61, 3Eh means no switch";
         case base::Error::bad_register:
             return "REG_NMB is 0; a register is 1..127";
+        case base::Error::not_for_motor:
+            return "the motor has no such order; a MAC800 takes register writes with LONGWORD = 1 only";
         default:
             return "not a fault of a table";
     }

@@ -28,16 +28,28 @@ Gateway::Gateway(const Ports& ports, const Settings& settings, StartCause cause)
 sequencer::Table::LoadResult Gateway::load(std::span<const std::uint8_t> bytes, base::Instant now) {
     if (run_state_ != RunState::stopped)
         return {.ok = false, .table = {}, .fault = {base::Error::not_stopped, 0}};
-    const auto result = sequencer::Table::load(bytes);
+    auto result = sequencer::Table::load(bytes);
+    if (result.ok) result = checked_for_motor(result);
     table_ = result.table;
     engine_.reset();
     if (!result.ok) {
-        enter_safe_state(SafeReason::corrupt_table, now);
+        enter_safe_state(SafeReason::bad_table, now);
     } else if (autostart_) {
         static_cast<void>(run());
     }
     autostart_ = false;
     return result;
+}
+
+sequencer::Table::LoadResult Gateway::checked_for_motor(const sequencer::Table::LoadResult& loaded) const {
+    for (std::size_t i = 0; i < loaded.table.size(); ++i) {
+        const sequencer::TermView term = loaded.table.term(i);
+        if (!sequencer::has_order(term) || ports_.motor.can_execute(to_motor(sequencer::order_of(term))))
+            continue;
+        return {
+            .ok = false, .table = {}, .fault = {base::Error::not_for_motor, static_cast<std::uint16_t>(i)}};
+    }
+    return loaded;
 }
 
 base::Status Gateway::run() {
@@ -95,9 +107,9 @@ void Gateway::start_when_ready(base::Instant now) {
 /// A lost link is a safe state in which the sequence runs on, with ERROR, until it has acknowledged.
 void Gateway::watch_link(base::Instant now) {
     const motor::Link link = ports_.motor.link();
+    if (link != motor::Link::up) set_safe_reason(SafeReason::link_down, now);
     if (!motor::delivers(link)) {
         stop_after_loss_ = true;
-        set_safe_reason(SafeReason::link_down, now);
         return;
     }
     if (stop_after_loss_) {
@@ -180,8 +192,9 @@ void Gateway::finish_scan(base::Instant now) {
 }
 
 void Gateway::count_timer(base::Instant now) {
-    const auto elapsed = static_cast<std::uint32_t>((now - ticked_).count());
-    const std::uint32_t milliseconds = elapsed / 1000U;
+    constexpr base::Milliseconds kLongestTimer{65'535};
+    if (now - ticked_ > kLongestTimer) ticked_ = now - kLongestTimer;  // the timer is at 0 then in any case
+    const std::uint32_t milliseconds = static_cast<std::uint32_t>((now - ticked_).count()) / 1000U;
     if (milliseconds == 0) return;
     ticked_ += base::Milliseconds(milliseconds);
     engine_.elapse(milliseconds);

@@ -9,7 +9,7 @@ namespace {
 using protocol::fastmac::Status;
 
 constexpr std::uint8_t kStrangeBytes = 4;
-constexpr int kReadsPerPoll = 8;
+constexpr int kReadsPerPoll = 1024;  // far more than any port holds back
 
 constexpr std::uint8_t bump(std::uint8_t count) {
     return count == 0xFF ? count : static_cast<std::uint8_t>(count + 1);
@@ -81,9 +81,10 @@ void JvlLink::forget(base::Instant now) {
 }
 
 JvlLink::Result JvlLink::poll(base::Instant now) {
-    transmit(now);
-    receive(now);
-    return judge(now);
+    receive(now);  // first: these bytes came before what is sent or seen to have left now
+    const Result result = judge(now);
+    if (result == Result::none) transmit(now);
+    return result;
 }
 
 void JvlLink::transmit(base::Instant now) {
@@ -102,10 +103,19 @@ void JvlLink::transmit(base::Instant now) {
 }
 
 void JvlLink::receive(base::Instant now) {
+    const base::Microseconds unwatched = now - last_poll_;
+    last_poll_ = now;
+    heard_ = base::Microseconds(0);
+    read_all(now);
+    overslept_ = unwatched - heard_ > settings_.silence;
+}
+
+void JvlLink::read_all(base::Instant now) {
     std::array<ports::ReceivedByte, 16> bytes;
     for (int i = 0; i < kReadsPerPoll; ++i) {
         const std::size_t count = port_.read(bytes);
         for (const auto& byte : std::span(bytes).first(count)) {
+            heard_ += character_;
             if (byte.framing_error) {
                 framing_seen_ = true;
                 filter_.break_pair();
@@ -122,7 +132,6 @@ void JvlLink::receive(base::Instant now) {
 
 void JvlLink::on_status(std::uint8_t byte, base::Instant now) {
     last_status_ = now;
-    ++status_count_;
     filter_.receive(byte);
     const Status seen = protocol::fastmac::decode_status(byte);
     old_shown_ = busy() && on_the_line_ && shows_old(seen) ? bump(old_shown_) : std::uint8_t{0};
@@ -140,7 +149,7 @@ bool JvlLink::is_done() const {
         case Expect::nothing:
             return false;
         case Expect::toggle:
-            return status().toggle != toggle_;
+            return status().toggle != toggle_ && status().flexmac == flexmac_;
         case Expect::enter_flexmac:
             return status().toggle != toggle_ && status().flexmac;
         case Expect::leave_flexmac:
@@ -171,7 +180,7 @@ bool JvlLink::in_step(const Status& seen) const {
 JvlLink::Result JvlLink::judge(base::Instant now) {
     if (std::exchange(accepted_, false)) return Result::accepted;
     if (!adopted_) return Result::none;
-    if (now - last_status_ > settings_.silence) return Result::silent;
+    if (overslept_ || now - last_status_ > settings_.silence) return Result::silent;
     if (strange_shown_ >= kStrangeBytes) return Result::out_of_step;
     return busy() ? judge_message(now) : Result::none;
 }

@@ -184,6 +184,11 @@ void JvlMotor::send(const Order& order) {
     if (phase_ != Phase::up || !orders_.push(order)) ++counters_.discarded;
 }
 
+/// R: a MAC800 knows longwords only.
+bool JvlMotor::can_execute(const Order& order) const {
+    return !order.is_register_write || order.longword || !settings_.registers_are_32_bit;
+}
+
 void JvlMotor::stop() {
     counters_.discarded += static_cast<std::uint32_t>(orders_.size());
     orders_.clear();
@@ -213,15 +218,17 @@ Link JvlMotor::link() const {
 void JvlMotor::hold_in_position(base::Instant now) {
     holds_ = true;
     hold_until_ = now + 2 * settings_.sample_period;
-    hold_count_ = 0;
+    hold_counts_ = false;
 }
 
-/// Two motor samples, then one status byte more.
+/// Two motor samples, then a believed status whose bytes are both from after them: of the next two pairs the
+/// first may begin with an older byte.
 void JvlMotor::update_hold(base::Instant now) {
     if (!holds_ || now < hold_until_) return;
-    if (hold_count_ == 0) {
-        hold_count_ = link_.status_count();
-    } else if (link_.status_count() != hold_count_) {
+    if (!hold_counts_) {
+        hold_counts_ = true;
+        hold_count_ = link_.believed();
+    } else if (link_.believed() - hold_count_ >= 2) {
         holds_ = false;
     }
 }

@@ -56,7 +56,7 @@ void World::start_gateway(gateway::StartCause cause) {
     const gateway::Gateway::Ports ports{board_, board_, board_, *driver_};
     gateway_.emplace(ports, options_.gateway, cause);
     gateway_->observe(this);
-    static_cast<void>(gateway_->load(table_, instant()));
+    load_result_ = gateway_->load(table_, instant());
 }
 
 base::Instant World::instant() const {
@@ -181,7 +181,7 @@ void World::spoil_line(const action::SpoilLine& faults) {
 void World::power_motor(bool on) {
     if (on && !motor_powered_) {
         mac_.power_cycle();
-        motor_asks_ = now_;
+        motor_asks_ = std::max(now_, line_.from_motor().busy_until());
     }
     motor_powered_ = on;
 }

@@ -1,6 +1,8 @@
 #include "order_audit.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "registers/mac.h"
 
@@ -68,6 +70,25 @@ std::vector<std::vector<std::uint16_t>> common_lengths(const std::vector<SentOrd
     return lengths;
 }
 
+void not_executed(const Compared& wanted, std::size_t i, OrderAudit& result) {
+    (wanted.under_way[i] ? result.under_way : result.missing).push_back(wanted.orders[i]);
+}
+
+/// The common case, at no cost however long the lists are: everything executed was ordered, in that order.
+std::optional<OrderAudit> with_nothing_unordered(const Compared& wanted, const Compared& done) {
+    OrderAudit result;
+    std::size_t j = 0;
+    for (std::size_t i = 0; i < wanted.orders.size(); ++i) {
+        if (j < done.orders.size() && wanted.orders[i] == done.orders[j]) {
+            ++j;
+        } else {
+            not_executed(wanted, i, result);
+        }
+    }
+    if (j != done.orders.size()) return std::nullopt;
+    return result;
+}
+
 }  // namespace
 
 OrderAudit audit(const std::vector<SentOrder>& ordered, const std::deque<Order>& executed,
@@ -78,6 +99,7 @@ OrderAudit audit(const std::vector<SentOrder>& ordered, const std::deque<Order>&
         wanted.keep(ordered[i], std::binary_search(on_their_way.begin(), on_their_way.end(), i));
     }
     for (const Order& order : executed) done.keep(as_sent(order, code));
+    if (auto result = with_nothing_unordered(wanted, done)) return *std::move(result);
     wanted.cut();
     done.cut();
     const auto lengths = common_lengths(wanted.orders, done.orders);
@@ -90,8 +112,7 @@ OrderAudit audit(const std::vector<SentOrder>& ordered, const std::deque<Order>&
             ++i;
             ++j;
         } else if (j == done.orders.size() || (both && lengths[i + 1][j] >= lengths[i][j + 1])) {
-            (wanted.under_way[i] ? result.under_way : result.missing).push_back(wanted.orders[i]);
-            ++i;
+            not_executed(wanted, i++, result);
         } else {
             result.unordered.push_back(done.orders[j++]);
         }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "input_file.h"
+
 #include "order_audit.h"
 
 namespace nplc::sim {
@@ -37,7 +39,7 @@ std::string_view in_words(gateway::SafeReason reason) {
             return "outputs safe: link to the motor down";
         case gateway::SafeReason::motor_stuck:
             return "outputs safe: the motor does not finish its orders";
-        case gateway::SafeReason::corrupt_table:
+        case gateway::SafeReason::bad_table:
             return "outputs safe: bad table";
         case gateway::SafeReason::watchdog:
             return "outputs safe: watchdog reset";
@@ -74,6 +76,11 @@ Session::Session(const RunOptions& options, const Program& program, const Scenar
       world_(program.table, world_options(options, program.names)),
       runner_(scenario, program.names, world_),
       length_(options.length) {
+    if (const auto& loaded = world_.load_result(); !loaded.ok) {
+        throw InputError(fmt::format("{}: term {}: {}; write the program for {}", program.file,
+                                     loaded.fault.term, sequencer::describe(loaded.fault.error),
+                                     registers::name_of(program.names.motor)));
+    }
     if (options.csv) csv_.emplace(*options.csv);
     if (options.vcd) vcd_.emplace(*options.vcd, program.names);
     if (!length_ && !options.realtime && !scenario.can_end()) length_ = kDefaultLength;

@@ -24,6 +24,7 @@ struct BenchBoard final : ports::DigitalInputs,
     void poll(base::Instant) override {}
     bool settled() const override { return is_settled; }
     bool has_room() const override { return room != 0; }
+    bool can_execute(const motor::Order& order) const override { return order.reg != missing_register; }
     void send(const motor::Order& order) override {
         sent.push_back(order);
         if (room > 0) --room;
@@ -64,6 +65,7 @@ struct BenchBoard final : ports::DigitalInputs,
     int feeds = 0;
     int stops = 0;
     int room = 8;
+    int missing_register = -1;
     int orders_seen = 0;
     bool is_settled = true;
     bool in_pos = false;

@@ -84,6 +84,18 @@ TEST_F(GatewayTest, TheTimerRunsOnWhileTheScanWaitsAndAPresetIsNotChargedForIt) 
     EXPECT_EQ(gateway.state().step, 2);
 }
 
+TEST_F(GatewayTest, TheTimerSurvivesAnyGapBetweenPolls) {
+    const Bytes table{{0xC0, 0x00, 0x00, 0x01, 0x80, 0x01, 0xFF, 0xFF},
+                      {0x41, 0x00, 0x00, 0x02, 0x80, 0x02, 0, 0}};
+    Gateway gateway = make();
+    ASSERT_TRUE(gateway.load(table, board.now).ok);
+    board.run(gateway, 5ms);
+    ASSERT_EQ(gateway.state().step, 1);
+    board.now += 100h;  // 2^32 us are 71.6 minutes
+    board.run(gateway, 1ms);
+    EXPECT_EQ(gateway.state().step, 2);
+}
+
 TEST_F(GatewayTest, OrdersGoOutInTableOrder) {
     const Bytes table{{0xC0, 0x01, 0x01, 0x3E, 0x0B, 0x00, 0, 0},
                       {0xC0, 0x01, 0x81, 0x83, 0x70, 0x82, 0x03, 0x00},

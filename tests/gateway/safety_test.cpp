@@ -138,11 +138,40 @@ TEST_F(Safety, ABadTableIsTheSafeStateAndNothingRuns) {
     EXPECT_FALSE(result.ok);
     EXPECT_EQ(result.fault.error, base::Error::bad_next_step);
     EXPECT_EQ(result.fault.term, 0);
-    expect_safe(gateway, SafeReason::corrupt_table);
+    expect_safe(gateway, SafeReason::bad_table);
     EXPECT_EQ(gateway.run().error(), base::Error::no_table);
     ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
     board.run(gateway, 100ms);
     EXPECT_EQ(gateway.run_state(), RunState::stopped) << "a good table after a bad one needs run()";
+}
+
+TEST_F(Safety, ATableForAnotherMotorIsABadTable) {
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    board.missing_register = 5;
+    const Bytes writes{{0xC0, 0x00, 0x00, 0x3E, 0x80, 0, 0, 0}, {0xC0, 0x00, 0x80, 0x05, 0x64, 0, 0, 0}};
+    const auto result = gateway.load(writes, board.now);
+    EXPECT_FALSE(result.ok);
+    EXPECT_EQ(result.fault.error, base::Error::not_for_motor);
+    EXPECT_EQ(result.fault.term, 1);
+    expect_safe(gateway, SafeReason::bad_table);
+    EXPECT_EQ(gateway.run().error(), base::Error::no_table);
+}
+
+TEST_F(Safety, StartingAnewDoesNotAcknowledgeALostLink) {
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
+    board.run(gateway, 10ms);
+    board.link_state = motor::Link::down;
+    board.run(gateway, 10ms);
+    gateway.stop(board.now);
+    board.link_state = motor::Link::unacknowledged;
+    ASSERT_TRUE(gateway.run().ok());
+    board.run(gateway, 10ms);
+    EXPECT_EQ(gateway.run_state(), RunState::running);
+    expect_safe(gateway, SafeReason::link_down);
+    board.link_state = motor::Link::up;
+    board.run(gateway, 10ms);
+    EXPECT_EQ(board.out, 0x0F);
 }
 
 TEST_F(Safety, EveryWaitForTheMotorEnds) {

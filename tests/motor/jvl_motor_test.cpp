@@ -150,6 +150,65 @@ TEST_F(MotorTest, AMoveThatDoesNotClearInPositionAtOnceReadsZeroForTwoSamplesAnd
     EXPECT_LT(motor.now - executed, base::Microseconds(2 * 1920) + 3 * Script<JvlMotor>::kCharacter);
 }
 
+TEST_F(MotorTest, InPositionFromBeforeAMoveIsNotUsedAfterABurstOfDamage) {
+    start();
+    motor.hear_times(2, 0x90);
+    driver.send(command(0x71));
+    motor.hear_times(4, 0x90);
+    motor.hear_times(2, 0x10);  // taken, but not worked out yet
+    ASSERT_TRUE(driver.settled());
+    for (const int damaged : {0x11, 0x30, 0x14, 0x50, 0x12, 0x90, 0x18, 0x00, 0x11, 0x30, 0x14, 0x50}) {
+        motor.hear(static_cast<std::uint8_t>(damaged));
+        EXPECT_FALSE(driver.in_position());
+    }
+    motor.hear(0x00);  // two samples are over: IN_POS is 0
+    EXPECT_FALSE(driver.in_position());
+    motor.hear_times(4, 0x00);
+    EXPECT_FALSE(driver.in_position());
+}
+
+TEST_F(MotorTest, AMotorThatRestartsInAWriteHasNotConfirmedIt) {
+    start();
+    driver.send(write(5, 100));
+    driver.send(write(6, 100));
+    exchange({0x7F, 0x7F}, 0x80, 0x08);
+    exchange({0x60, 0x60, 0x60, 0x05, 0xFA, 0x64, 0x9B, 0x00, 0xFF}, 0x08, 0x88);
+    exchange({0x60, 0x60, 0x60, 0x06, 0xF9, 0x64, 0x9B, 0x00, 0xFF}, 0x88, 0x00);  // toggle 0, and FastMAC
+    motor.hear_times(4, 0x00);
+    EXPECT_TRUE(driver.error());
+    EXPECT_EQ(driver.counters().orders, 1U);
+    EXPECT_EQ(driver.counters().link_losses, 1U);
+}
+
+TEST_F(MotorTest, NothingWaitingIsDeliveredAfterNobodyListenedForLong) {
+    start();
+    driver.send(write(5, 100));
+    exchange({0x7F, 0x7F}, 0x80, 0x08);
+    motor.now += base::Milliseconds(1000);
+    line.in_transmitter = 0;
+    line.take();
+    motor.hear(0x08);
+    EXPECT_EQ(driver.link(), Link::down);
+    EXPECT_TRUE(driver.error());
+    EXPECT_TRUE(line.sent.empty());
+}
+
+TEST_F(MotorTest, AGapBetweenPollsIsNoSilenceIfTheMotorWentOn) {
+    start();
+    motor.now += base::Milliseconds(60);
+    for (int i = 0; i < 100; ++i) line.received.push_back({0x80, false});
+    motor.hear(0x80);
+    EXPECT_EQ(driver.link(), Link::up);
+}
+
+TEST_F(MotorTest, AMac800HasNoWordWrites) {
+    const JvlMotor mac800(line, {.registers_are_32_bit = true});
+    EXPECT_FALSE(mac800.can_execute(write(5, 100)));
+    EXPECT_TRUE(mac800.can_execute({.is_register_write = true, .reg = 5, .longword = true, .value = 100}));
+    EXPECT_TRUE(mac800.can_execute(command(0x45)));
+    EXPECT_TRUE(driver.can_execute(write(5, 100)));
+}
+
 // P_SOLL in the register form: 60h|80h = E0h, register 3, low byte first: 230,000 = 38270h as in 002's
 // example.
 TEST_F(MotorTest, ARegisterWriteGoesThroughFlexMacAndBack) {

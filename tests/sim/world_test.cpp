@@ -196,6 +196,15 @@ TEST_F(WorldRun, AMotorWithoutPowerIsSilent) {
     EXPECT_TRUE(world_.take_snapshot().link_up);
 }
 
+TEST_F(WorldRun, AMotorMayBeOffForLessThanACharacter) {
+    run_to(500ms);
+    world_.power_motor(false);
+    run_to(world_.now() + 100us);
+    world_.power_motor(true);
+    run_to(world_.now() + 500ms);
+    EXPECT_TRUE(world_.take_snapshot().link_up);
+}
+
 TEST_F(WorldRun, TheGatewayCanBeStoppedRunAndRestarted) {
     ASSERT_TRUE(run_until([&] { return step() == 1; }, 1s));
     world_.gateway(action::Gateway::stop);

@@ -44,7 +44,7 @@ enum class SafeReason : std::uint8_t {
     stop_command,
     link_down,    ///< ends when the link is up again and the sequence has sent "reset error"
     motor_stuck,  ///< a scan waited longer than Settings::longest_wait
-    corrupt_table,
+    bad_table,
     watchdog,
     enable_lost,
 };
@@ -68,8 +68,9 @@ class Gateway {
     Gateway(const Gateway&) = delete;
     Gateway& operator=(const Gateway&) = delete;
 
-    /// Makes a table the current one; only while stopped. The bytes must stay where they are. On a fault the
-    /// safe state is entered with corrupt_table, and nothing can run until a good table is loaded.
+    /// Makes a table the current one; only while stopped, and only if the motor has all its orders (else
+    /// not_for_motor). The bytes must stay where they are. On a fault the
+    /// safe state is entered with bad_table, and nothing can run until a good table is loaded.
     sequencer::Table::LoadResult load(std::span<const std::uint8_t> bytes, base::Instant now);
 
     /// Errors: no_table; not_stopped when it runs already.
@@ -93,6 +94,7 @@ class Gateway {
   private:
     void enter_safe_state(SafeReason reason, base::Instant now);
     void set_safe_reason(SafeReason reason, base::Instant now);
+    sequencer::Table::LoadResult checked_for_motor(const sequencer::Table::LoadResult& loaded) const;
     void start_when_ready(base::Instant now);
     void watch_link(base::Instant now);
     bool enabled() const;

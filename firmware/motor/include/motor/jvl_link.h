@@ -17,7 +17,8 @@ class JvlLink {
   public:
     struct Settings {
         std::uint32_t baud = 19'200;
-        base::Microseconds silence{20'000};           ///< no status byte for this long: the line is dead
+        base::Microseconds silence{
+            20'000};  ///< no status byte, or nobody who listened, for this long: the link is lost
         base::Microseconds longest_message{250'000};  ///< from its first byte to its echo, resends included
         std::uint8_t most_resends = 3;
         /// Status bytes in a row, received after the whole message, that must show the old toggle before it
@@ -58,7 +59,8 @@ class JvlLink {
     const protocol::fastmac::Status& status() const { return filter_.status(); }
     bool toggle() const { return toggle_; }
     bool flexmac() const { return flexmac_; }
-    std::uint32_t status_count() const { return status_count_; }
+    /// How often two equal status bytes in a row were heard.
+    std::uint32_t believed() const { return filter_.believed(); }
     std::uint32_t resent() const { return resent_; }
     bool framing_error_seen() const { return framing_seen_; }
     void clear_framing_error() { framing_seen_ = false; }
@@ -70,6 +72,7 @@ class JvlLink {
     void rewind(base::Instant now);
     void transmit(base::Instant now);
     void receive(base::Instant now);
+    void read_all(base::Instant now);
     void on_status(std::uint8_t byte, base::Instant now);
     bool shows_old(const protocol::fastmac::Status& seen) const;
     bool is_done() const;
@@ -103,7 +106,9 @@ class JvlLink {
     base::Instant left_at_{};  ///< when the last byte had left
     base::Instant started_{};
     base::Instant last_status_{};
-    std::uint32_t status_count_ = 0;
+    base::Instant last_poll_{};
+    base::Microseconds heard_{};  ///< on the line since the poll before: characters read now
+    bool overslept_ = false;      ///< nobody listened for longer than `silence`
     std::uint32_t resent_ = 0;
 };
 

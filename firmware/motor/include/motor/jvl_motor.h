@@ -34,6 +34,7 @@ class JvlMotor final : public Motor {
     bool settled() const override;
     bool has_room() const override { return !orders_.full(); }
     void send(const Order& order) override;
+    bool can_execute(const Order& order) const override;
     void stop() override;
     bool in_position() const override;
     bool error() const override;
@@ -71,6 +72,7 @@ class JvlMotor final : public Motor {
     bool was_up_ = false;
     bool holds_ = false;  ///< IN_POS reads 0 until the motor has worked it out anew
     base::Instant hold_until_{};
+    bool hold_counts_ = false;
     std::uint32_t hold_count_ = 0;
     base::Instant next_blind_{};
     Counters counters_;

@@ -39,6 +39,10 @@ class Motor {
     /// them: a scan may begin. Also true while the link is down (the scan then sees error()).
     virtual bool settled() const = 0;
 
+    /// Has the drive anything that this order could be? A table with one that it has not is refused when it
+    /// is loaded.
+    virtual bool can_execute(const Order& order) const = 0;
+
     /// Room for one more order.
     virtual bool has_room() const = 0;
 

@@ -12,6 +12,7 @@ enum class Error : std::uint8_t {
     table_ragged,   ///< sequence table cut inside a term
     bad_next_step,  ///< NEXT_STATE 3Fh
     bad_register,   ///< FlexMAC-format term for register 0
+    not_for_motor,  ///< sequence table with an order that the motor does not have
     not_stopped,    ///< only possible while the sequence is stopped
     no_table,       ///< nothing loaded
     link_down,      ///< the motor does not answer

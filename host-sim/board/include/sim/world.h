@@ -54,6 +54,8 @@ class World final : public Stage, private gateway::Observer {
     const std::deque<std::size_t>& on_their_way() const { return on_their_way_; }
 
     const gateway::Gateway& gateway() const { return *gateway_; }
+    /// What the gateway said of the table; it may still not be for this motor.
+    const sequencer::Table::LoadResult& load_result() const { return load_result_; }
     const motor::JvlMotor& driver() const { return *driver_; }
     const MacMotor& mac() const { return mac_; }
     const VirtualSerialLine& line() const { return line_; }
@@ -95,6 +97,7 @@ class World final : public Stage, private gateway::Observer {
     MacMotor mac_;
     std::optional<motor::JvlMotor> driver_;
     std::optional<gateway::Gateway> gateway_;
+    sequencer::Table::LoadResult load_result_;
 
     Time now_{0};
     Time next_poll_{0};
