@@ -267,10 +267,59 @@ TEST(Diagnostics, StrangeBytesAreOneMessage) {
     EXPECT_FALSE(compile("\xFF\xFE%\x80").ok);
 }
 
+TEST(Diagnostics, LongLinesAreCutAroundTheCaret) {
+    // Q is character 10 + 8 + 11 + 2 + 600 + 11 + 1 = 643. Before it 40 are shown: 29 x and 11 others; from
+    // it on 60: 5 and 55 y.
+    const std::string source = "PROGRAM P STEP S: OWN ERROR; (*" + std::string(600, 'x') +
+                               "*) NEXT := Q; (*" + std::string(600, 'y') + "*) END_STEP END_PROGRAM";
+    const std::string text = test::shown(compile(source), source);
+    const std::string line = "..." + std::string(29, 'x') + "*) NEXT := Q; (*" + std::string(55, 'y') + "...";
+    EXPECT_EQ(text, "test.seq:1:643: error E021: there is no step 'Q'\n 1 | " + line + "\n   | " +
+                        std::string(43, ' ') + "^\n");
+}
+
+TEST(Diagnostics, LongNamesAndManyOfThemStaySmall) {
+    const std::string name(1'000'000, 'n');
+    const std::string source = "PROGRAM P STEP S: OWN ERROR; NEXT := " + name + "; END_STEP END_PROGRAM";
+    EXPECT_LT(test::shown(compile(source), source).size(), 1000U);
+    std::string wide = "PROGRAM P STEP S: OWN ERROR; (*";
+    for (int i = 0; i < 2000; ++i) wide += "\xC3\xA4";
+    wide += "*) NEXT := Q; (*";
+    for (int i = 0; i < 2000; ++i) wide += "\xE2\x82\xAC";
+    wide += "*) END_STEP END_PROGRAM";
+    const std::string shown = test::shown(compile(wide), wide);
+    EXPECT_LT(shown.size(), 1000U);
+    EXPECT_NE(shown.find("...\xC3\xA4"), std::string::npos) << shown;
+    EXPECT_NE(shown.find("\xE2\x82\xAC..."), std::string::npos) << shown;
+}
+
+TEST(Diagnostics, LimitsAreWholeNumbers) {
+    const auto help = [](const std::string& statement) {
+        const Compilation result = compile(in_branch(statement));
+        return result.diagnostics.empty() ? std::string() : result.diagnostics[0].help;
+    };
+    EXPECT_EQ(help("P1 := 99999999999;"), "it takes -67000000 .. 67000000");  // 001 §3.2.3
+    EXPECT_EQ(help("INPOSWIN := 70000;").find_first_of(".+"), help("INPOSWIN := 70000;").find(" .. ") + 1);
+}
+
+TEST(Diagnostics, AnErrorBehindManyWarningsIsShown) {
+    std::string source =
+        "PROGRAM P MOTOR MAC140;\nSTEP S: OWN ERROR; NEXT := T; END_STEP STEP T: OWN ERROR;\n";
+    for (int i = 0; i < 150; ++i) source += "IF FALSE THEN NEXT := S; END_IF\n";
+    source += "NEXT := Q; END_STEP END_PROGRAM";
+    const Compilation result = compile(source);
+    ASSERT_EQ(result.diagnostics.size(), 100U);
+    EXPECT_TRUE(result.more_diagnostics);
+    EXPECT_EQ(result.diagnostics.back().code, "E021");
+    EXPECT_FALSE(result.ok);
+}
+
 TEST(Diagnostics, ManyMistakesAreBounded) {
     std::string source = "PROGRAM P\n";
     for (int i = 0; i < 5000; ++i) source += "STEP S: IF Q THEN NEXT := Z; END_IF END_STEP\n";
-    EXPECT_LE(compile(source + "END_PROGRAM").diagnostics.size(), 200U);
+    const Compilation result = compile(source + "END_PROGRAM");
+    EXPECT_EQ(result.diagnostics.size(), 100U);
+    EXPECT_TRUE(result.more_diagnostics);
 }
 
 }  // namespace

@@ -37,6 +37,7 @@ void emit_all(const std::vector<LoweredTerm>& terms, const Plan& plan, Compilati
 
 /// After a syntax error whole statements are missing, so only what names and values say is worth reporting.
 void merge(Report& report, Report& checks, bool all) {
+    if (checks.has_more()) report.note_more();
     for (Diagnostic& d : checks.take()) {
         if (all || (d.code >= "E020" && d.code <= "E059")) report.add(std::move(d));
     }
@@ -76,6 +77,7 @@ Compilation compile(std::string_view source) {
     merge(report, checks, syntax_sound);
     result.ok = !report.has_errors();
     if (result.ok) emit_all(terms, plan, result);
+    result.more_diagnostics = report.has_more();
     result.diagnostics = report.take();
     return result;
 }

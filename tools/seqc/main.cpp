@@ -35,6 +35,9 @@ void print_diagnostics(const Compilation& compilation, std::string_view source, 
         ++(diagnostic.severity == Severity::error ? errors : warnings);
     }
     if (errors + warnings == 0) return;
+    if (compilation.more_diagnostics)
+        fmt::print(stderr, "{}: there are more; only {} are shown, mend these first\n", name,
+                   errors + warnings);
     fmt::print(stderr, "{}: {} error{}, {} warning{}\n", name, errors, errors == 1 ? "" : "s", warnings,
                warnings == 1 ? "" : "s");
 }

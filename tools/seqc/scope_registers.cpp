@@ -13,12 +13,20 @@ using registers::Register;
 
 constexpr std::uint8_t kLastReachable = 127;
 constexpr double kWorthAWarning = 0.01;
+constexpr double kShownWhole = 100'000;
 
 /// The number that raw bits stand for in a register.
 double number_of_bits(double bits, Format format) {
     if (registers::is_32_bit(format)) return static_cast<std::int32_t>(static_cast<std::uint32_t>(bits));
     if (format == Format::word || bits > 0xFFFF) return bits;
     return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits));
+}
+
+/// Large numbers in whole ones, cut towards zero so that what it shows does fit.
+std::string limit_text(double value) {
+    if (std::fabs(value) >= kShownWhole || value == std::trunc(value))
+        return fmt::format("{:.0f}", std::trunc(value));
+    return fmt::format("{:.6g}", value);
 }
 
 }  // namespace
@@ -97,9 +105,10 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& value, const Registe
     if (!(raw >= static_cast<double>(reg.min) && raw <= static_cast<double>(reg.max))) {
         const std::string_view shown = value.is_raw ? std::string_view() : unit;
         const double one = value.is_raw ? 1 : *per_unit;
-        report_.error("E042", value.span, fmt::format("{} does not fit {}", text(value.span), reg.name),
-                      fmt::format("it takes {:.6g} .. {:.6g}{}{}", static_cast<double>(reg.min) / one,
-                                  static_cast<double>(reg.max) / one, shown.empty() ? "" : " ", shown));
+        report_.error(
+            "E042", value.span, fmt::format("{} does not fit {}", text(value.span), reg.name),
+            fmt::format("it takes {} .. {}{}{}", limit_text(static_cast<double>(reg.min) / one),
+                        limit_text(static_cast<double>(reg.max) / one), shown.empty() ? "" : " ", shown));
         return std::nullopt;
     }
     if (reg.dangerous) {
