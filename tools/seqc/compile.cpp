@@ -69,10 +69,13 @@ Compilation compile(std::string_view source) {
         }
     }
     if (!checks.has_errors() && terms.size() + plan.terms.size() >= kTermsEverywhere) {
-        checks.warning("W010", program.name.span,
-                       fmt::format("{} terms: a gateway need not hold more than {}",
-                                   terms.size() + plan.terms.size() + 1, kTermsEverywhere),
-                       "simplify conditions or join steps");
+        const std::string message = fmt::format("{} terms: a gateway need not hold more than {}",
+                                                terms.size() + plan.terms.size() + 1, kTermsEverywhere);
+        if (plan.steps.empty()) {
+            checks.warning("W010", program.name.span, message, "make sure that yours does");
+        } else {
+            checks.error("E086", program.name.span, message, "simplify conditions or join steps");
+        }
     }
     merge(report, checks, syntax_sound);
     result.ok = !report.has_errors();
