@@ -183,7 +183,7 @@ TEST(Zeros, EveryPairInBothOrders) {
 TEST(Zeros, RandomChains) {
     int refused = 0;
     int compiled = 0;
-    for (unsigned seed = 1; seed <= 1500; ++seed) {
+    for (unsigned seed = 1; seed <= 500; ++seed) {
         SCOPED_TRACE(seed);
         test::Random random(seed);
         Program program;
@@ -195,8 +195,8 @@ TEST(Zeros, RandomChains) {
         ++(is_refused(program) ? refused : compiled);
         if (testing::Test::HasFailure()) return;
     }
-    EXPECT_GT(compiled, 300);
-    EXPECT_GT(refused, 300);
+    EXPECT_GT(compiled, 100);
+    EXPECT_GT(refused, 100);
 }
 
 std::string codes_of(const std::string& branches) {
