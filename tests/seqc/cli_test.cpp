@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -84,6 +85,46 @@ TEST_F(Cli, FileAndUsageProblemsAreTwo) {
     EXPECT_EQ(run("build"), 2);
     EXPECT_EQ(run("--help"), 0);
     EXPECT_NE(read("out").find("Exit codes"), std::string::npos);
+}
+
+TEST_F(Cli, UsageErrorsAreOneLine) {
+    for (const char* arguments : {"", "make a.seq", "build", "build a.seq --wrong", "build a.seq -o -"}) {
+        EXPECT_EQ(run(arguments), 2) << arguments;
+        const std::string err = read("err");
+        EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+        EXPECT_TRUE(err.starts_with("seqc: ")) << err;
+    }
+    EXPECT_EQ(run("--version"), 0);
+    EXPECT_TRUE(read("out").starts_with("seqc ")) << read("out");
+}
+
+TEST_F(Cli, MinusIsStandardOutputForDisasmOnly) {
+    write("a.seq", kGood);
+    EXPECT_EQ(run("build a.seq -o -"), 2);
+    EXPECT_FALSE(exists("-"));
+    EXPECT_EQ(run("build a.seq"), 0);
+    EXPECT_EQ(run("disasm a.bin -o -"), 0);
+    EXPECT_NE(read("out").find("TERM"), std::string::npos);
+    EXPECT_FALSE(exists("-"));
+}
+
+TEST_F(Cli, ALinksTargetIsWritten) {
+    write("a.seq", kGood);
+    fs::create_directory(folder_ / "sub");
+    fs::create_symlink("sub/real.bin", folder_ / "link.bin");  // leads nowhere yet
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_EQ(run("build a.seq -o link.bin"), 0) << read("err");
+        EXPECT_TRUE(fs::is_symlink(folder_ / "link.bin"));
+        EXPECT_EQ(fs::file_size(folder_ / "sub/real.bin"), 16U);
+    }
+}
+
+TEST_F(Cli, ManyMistakesEndWithALine) {
+    std::string source = "PROGRAM P\n";
+    for (int i = 0; i < 500; ++i) source += "STEP S: IF Q THEN NEXT := Z; END_IF END_STEP\n";
+    write("a.seq", source + "END_PROGRAM");
+    EXPECT_EQ(run("check a.seq"), 1);
+    EXPECT_NE(read("err").find("there are more; only 100 are shown"), std::string::npos);
 }
 
 TEST_F(Cli, LeavesNoTemporaryFiles) {

@@ -42,6 +42,17 @@ std::string many_terms() {
     return text + "END_PROGRAM";
 }
 
+std::string too_many_terms() {
+    // A XOR .. XOR F holds in 32 of 64 cases, no two of them neighbours: 32 terms a step, 33 steps.
+    std::string text = "PROGRAM P\n";
+    for (int i = 1; i <= 33; ++i) {
+        text += "STEP N" + std::to_string(i) +
+                ": OWN ERROR; IF IN0 XOR IN1 XOR IN2 XOR IN3 XOR IN4 XOR IN5 THEN NEXT := N" +
+                std::to_string(i % 33 + 1) + "; END_IF END_STEP\n";
+    }
+    return text + "END_PROGRAM";
+}
+
 const std::vector<Row>& rows() {
     static const std::vector<Row> all = {
         {"E001", "$", steps("IF A $ THEN NEXT := Other; END_IF")},
@@ -84,6 +95,8 @@ const std::vector<Row>& rows() {
         {"E042", "20000 rpm", in_branch("V_SOLL := 20000 rpm;")},
         {"E042", "-1", in_branch("A_SOLL := -1;")},
         {"E042", "16#10000", in_branch("INPOSWIN := 16#10000;")},
+        {"E042", "1 rpm/s", in_branch("A1 := 1 rpm/s;")},
+        {"E042", "0.0001", in_branch("L1 := 0.0001;")},
         {"E043", "mm", in_branch("P1 := 5 mm;")},
         {"E043", "rpm", in_branch("P1 := 5 rpm;")},
         {"E043", "500", in_branch("TIMER := 500;")},
@@ -120,13 +133,15 @@ const std::vector<Row>& rows() {
         {"E083", "N62", too_many_steps()},
         {"E084", "P ", "PROGRAM P END_PROGRAM"},
         {"E085", "POWER_UP", "PROGRAM P POWER_UP STOP; END_POWER_UP STEP S: OWN ERROR; END_STEP END_PROGRAM"},
+        {"E086", "P\n", too_many_terms()},
         {"E090", "256", "PROGRAM P TERM 256,0,0,0,0,0,0,0; END_PROGRAM"},
         {"E090", "TERM", "PROGRAM P TERM 1,2,3; END_PROGRAM"},
         {"E091", "TERM 0", "PROGRAM P TERM 16#3F,0,0,0,0,0,0,0; TERM 0,0,0,0,0,0,0,0; END_PROGRAM"},
         {"E092", "TERM", steps("TERM 16#C2,0,0,16#3E,16#80,0,0,0;")},
         {"W001", "A AND NOT A", steps("IF A AND NOT A THEN NEXT := Other; END_IF")},
         {"W001", "A AND B", steps("IF A THEN NEXT := Other; ELSIF A AND B THEN NEXT := Fault; END_IF")},
-        {"W002", "100 rpm/s", in_branch("A_SOLL := 100 rpm/s;")},
+        {"W002", "700 rpm/s", in_branch("A_SOLL := 700 rpm/s;")},  // 2.8 steps of 248.4 rpm/s
+        {"E042", "100 rpm/s", in_branch("A_SOLL := 100 rpm/s;")},
         {"W003", "5", in_branch("KIFX2 := 5;")},
         {"W004", "POSITION",
          "PROGRAM P MOTOR MAC140; STEP S: OWN ERROR; IF IN0 THEN STOP; NEXT := T; END_IF END_STEP STEP "
@@ -139,6 +154,7 @@ const std::vector<Row>& rows() {
         {"W009", "TERM", "PROGRAM P TERM 0,0,0,16#3F,16#80,0,0,0; END_PROGRAM"},
         {"W009", "TERM", "PROGRAM P TERM 0,0,16#80,16#80,1,0,0,0; END_PROGRAM"},
         {"W010", "P\n", many_terms()},
+        {"W011", "MODE_REG", in_branch("MODE_REG := 2;")},
     };
     return all;
 }
@@ -180,6 +196,39 @@ TEST(Diagnostics, AsTheUserSeesThem) {
               " 4 | \tIF IN0 THEN NEXT := Travl; END_IF\n"
               "   | \t                    ^~~~~\n"
               "  help: did you mean 'Travel'?\n");
+}
+
+TEST(Diagnostics, WhatIsMissingBecauseOfAnotherMistakeIsNotReported) {
+    const auto codes = [](const std::string& source) { return test::codes(compile(source)); };
+    EXPECT_EQ(codes("PROGRAM P STEP S: OWN ERROR; NEXT := T; END_STEP (* STEP T: END_STEP END_PROGRAM"),
+              "E002");
+    EXPECT_EQ(codes("PROGRAM P STEP S: OWN ERROR; NEXT := (* T; END_STEP STEP T: END_STEP END_PROGRAM"),
+              "E002");
+    EXPECT_EQ(codes("PROGRAM P STEP S: OWN ERROR; IF IN0 (* THEN NEXT := S; END_IF END_STEP END_PROGRAM"),
+              "E002");
+    EXPECT_EQ(codes("(* PROGRAM P END_PROGRAM"), "E002");
+    EXPECT_EQ(
+        codes("PROGRAM P STEP S: OWN ERROR; NEXT := V1; END_STEP STEP 9: OWN ERROR; END_STEP END_PROGRAM"),
+        "E010");
+    EXPECT_EQ(
+        codes("PROGRAM P STEP S: OWN ERROR; NEXT := T; END_STEP STPE T: OWN ERROR; END_STEP END_PROGRAM"),
+        "E010");
+}
+
+TEST(Diagnostics, RegistersAreCalledAsWritten) {
+    const std::string source =
+        "PROGRAM P MOTOR MAC800; VAR_MOTOR Soft AT A1 := 1 mm; END_VAR STEP S: OWN ERROR; END_STEP "
+        "END_PROGRAM";
+    const Compilation result = compile(source);
+    ASSERT_EQ(test::codes(result), "E043") << test::shown(result, source);
+    EXPECT_EQ(result.diagnostics[0].message, "A1 cannot be given in 'mm'");
+}
+
+// Where the motor runs already MODE_REG starts nothing, and 0 stops it.
+TEST(Diagnostics, ModeWrittenWhereTheMotorRuns) {
+    EXPECT_EQ(test::codes(compile(in_branch("MODE_REG := 0;"))), "");
+    EXPECT_EQ(test::codes(compile(in_branch("VELOCITY(V1); MODE_REG := 2;"))), "");
+    EXPECT_EQ(test::codes(compile(in_branch("INIT(V1); MODE_REG := 1;"))), "W011");
 }
 
 TEST(Diagnostics, ColumnsCountCharacters) {
@@ -262,15 +311,65 @@ TEST(Diagnostics, CutProgramsNeverCrash) {
 }
 
 TEST(Diagnostics, StrangeBytesAreOneMessage) {
-    EXPECT_EQ(test::codes(compile(std::string(5000, '\0'))), "E001 E010 E012");
-    EXPECT_FALSE(compile("").ok);
+    EXPECT_EQ(test::codes(compile(std::string(5000, '\0'))), "E001");
+    EXPECT_EQ(test::codes(compile("")), "E010");
+    EXPECT_EQ(test::codes(compile(" // nothing\n")), "E010");
     EXPECT_FALSE(compile("\xFF\xFE%\x80").ok);
+}
+
+TEST(Diagnostics, LongLinesAreCutAroundTheCaret) {
+    // Q is character 10 + 8 + 11 + 2 + 600 + 11 + 1 = 643. Before it 40 are shown: 29 x and 11 others; from
+    // it on 60: 5 and 55 y.
+    const std::string source = "PROGRAM P STEP S: OWN ERROR; (*" + std::string(600, 'x') +
+                               "*) NEXT := Q; (*" + std::string(600, 'y') + "*) END_STEP END_PROGRAM";
+    const std::string text = test::shown(compile(source), source);
+    const std::string line = "..." + std::string(29, 'x') + "*) NEXT := Q; (*" + std::string(55, 'y') + "...";
+    EXPECT_EQ(text, "test.seq:1:643: error E021: there is no step 'Q'\n 1 | " + line + "\n   | " +
+                        std::string(43, ' ') + "^\n");
+}
+
+TEST(Diagnostics, LongNamesAndManyOfThemStaySmall) {
+    const std::string name(1'000'000, 'n');
+    const std::string source = "PROGRAM P STEP S: OWN ERROR; NEXT := " + name + "; END_STEP END_PROGRAM";
+    EXPECT_LT(test::shown(compile(source), source).size(), 1000U);
+    std::string wide = "PROGRAM P STEP S: OWN ERROR; (*";
+    for (int i = 0; i < 2000; ++i) wide += "\xC3\xA4";
+    wide += "*) NEXT := Q; (*";
+    for (int i = 0; i < 2000; ++i) wide += "\xE2\x82\xAC";
+    wide += "*) END_STEP END_PROGRAM";
+    const std::string shown = test::shown(compile(wide), wide);
+    EXPECT_LT(shown.size(), 1000U);
+    EXPECT_NE(shown.find("...\xC3\xA4"), std::string::npos) << shown;
+    EXPECT_NE(shown.find("\xE2\x82\xAC..."), std::string::npos) << shown;
+}
+
+TEST(Diagnostics, LimitsAreWholeNumbers) {
+    const auto help = [](const std::string& statement) {
+        const Compilation result = compile(in_branch(statement));
+        return result.diagnostics.empty() ? std::string() : result.diagnostics[0].help;
+    };
+    EXPECT_EQ(help("P1 := 99999999999;"), "it takes -67000000 .. 67000000");  // 001 §3.2.49
+    EXPECT_EQ(help("INPOSWIN := 70000;").find_first_of(".+"), help("INPOSWIN := 70000;").find(" .. ") + 1);
+}
+
+TEST(Diagnostics, AnErrorBehindManyWarningsIsShown) {
+    std::string source =
+        "PROGRAM P MOTOR MAC140;\nSTEP S: OWN ERROR; NEXT := T; END_STEP STEP T: OWN ERROR;\n";
+    for (int i = 0; i < 150; ++i) source += "IF FALSE THEN NEXT := S; END_IF\n";
+    source += "NEXT := Q; END_STEP END_PROGRAM";
+    const Compilation result = compile(source);
+    ASSERT_EQ(result.diagnostics.size(), 100U);
+    EXPECT_TRUE(result.more_diagnostics);
+    EXPECT_EQ(result.diagnostics.back().code, "E021");
+    EXPECT_FALSE(result.ok);
 }
 
 TEST(Diagnostics, ManyMistakesAreBounded) {
     std::string source = "PROGRAM P\n";
     for (int i = 0; i < 5000; ++i) source += "STEP S: IF Q THEN NEXT := Z; END_IF END_STEP\n";
-    EXPECT_LE(compile(source + "END_PROGRAM").diagnostics.size(), 200U);
+    const Compilation result = compile(source + "END_PROGRAM");
+    EXPECT_EQ(result.diagnostics.size(), 100U);
+    EXPECT_TRUE(result.more_diagnostics);
 }
 
 }  // namespace

@@ -64,9 +64,9 @@ void ActionBuilder::add(const Statement& statement) {
         case Statement::Kind::command:
             return add_command(statement);
         case Statement::Kind::assign:
-            return add_assignment(statement, scope_.reg(statement.name));
+            return add_assignment(statement, scope_.reg(statement.name), statement.name.text);
         case Statement::Kind::assign_number:
-            return add_assignment(statement, scope_.reg(*statement.register_number));
+            return add_assignment(statement, scope_.reg(*statement.register_number), {});
         case Statement::Kind::timer:
             return add_timer(statement);
         case Statement::Kind::counter:
@@ -100,9 +100,10 @@ void ActionBuilder::add_next(const Statement& statement) {
     action_.next = number.value_or(sequencer::kNoSwitch);
 }
 
-void ActionBuilder::add_assignment(const Statement& statement, const registers::Register* reg) {
+void ActionBuilder::add_assignment(const Statement& statement, const registers::Register* reg,
+                                   std::string_view shown) {
     if (reg == nullptr) return;
-    if (const auto bits = scope_.value(statement.value, *reg)) {
+    if (const auto bits = scope_.value(statement.value, *reg, shown.empty() ? reg->name : shown)) {
         action_.sends.push_back({reg, 0, *bits, statement.span});
     }
 }
@@ -168,7 +169,7 @@ void ActionBuilder::add_selections(const Statement& statement, Mode mode) {
         const auto selection = selection_of(reg->number);
         if (!selection) {
             scope_.report().error(
-                "E050", argument.span, fmt::format("{} cannot be selected", reg->name),
+                "E050", argument.span, fmt::format("{} cannot be selected", argument.text),
                 "registers to select are P1..P8, V1..V8, A1..A4, T1..T4, L1..L4 and Z1..Z4");
             continue;
         }

@@ -24,7 +24,8 @@ class ActionBuilder {
   private:
     void add(const ast::Statement& statement);
     void add_next(const ast::Statement& statement);
-    void add_assignment(const ast::Statement& statement, const registers::Register* reg);
+    void add_assignment(const ast::Statement& statement, const registers::Register* reg,
+                        std::string_view shown);
     void add_command(const ast::Statement& statement);
     void add_selections(const ast::Statement& statement, protocol::fastmac::Mode mode);
     void add_use_set(const ast::Statement& statement);

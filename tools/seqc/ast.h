@@ -124,6 +124,7 @@ struct Program {
     std::optional<Name> on_error;
     std::optional<Step> power_up;
     std::vector<Step> steps;
+    bool steps_missing = false;  ///< some could not be read: an unknown name may be one of them
     std::vector<RawTerm> terms;
 };
 

@@ -37,6 +37,7 @@ void emit_all(const std::vector<LoweredTerm>& terms, const Plan& plan, Compilati
 
 /// After a syntax error whole statements are missing, so only what names and values say is worth reporting.
 void merge(Report& report, Report& checks, bool all) {
+    if (checks.has_more()) report.note_more();
     for (Diagnostic& d : checks.take()) {
         if (all || (d.code >= "E020" && d.code <= "E059")) report.add(std::move(d));
     }
@@ -68,14 +69,18 @@ Compilation compile(std::string_view source) {
         }
     }
     if (!checks.has_errors() && terms.size() + plan.terms.size() >= kTermsEverywhere) {
-        checks.warning("W010", program.name.span,
-                       fmt::format("{} terms: a gateway need not hold more than {}",
-                                   terms.size() + plan.terms.size() + 1, kTermsEverywhere),
-                       "simplify conditions or join steps");
+        const std::string message = fmt::format("{} terms: a gateway need not hold more than {}",
+                                                terms.size() + plan.terms.size() + 1, kTermsEverywhere);
+        if (plan.steps.empty()) {
+            checks.warning("W010", program.name.span, message, "make sure that yours does");
+        } else {
+            checks.error("E086", program.name.span, message, "simplify conditions or join steps");
+        }
     }
     merge(report, checks, syntax_sound);
     result.ok = !report.has_errors();
     if (result.ok) emit_all(terms, plan, result);
+    result.more_diagnostics = report.has_more();
     result.diagnostics = report.take();
     return result;
 }

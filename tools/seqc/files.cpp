@@ -28,6 +28,19 @@ bool is_special(const std::string& path) {
     return fs::exists(path, error) && !fs::is_regular_file(path, error);
 }
 
+/// What a symbolic link leads to is written, not the link; it need not exist yet.
+std::string behind_links(const std::string& path) {
+    constexpr int kMostLinks = 40;
+    std::error_code error;
+    fs::path target = path;
+    for (int i = 0; i < kMostLinks && fs::is_symlink(target, error); ++i) {
+        const fs::path next = fs::read_symlink(target, error);
+        if (error) return path;
+        target = target.parent_path() / next;
+    }
+    return target.string();
+}
+
 std::string where_first(const std::string& path) {
     return is_special(path) ? path : temporary_name(path);
 }
@@ -59,7 +72,9 @@ FileText read_file(const std::string& path) {
     return result;
 }
 
-std::string write_files(const std::vector<OutputFile>& files) {
+std::string write_files(const std::vector<OutputFile>& named) {
+    std::vector<OutputFile> files = named;
+    for (OutputFile& file : files) file.path = behind_links(file.path);
     std::string problem;
     for (const OutputFile& file : files) {
         std::error_code error;

@@ -1,10 +1,13 @@
 #include "lower.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
 #include "cover.h"
 #include "effects.h"
+#include "verify.h"
 
 namespace nplc::seqc {
 namespace {
@@ -151,8 +154,7 @@ class Lowering {
             if (owner_[c] == index) continue;
             need.set(point);
             if (!is_hard(owner_[c])) continue;
-            override_owner(owner_[c], layer);
-            if (!effect(index).next()) effect(index).stays = true;
+            take_over(index, owner_[c], layer, layer);
         }
         const bool once = effect(index).acts_once();
         const auto cubes = once ? disjoint_cover(need) : minimal_cover(need, allowed);
@@ -168,7 +170,7 @@ class Lowering {
             if (is_hard(effects_.target[c]) || !is_hard(owner_[c])) continue;
             const Effect& owner = effect(owner_[c]);
             if (owner.action == nullptr && owner.outputs == effects_.resting[c]) continue;
-            override_owner(owner_[c], layer);
+            override_owner(owner_[c], layer, layer);
             need[effects_.resting[c]].set(point);
         }
         for (std::size_t outputs = 0; outputs < need.size(); ++outputs) {
@@ -189,7 +191,14 @@ class Lowering {
         }
     }
 
-    void override_owner(int index, std::size_t layer) {
+    /// Effect `index`, which has no next step of its own, must name one where another effect held before it.
+    void take_over(int index, int owner, std::size_t layer, std::size_t where) {
+        override_owner(owner, layer, where);
+        if (!effect(index).next()) effect(index).stays = true;
+    }
+
+    /// A term of `layer` takes the cases of layer `where` from another effect.
+    void override_owner(int index, std::size_t layer, std::size_t where) {
         Effect& overridden = effect(index);
         if (!overridden.cannot_be_undone() || overridden.reported) return;
         overridden.reported = true;
@@ -197,14 +206,21 @@ class Lowering {
         const char* zero = layer == kTimer     ? "timer has"
                            : layer == kCounter ? "counter has"
                                                : "timer and the counter have";
-        note_entry(
-            report_.error("E071", overridden.span,
-                          std::string("this needs to know that the ") + zero +
-                              " not run down, which a table cannot test",
-                          "test TIMER.Q or COUNTER.Q without NOT and in the branch that comes first, or go "
-                          "to a step of "
-                          "its own that waits; only NEXT and outputs can depend on a timer that still runs"),
-            overridden);
+        const bool crossed = layer != where;
+        const std::string message =
+            crossed
+                ? fmt::format(
+                      "when TIMER.Q and COUNTER.Q hold together, this would happen beside the branch "
+                      "that comes first: a table cannot test that the {} not run down",
+                      zero)
+                : fmt::format("this needs to know that the {} not run down, which a table cannot test", zero);
+        const char* help =
+            crossed ? "let this branch come first if the other one only switches, or do it in a step of its "
+                      "own; only NEXT and outputs can depend on a timer or counter that still runs"
+                    : "test TIMER.Q or COUNTER.Q without NOT and in the branch that comes first, or go "
+                      "to a step of "
+                      "its own that waits; only NEXT and outputs can depend on a timer that still runs";
+        note_entry(report_.error("E071", overridden.span, message, help), overridden);
     }
 
     /// What cannot be undone may stand in the ENTRY of the step that is entered.
@@ -228,6 +244,9 @@ class Lowering {
                 const std::size_t c = case_of(point, error, above);
                 if (once && effect(index).fired.test(c)) report_twice(index);
                 effect(index).fired.set(c);
+                const int before = owner_[c];
+                if (above != layer && effects_.target[c] == index && before != index && is_hard(before))
+                    take_over(index, before, layer, above);
                 owner_[c] = index;
             }
         }
@@ -264,7 +283,10 @@ std::vector<LoweredTerm> lower(const StepPlan& step, const std::vector<std::uint
     if (report.error_count() != errors) return plain;
     Report tried;
     std::vector<LoweredTerm> overriding = Lowering(step, effects, true, tried).run();
-    return !tried.has_errors() && overriding.size() < plain.size() ? overriding : plain;
+    const bool shorter = !tried.has_errors() && overriding.size() < plain.size();
+    std::vector<LoweredTerm>& chosen = shorter ? overriding : plain;
+    check_terms(step, outputs_of, chosen, report);
+    return chosen;
 }
 
 }  // namespace nplc::seqc

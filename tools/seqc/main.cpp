@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -21,6 +22,12 @@ int file_problem(const std::string& message) {
     return kUsageOrFile;
 }
 
+std::string one_line(std::string text) {
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
 struct Options {
     std::string source;
     std::string output;
@@ -35,6 +42,9 @@ void print_diagnostics(const Compilation& compilation, std::string_view source, 
         ++(diagnostic.severity == Severity::error ? errors : warnings);
     }
     if (errors + warnings == 0) return;
+    if (compilation.more_diagnostics)
+        fmt::print(stderr, "{}: there are more; only {} are shown, mend these first\n", name,
+                   errors + warnings);
     fmt::print(stderr, "{}: {} error{}, {} warning{}\n", name, errors, errors == 1 ? "" : "s", warnings,
                warnings == 1 ? "" : "s");
 }
@@ -45,6 +55,9 @@ bool is_same_file(const std::string& a, const std::string& b) {
 }
 
 int build(const Options& options, bool write) {
+    for (const std::string& target : {options.output, options.listing}) {
+        if (target == "-") return file_problem("build writes files only: name one instead of '-' (or ./-)");
+    }
     const auto source = nplc::seqc::read_file(options.source);
     if (!source.error.empty()) return file_problem(source.error);
     const std::string output =
@@ -81,7 +94,7 @@ int disasm(const Options& options) {
         fmt::print(stderr, "seqc: {}: {} bytes after the end of the table are left out\n", options.source,
                    result.trailing_bytes);
     }
-    if (options.output.empty()) {
+    if (options.output.empty() || options.output == "-") {
         fmt::print("{}", result.text);
         return std::fflush(stdout) == 0 ? kOk : file_problem("cannot write to standard output");
     }
@@ -99,6 +112,7 @@ int main(int argc, char** argv) {
     CLI::App app(
         "Compiles sequence programs into tables for a NanoPLC gateway, and tables back into programs.");
     app.require_subcommand(1);
+    app.set_version_flag("--version", std::string("seqc ") + NPLC_VERSION);
     app.footer(
         "Exit codes: 0 done (warnings do not count), 1 the program has errors and nothing was written,\n"
         "2 wrong usage or a file that cannot be read, written or understood.\n"
@@ -119,12 +133,14 @@ int main(int argc, char** argv) {
     disasm_command
         ->add_option("table", options.source, "The raw table, F.bin: terms of 8 bytes up to STATE 63")
         ->required();
-    disasm_command->add_option("-o,--output", options.output, "Write to a file instead of standard output");
+    disasm_command->add_option("-o,--output", options.output,
+                               "Write to a file instead of standard output (-)");
 
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? kOk : kUsageOrFile;
+        if (error.get_exit_code() == 0) return app.exit(error);
+        return file_problem(fmt::format("{} (see seqc --help)", one_line(error.what())));
     }
     if (build_command->parsed()) return build(options, true);
     if (check_command->parsed()) return build(options, false);

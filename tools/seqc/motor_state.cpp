@@ -121,8 +121,21 @@ class MotorWalk {
             if (const auto select = send.reg == nullptr ? select_command(send.command) : std::nullopt) {
                 judge_selection(*select, send, rule, state);
             }
+            if (send.reg != nullptr && send.reg->number == registers::MODE_REG) judge_mode(send, rule, state);
             apply(send, state);
         }
+    }
+
+    void judge_mode(const Send& send, const Rule& rule, const MotorState& state) {
+        if (send.value == 0 || (state.modes & kInit) == 0) return;
+        const char* where = send.value == 1   ? " at an old V_SOLL"
+                            : send.value == 2 ? " towards an old P_SOLL"
+                                              : "";
+        complain("W011", send, rule,
+                 fmt::format("writing MODE_REG may start the motor{}: it may be in INIT here", where),
+                 send.value == 1   ? "VELOCITY(V..); sets the velocity and the mode"
+                 : send.value == 2 ? "POSITION(P..); sets the position and the mode"
+                                   : "make sure that the registers of this mode are set before");
     }
 
     void judge_selection(const SelectCommand& select, const Send& send, const Rule& rule,

@@ -77,6 +77,7 @@ bool Parser::take_symbol(std::string_view symbol) {
 }
 
 void Parser::error_here(std::string_view expected, std::string help) {
+    if (in_open_comment()) return;
     report_.error("E010", token().span, fmt::format("expected {}, found {}", expected, shown(token())),
                   std::move(help));
 }
@@ -118,7 +119,7 @@ Span Parser::span_since(const Token& first) const {
 
 /// A missing semicolon is reported where it belongs, and reading goes on as if it stood there.
 void Parser::end_statement() {
-    if (take_symbol(";")) return;
+    if (take_symbol(";") || in_open_comment()) return;
     const Token& last = tokens_[at_ == 0 ? 0 : at_ - 1];
     report_.error("E010", {last.span.offset + last.span.length, 1},
                   fmt::format("expected ';' before {}", shown(token())),
@@ -148,6 +149,7 @@ void Parser::end_block(std::string_view end_word, Span opened) {
         take_symbol(";");
         return;
     }
+    if (in_open_comment()) return;
     Diagnostic& d =
         report_.error("E012", token().span, fmt::format("expected {}, found {}", end_word, shown(token())));
     d.notes.push_back({opened, "it would close what begins here"});
@@ -156,6 +158,12 @@ void Parser::end_block(std::string_view end_word, Span opened) {
 ast::Program Parser::parse() {
     ast::Program program;
     const Span opened = token().span;
+    program.steps_missing = comment_is_open_;
+    if (token().kind == TokenKind::end) {
+        if (!report_.has_errors())
+            report_.error("E010", opened, "the file holds no program", "write PROGRAM Name ... END_PROGRAM");
+        return program;
+    }
     if (expect("PROGRAM", "at the start")) {
         if (!expect_name(program.name, "the program's name")) recover();
         take_symbol(";");
@@ -170,7 +178,7 @@ ast::Program Parser::parse() {
 }
 
 void Parser::parse_item(ast::Program& program) {
-    if (take_symbol(";")) return;
+    if (take_symbol(";") || (program.steps_missing && take("END_STEP"))) return;
     if (take("MOTOR")) {
         ast::Name motor;
         if (!expect_name(motor, "the motor, such as MAC140")) return recover();
@@ -193,6 +201,7 @@ void Parser::parse_item(ast::Program& program) {
         "MOTOR, SCALE, VAR_INPUT, VAR_OUTPUT, VAR_MOTOR, ON ERROR, POWER_UP, STEP, TERM or END_PROGRAM",
         suggestion(token().text, {"MOTOR", "SCALE", "VAR_INPUT", "VAR_OUTPUT", "VAR_MOTOR", "POWER_UP",
                                   "STEP", "TERM", "END_PROGRAM"}));
+    program.steps_missing = true;
     const std::size_t before = at_;
     recover();
     if (at_ == before) ++at_;
@@ -286,6 +295,7 @@ void Parser::parse_step(ast::Program& program) {
     ast::Step step;
     if (!expect_name(step.name, "the step's name")) {
         step.name = {"", opened};
+        program.steps_missing = true;
         if (!at_boundary()) ++at_;
     }
     if (!take_symbol(":")) error_here("':' after the step's name");

@@ -13,7 +13,10 @@ namespace nplc::seqc {
 class Parser {
   public:
     Parser(std::string_view source, std::vector<Token> tokens, Report& report)
-        : source_(source), tokens_(std::move(tokens)), report_(report) {}
+        : source_(source),
+          tokens_(std::move(tokens)),
+          report_(report),
+          comment_is_open_(report.has("E002")) {}
 
     ast::Program parse();
 
@@ -28,6 +31,8 @@ class Parser {
     bool expect_symbol(std::string_view symbol, std::string_view where);
     bool expect_name(ast::Name& name, std::string_view what);
     void error_here(std::string_view expected, std::string help = {});
+    /// What is missing here stands in a comment that is never closed, which was reported.
+    bool in_open_comment() const { return comment_is_open_ && token().kind == TokenKind::end; }
     void end_statement();
     void recover();
     bool at_boundary() const;
@@ -72,6 +77,7 @@ class Parser {
     Report& report_;
     std::size_t at_ = 0;
     int depth_ = 0;
+    bool comment_is_open_;
 };
 
 /// Milliseconds of T#1s500ms; false if it is malformed.

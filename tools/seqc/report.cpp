@@ -1,13 +1,22 @@
 #include "report.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace nplc::seqc {
 
 Diagnostic& Report::add(Diagnostic diagnostic) {
     if (diagnostic.severity == Severity::error) ++errors_;
-    if (full()) return dropped_ = std::move(diagnostic);
+    if (full()) {
+        more_ = true;
+        const auto last_warning =
+            std::find_if(diagnostics_.rbegin(), diagnostics_.rend(),
+                         [](const Diagnostic& d) { return d.severity == Severity::warning; });
+        if (diagnostic.severity == Severity::warning || last_warning == diagnostics_.rend())
+            return dropped_ = std::move(diagnostic);
+        diagnostics_.erase(std::next(last_warning).base());
+    }
     return diagnostics_.emplace_back(std::move(diagnostic));
 }
 
@@ -17,6 +26,11 @@ Diagnostic& Report::error(const char* code, Span span, std::string message, std:
 
 Diagnostic& Report::warning(const char* code, Span span, std::string message, std::string help) {
     return add({Severity::warning, code, std::move(message), std::move(help), span, {}});
+}
+
+bool Report::has(std::string_view code) const {
+    return std::any_of(diagnostics_.begin(), diagnostics_.end(),
+                       [&](const Diagnostic& d) { return d.code == code; });
 }
 
 std::vector<Diagnostic> Report::take() {

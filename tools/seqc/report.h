@@ -1,13 +1,14 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "seqc/diagnostic.h"
 
 namespace nplc::seqc {
 
-/// Collects diagnostics. Beyond a bound further ones are dropped: nobody reads them.
+/// Collects diagnostics. Beyond a bound further ones are dropped, warnings first: nobody reads them.
 class Report {
   public:
     Diagnostic& error(const char* code, Span span, std::string message, std::string help = {});
@@ -18,15 +19,20 @@ class Report {
     bool has_errors() const { return errors_ > 0; }
     std::size_t error_count() const { return errors_; }
     bool full() const { return diagnostics_.size() >= kMost; }
+    /// Some were dropped, here or in a report whose diagnostics were added.
+    bool has_more() const { return more_; }
+    void note_more() { more_ = true; }
+    bool has(std::string_view code) const;
     /// In source order.
     std::vector<Diagnostic> take();
 
   private:
-    static constexpr std::size_t kMost = 200;
+    static constexpr std::size_t kMost = 100;
 
     std::vector<Diagnostic> diagnostics_;
     Diagnostic dropped_;
     std::size_t errors_ = 0;
+    bool more_ = false;
 };
 
 }  // namespace nplc::seqc

@@ -89,6 +89,7 @@ void Scope::declare_scale(const ast::Program& program) {
 }
 
 void Scope::declare_steps(const ast::Program& program) {
+    steps_missing_ = program.steps_missing;
     for (const ast::Step& step : program.steps) {
         const auto earlier = std::find_if(steps_.begin(), steps_.end(), [&](const ast::Step* s) {
             return same_name(s->name.text, step.name.text);
@@ -160,18 +161,19 @@ void Scope::declare_motor_variables(const ast::Program& program) {
         const registers::Register* target =
             variable.register_number ? reg(*variable.register_number) : reg(variable.address);
         if (!is_new_name(variable.name) || target == nullptr) continue;
+        const std::string_view shown = variable.register_number ? target->name : variable.address.text;
         const auto earlier = std::find_if(motor_variables_.begin(), motor_variables_.end(),
                                           [&](const Variable& v) { return v.reg == target; });
         if (earlier != motor_variables_.end()) {
             report_
-                .error("E022", variable.name.span, fmt::format("{} has a name already", target->name),
+                .error("E022", variable.name.span, fmt::format("{} has a name already", shown),
                        fmt::format("use '{}', or another register", earlier->name))
                 .notes.push_back({earlier->span, "declared here"});
             continue;
         }
         motor_variables_.push_back({variable.name.text, variable.name.span, 0, target});
         if (!variable.value) continue;
-        if (const auto bits = value(*variable.value, *target)) {
+        if (const auto bits = value(*variable.value, *target, shown)) {
             const Span first = variable.name.span;
             const Span last = variable.value->span;
             initial_values_.push_back(
@@ -187,6 +189,7 @@ std::optional<std::uint8_t> Scope::step(const ast::Name& name) {
             return static_cast<std::uint8_t>(std::min<std::size_t>(i + 1, 62));
         names.push_back(steps_[i]->name.text);
     }
+    if (steps_missing_) return std::nullopt;
     report_.error("E021", name.span, fmt::format("there is no step '{}'", name.text),
                   suggestion(name.text, names));
     return std::nullopt;

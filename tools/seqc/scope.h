@@ -36,7 +36,9 @@ class Scope {
     bool is_output(std::string_view name) const { return find(outputs_, name) != nullptr; }
 
     /// The bits to write, after unit, range and rounding; reports what does not fit.
-    std::optional<std::uint32_t> value(const ast::Value& value, const registers::Register& reg);
+    /// `shown` is what the program calls the register.
+    std::optional<std::uint32_t> value(const ast::Value& value, const registers::Register& reg,
+                                       std::string_view shown);
 
     /// Register values of VAR_MOTOR, in order.
     const std::vector<Send>& initial_values() const { return initial_values_; }
@@ -63,7 +65,7 @@ class Scope {
                                       char direction, std::size_t count);
     bool is_reachable(const registers::Register* reg, Span span, std::string_view shown);
     void require_motor(Span span);
-    void note_rounding(const ast::Value& value, const registers::Register& reg, double exact, double raw,
+    bool note_rounding(const ast::Value& value, std::string_view shown, double exact, double raw,
                        double per_unit);
     std::string_view text(Span span) const { return source_.substr(span.offset, span.length); }
 
@@ -74,6 +76,7 @@ class Scope {
     bool motor_known_ = false;
     std::optional<LengthUnit> length_;
     std::vector<const ast::Step*> steps_;
+    bool steps_missing_ = false;
     std::vector<Variable> inputs_;
     std::vector<Variable> outputs_;
     std::vector<Variable> motor_variables_;

@@ -13,12 +13,20 @@ using registers::Register;
 
 constexpr std::uint8_t kLastReachable = 127;
 constexpr double kWorthAWarning = 0.01;
+constexpr double kShownWhole = 100'000;
 
 /// The number that raw bits stand for in a register.
 double number_of_bits(double bits, Format format) {
     if (registers::is_32_bit(format)) return static_cast<std::int32_t>(static_cast<std::uint32_t>(bits));
     if (format == Format::word || bits > 0xFFFF) return bits;
     return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits));
+}
+
+/// Large numbers in whole ones, cut towards zero so that what it shows does fit.
+std::string limit_text(double value) {
+    if (std::fabs(value) >= kShownWhole || value == std::trunc(value))
+        return fmt::format("{:.0f}", std::trunc(value));
+    return fmt::format("{:.6g}", value);
 }
 
 }  // namespace
@@ -46,7 +54,7 @@ const Register* Scope::find_register(std::string_view name) const {
 const Register* Scope::reg(const ast::Name& name) {
     if (const Register* found = find_register(name.text)) {
         require_motor(name.span);
-        return is_reachable(found, name.span, found->name) ? found : nullptr;
+        return is_reachable(found, name.span, name.text) ? found : nullptr;
     }
     std::vector<std::string_view> names = {"TIMER", "COUNTER"};
     for (const Variable& variable : motor_variables_) names.push_back(variable.name);
@@ -77,14 +85,15 @@ const Register* Scope::reg(const ast::Value& number) {
     return nullptr;
 }
 
-std::optional<std::uint32_t> Scope::value(const ast::Value& value, const Register& reg) {
+std::optional<std::uint32_t> Scope::value(const ast::Value& value, const Register& reg,
+                                          std::string_view shown_name) {
     double number = value.number;
     std::string_view unit = value.unit.text;
     if (value.is_time) unit = "ms";
     auto per_unit = raw_per_unit(reg, model_, length_, unit);
     if (!per_unit) {
         report_.error("E043", value.unit.text.empty() ? value.span : value.unit.span,
-                      fmt::format("{} cannot be given in '{}'", reg.name, unit),
+                      fmt::format("{} cannot be given in '{}'", shown_name, unit),
                       fmt::format("use {}", units_for(reg, length_)));
         return std::nullopt;
     }
@@ -97,36 +106,45 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& value, const Registe
     if (!(raw >= static_cast<double>(reg.min) && raw <= static_cast<double>(reg.max))) {
         const std::string_view shown = value.is_raw ? std::string_view() : unit;
         const double one = value.is_raw ? 1 : *per_unit;
-        report_.error("E042", value.span, fmt::format("{} does not fit {}", text(value.span), reg.name),
-                      fmt::format("it takes {:.6g} .. {:.6g}{}{}", static_cast<double>(reg.min) / one,
-                                  static_cast<double>(reg.max) / one, shown.empty() ? "" : " ", shown));
+        report_.error(
+            "E042", value.span, fmt::format("{} does not fit {}", text(value.span), shown_name),
+            fmt::format("it takes {} .. {}{}{}", limit_text(static_cast<double>(reg.min) / one),
+                        limit_text(static_cast<double>(reg.max) / one), shown.empty() ? "" : " ", shown));
         return std::nullopt;
     }
     if (reg.dangerous) {
         report_.warning("W003", value.span,
-                        fmt::format("a wrong value in {} can damage the motor ({})", reg.name, reg.section),
+                        fmt::format("a wrong value in {} can damage the motor ({})", shown_name, reg.section),
                         "leave it alone unless its maker told you the value");
     }
-    note_rounding(value, reg, exact, raw, *per_unit);
+    if (!note_rounding(value, shown_name, exact, raw, *per_unit)) return std::nullopt;
     const auto bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(raw));
     return registers::is_32_bit(reg.format) ? bits : bits & 0xFFFFU;
 }
 
-void Scope::note_rounding(const ast::Value& value, const Register& reg, double exact, double raw,
+/// False if nothing is left of the value: a motor without acceleration, say, would never stop.
+bool Scope::note_rounding(const ast::Value& value, std::string_view shown_name, double exact, double raw,
                           double per_unit) {
     const double error = exact == 0 ? 0 : (raw - exact) / std::fabs(exact);
-    if (std::fabs(error) < 1e-9) return;
+    if (std::fabs(error) < 1e-9) return true;
     const std::string_view unit = value.is_time ? std::string_view("ms") : value.unit.text;
-    const std::string what = fmt::format("{} := {} is {} ({:.6g}{}{}, {:+.3f} %)", reg.name, text(value.span),
-                                         static_cast<std::int64_t>(raw), raw / per_unit,
+    const std::string what = fmt::format("{} := {} is {} ({:.6g}{}{}, {:+.3f} %)", shown_name,
+                                         text(value.span), static_cast<std::int64_t>(raw), raw / per_unit,
                                          unit.empty() ? "" : " ", unit, error * 100);
+    const std::string step =
+        fmt::format("one step of {} is {:.4g}{}{}", shown_name, 1 / per_unit, unit.empty() ? "" : " ", unit);
+    if (raw == 0) {
+        report_.error("E042", value.span,
+                      fmt::format("{} is too small for {}: it would become 0", text(value.span), shown_name),
+                      step + "; write at least that, or 0 if you mean 0");
+        return false;
+    }
     result_.roundings.push_back({value.span, what});
     if (std::fabs(error) > kWorthAWarning) {
         report_.warning("W002", value.span,
-                        fmt::format("the register is too coarse for this value: {}", what),
-                        fmt::format("one step of {} is {:.4g}{}{}", reg.name, 1 / per_unit,
-                                    unit.empty() ? "" : " ", unit));
+                        fmt::format("the register is too coarse for this value: {}", what), step);
     }
+    return true;
 }
 
 }  // namespace nplc::seqc

@@ -37,7 +37,8 @@ struct Position {
 
 Position position_of(std::string_view source, std::uint32_t offset);
 
-/// `file:line:column: error E021: ...`, the source line, a caret, the help and the notes.
+/// `file:line:column: error E021: ...`, the source line, a caret, the help and the notes. Of a long line
+/// about 100 characters around the caret.
 std::string render(const Diagnostic& diagnostic, std::string_view source, std::string_view file_name);
 
 }  // namespace nplc::seqc

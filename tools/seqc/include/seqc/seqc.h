@@ -35,11 +35,12 @@ struct Rounding {
 
 struct Compilation {
     std::vector<std::uint8_t> table;      ///< whole terms up to the end term; empty when there are errors
-    std::vector<Diagnostic> diagnostics;  ///< in source order
+    std::vector<Diagnostic> diagnostics;  ///< in source order, 100 at the most
     Symbols symbols;
     std::vector<TermOrigin> origins;
     std::vector<Rounding> roundings;
-    bool ok = false;  ///< no errors; warnings do not count
+    bool more_diagnostics = false;  ///< there were more than 100
+    bool ok = false;                ///< no errors; warnings do not count
 };
 
 /// Compiles the text of one program. Takes any bytes; never throws on bad input.
