@@ -85,7 +85,9 @@ void Gateway::poll(base::Instant now) {
 }
 
 bool Gateway::enabled() const {
-    return !settings_.enable_input || ((unsigned{debouncer_.levels()} >> *settings_.enable_input) & 1U) != 0;
+    if (!settings_.enable_input) return true;
+    const unsigned input = *settings_.enable_input;
+    return input < 6 && ((unsigned{debouncer_.levels()} >> input) & 1U) != 0;
 }
 
 void Gateway::start_when_ready(base::Instant now) {

@@ -131,6 +131,14 @@ TEST_F(Safety, LosingTheEnableInputStops) {
     EXPECT_EQ(board.out, 0x0F);
 }
 
+TEST_F(Safety, AnEnableInputThatDoesNotExistNeverEnables) {
+    Gateway gateway(board.ports(), {.safe_outputs = 0x02, .enable_input = 200}, StartCause::power_up);
+    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
+    board.in = 0x3F;
+    board.run(gateway, 100ms);
+    expect_safe(gateway, SafeReason::not_started);
+}
+
 TEST_F(Safety, ABadTableIsTheSafeStateAndNothingRuns) {
     Gateway gateway(board.ports(), settings, StartCause::power_up);
     const Bytes bad{{0xC0, 0, 0, 0x3F, 0x80, 0, 0, 0}};

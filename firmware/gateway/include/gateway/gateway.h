@@ -23,9 +23,12 @@ enum class OnStart : std::uint8_t {
 struct Settings {
     std::uint8_t safe_outputs = 0;  ///< levels in the safe state and before the first scan
     OnStart on_start = OnStart::stop;
-    bool autostart = true;                       ///< run() is not needed after a power-up with a good table
-    std::optional<std::uint8_t> enable_input{};  ///< input that must be 1 to run; losing it is a safe state
-    base::Microseconds debounce{3'000};          ///< an input counts once it has been steady for this long
+    bool autostart = true;  ///< run() is not needed after a power-up with a good table
+    std::optional<std::uint8_t>
+        enable_input{};  ///< input 0..5 that must be 1 to run; losing it is a safe state
+    /// An input counts once it has been steady for this long. Over 9 ms the safe state takes more than 10 ms
+    /// from the loss of the enable input.
+    base::Microseconds debounce{3'000};
     base::Microseconds longest_wait{1'000'000};  ///< of a scan for the motor to take or finish its orders
 };
 
