@@ -178,9 +178,11 @@ bool JvlLink::in_step(const Status& seen) const {
 }
 
 JvlLink::Result JvlLink::judge(base::Instant now) {
+    if (adopted_ && overslept_)
+        return Result::silent;  // even if accepted: what waits behind it would be late
     if (std::exchange(accepted_, false)) return Result::accepted;
     if (!adopted_) return Result::none;
-    if (overslept_ || now - last_status_ > settings_.silence) return Result::silent;
+    if (now - last_status_ > settings_.silence) return Result::silent;
     if (strange_shown_ >= kStrangeBytes) return Result::out_of_step;
     return busy() ? judge_message(now) : Result::none;
 }

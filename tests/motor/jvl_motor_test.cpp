@@ -193,6 +193,20 @@ TEST_F(MotorTest, NothingWaitingIsDeliveredAfterNobodyListenedForLong) {
     EXPECT_TRUE(line.sent.empty());
 }
 
+TEST_F(MotorTest, WhatWaitsBehindAnAcceptedOrderIsNotDeliveredAfterAGapEither) {
+    start();
+    driver.send(command(0x45));
+    driver.send(command(0x46));
+    motor.hear_times(3, 0x80);
+    EXPECT_EQ(line.take(), (Bytes{0x45, 0x45}));
+    line.received.insert(line.received.end(), 4, {0x00, false});  // taken
+    motor.now += base::Milliseconds(1000);
+    motor.hear(0x00);
+    EXPECT_TRUE(line.sent.empty());
+    EXPECT_EQ(driver.link(), Link::down);
+    EXPECT_TRUE(driver.error());
+}
+
 TEST_F(MotorTest, AGapBetweenPollsIsNoSilenceIfTheMotorWentOn) {
     start();
     motor.now += base::Milliseconds(60);
