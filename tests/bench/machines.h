@@ -87,9 +87,12 @@ class WalkMachine {
     Sink sink_;
 };
 
-class InPlaceMachine {
+/// The engine in place, or on the prepared form.
+template <class Engine>
+class EngineMachine {
   public:
-    explicit InPlaceMachine(const sequencer::Table& table) : engine_(table) {}
+    template <class Table>
+    explicit EngineMachine(const Table& table) : engine_(table) {}
     void scan(std::uint8_t image) {
         engine_.scan(image, sink_);
         engine_.elapse(1);
@@ -98,24 +101,11 @@ class InPlaceMachine {
     std::uint64_t hash() const { return sink_.hash; }
 
   private:
-    sequencer::Engine engine_;
+    Engine engine_;
     Sink sink_;
 };
-
-class PreparedMachine {
-  public:
-    explicit PreparedMachine(const sequencer::PreparedTable& table) : engine_(table) {}
-    void scan(std::uint8_t image) {
-        engine_.scan(image, sink_);
-        engine_.elapse(1);
-    }
-    const State& state() const { return engine_.state(); }
-    std::uint64_t hash() const { return sink_.hash; }
-
-  private:
-    sequencer::PreparedEngine engine_;
-    Sink sink_;
-};
+using InPlaceMachine = EngineMachine<sequencer::Engine>;
+using PreparedMachine = EngineMachine<sequencer::PreparedEngine>;
 
 /// A table loaded and prepared.
 class Loaded {

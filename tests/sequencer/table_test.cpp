@@ -174,7 +174,7 @@ TEST(Table, EveryFaultHasItsOwnWords) {
     const std::array faults{base::Error::table_ragged, base::Error::table_no_end, base::Error::no_space,
                             base::Error::bad_next_step, base::Error::bad_register};
     for (const auto a : faults) {
-        EXPECT_NE(describe(a), describe(base::Error::link_down));
+        EXPECT_NE(describe(a), describe(base::Error::not_stopped));
         for (const auto b : faults) EXPECT_EQ(describe(a) == describe(b), a == b);
     }
 }

@@ -6,7 +6,6 @@ namespace nplc::base {
 
 /// What can go wrong in the firmware. A partial message is a state of its decoder, never an error.
 enum class Error : std::uint8_t {
-    out_of_range,   ///< a number, register or length outside what the manual allows
     no_space,       ///< the caller's storage or a queue is full
     table_no_end,   ///< sequence table without a term whose STATE is 3Fh
     table_ragged,   ///< sequence table cut inside a term
@@ -15,7 +14,6 @@ enum class Error : std::uint8_t {
     not_for_motor,  ///< sequence table with an order that the motor does not have
     not_stopped,    ///< only possible while the sequence is stopped
     no_table,       ///< nothing loaded
-    link_down,      ///< the motor does not answer
 };
 
 }  // namespace nplc::base

@@ -61,7 +61,6 @@ class FastMacSlave {
     std::optional<std::uint8_t> transmit(base::Instant now, const LinkTarget& motor);
 
     const std::deque<Order>& orders() const { return orders_; }
-    void clear_orders() { orders_.clear(); }
 
     bool flexmac() const { return flexmac_; }
     bool safe_communication() const { return receiver_.safe(); }

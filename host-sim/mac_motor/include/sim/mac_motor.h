@@ -52,7 +52,6 @@ class MacMotor final : private LinkTarget {
 
     /// FastMAC commands and FlexMAC writes in the order in which they were accepted.
     const std::deque<Order>& orders() const { return link_.orders(); }
-    void clear_orders() { link_.clear_orders(); }
 
     /// A register by its own width and sign; unknown ones as unsigned words (MAC800: longwords).
     std::int32_t read(std::uint8_t reg) const;
