@@ -1,4 +1,4 @@
-#include "cover.h"
+#include "terms/cover.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "units.h"
+#include "meaning/units.h"
 
 #include <gtest/gtest.h>
 

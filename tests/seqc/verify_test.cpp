@@ -1,5 +1,5 @@
 // The compiler's check of its own work finds every kind of wrong term.
-#include "verify.h"
+#include "terms/verify.h"
 
 #include <gtest/gtest.h>
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 
-#include "checker.h"
-#include "lexer.h"
-#include "lower.h"
-#include "parser.h"
-#include "scope.h"
+#include "meaning/checker.h"
+#include "meaning/scope.h"
 #include "seqc/seqc.h"
+#include "syntax/lexer.h"
+#include "syntax/parser.h"
+#include "terms/lower.h"
 
 namespace nplc::seqc {
 namespace {

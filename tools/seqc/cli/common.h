@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "seqc/seqc.h"
+
+namespace nplc::seqc::cli {
+
+enum Exit : int {
+    kOk = 0,
+    kProgramHasErrors = 1,
+    kUsageOrFile = 2,
+};
+
+/// One line on standard error, and the exit code that belongs to it.
+int file_problem(const std::string& message);
+
+/// Diagnostics and their number on standard error.
+void print_diagnostics(const Compilation& compilation, std::string_view source, const std::string& file_name);
+
+/// Whether two names lead to the same file, which need not exist yet.
+bool is_same_file(const std::string& a, const std::string& b);
+
+/// Text to standard output, or to a file if `output` names one ("" and "-" do not).
+int print_or_write(const std::string& text, const std::string& output);
+
+}  // namespace nplc::seqc::cli

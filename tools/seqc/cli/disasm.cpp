@@ -1,0 +1,46 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "cli/common.h"
+#include "cli/files.h"
+#include "cli/subcommands.h"
+
+namespace nplc::seqc::cli {
+namespace {
+
+struct Options {
+    std::string table;
+    std::string output;
+};
+
+int disasm(const Options& options) {
+    const auto table = read_file(options.table);
+    if (!table.error.empty()) return file_problem(table.error);
+    const std::vector<std::uint8_t> bytes(table.text.begin(), table.text.end());
+    const auto result = disassemble(bytes, std::filesystem::path(options.table).stem().string());
+    if (!result.error.empty()) return file_problem(fmt::format("{}: {}", options.table, result.error));
+    if (result.trailing_bytes > 0) {
+        fmt::print(stderr, "seqc: {}: {} bytes after the end of the table are left out\n", options.table,
+                   result.trailing_bytes);
+    }
+    if (!options.output.empty() && is_same_file(options.output, options.table))
+        return file_problem(fmt::format("'{}' is the table itself: name another output", options.output));
+    return print_or_write(result.text, options.output);
+}
+
+}  // namespace
+
+void add_disasm(CLI::App& app, int& exit_code) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command =
+        *app.add_subcommand("disasm", "Print a table as a program of TERM lines, each explained");
+    command.add_option("table", options->table, "The raw table, F.bin: terms of 8 bytes up to STATE 63")
+        ->required();
+    command.add_option("-o,--output", options->output, "Write to a file instead of standard output (-)");
+    command.callback([options, &exit_code] { exit_code = disasm(*options); });
+}
+
+}  // namespace nplc::seqc::cli

@@ -1,0 +1,96 @@
+#include "cli/files.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace nplc::seqc {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string temporary_name(const std::string& path) {
+    return fmt::format("{}.{}.tmp", path, ::getpid());
+}
+
+std::string reason() {
+    return errno != 0 ? std::strerror(errno) : "unknown reason";
+}
+
+/// A device or pipe is written to in place: a rename would replace it.
+bool is_special(const std::string& path) {
+    std::error_code error;
+    return fs::exists(path, error) && !fs::is_regular_file(path, error);
+}
+
+/// What a symbolic link leads to is written, not the link; it need not exist yet.
+std::string behind_links(const std::string& path) {
+    constexpr int kMostLinks = 40;
+    std::error_code error;
+    fs::path target = path;
+    for (int i = 0; i < kMostLinks && fs::is_symlink(target, error); ++i) {
+        const fs::path next = fs::read_symlink(target, error);
+        if (error) return path;
+        target = target.parent_path() / next;
+    }
+    return target.string();
+}
+
+std::string where_first(const std::string& path) {
+    return is_special(path) ? path : temporary_name(path);
+}
+
+std::string write_first(const OutputFile& file) {
+    errno = 0;
+    std::ofstream stream(where_first(file.path), std::ios::binary | std::ios::trunc);
+    stream.write(file.content.data(), static_cast<std::streamsize>(file.content.size()));
+    stream.close();
+    return stream ? std::string() : fmt::format("cannot write '{}': {}", file.path, reason());
+}
+
+void remove_temporaries(const std::vector<OutputFile>& files) {
+    std::error_code ignored;
+    for (const OutputFile& file : files) fs::remove(temporary_name(file.path), ignored);
+}
+
+}  // namespace
+
+FileText read_file(const std::string& path) {
+    std::error_code error;
+    if (fs::is_directory(path, error)) return {{}, fmt::format("'{}' is a folder", path)};
+    errno = 0;
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) return {{}, fmt::format("cannot read '{}': {}", path, reason())};
+    FileText result;
+    result.text.assign(std::istreambuf_iterator<char>(stream), {});
+    if (stream.bad()) return {{}, fmt::format("cannot read '{}': {}", path, reason())};
+    return result;
+}
+
+std::string write_files(const std::vector<OutputFile>& named) {
+    std::vector<OutputFile> files = named;
+    for (OutputFile& file : files) file.path = behind_links(file.path);
+    std::string problem;
+    for (const OutputFile& file : files) {
+        std::error_code error;
+        if (problem.empty() && fs::is_directory(file.path, error)) {
+            problem = fmt::format("cannot write '{}': it is a folder", file.path);
+        }
+        if (problem.empty()) problem = write_first(file);
+    }
+    for (const OutputFile& file : files) {
+        std::error_code error;
+        if (problem.empty() && !is_special(file.path))
+            fs::rename(temporary_name(file.path), file.path, error);
+        if (error) problem = fmt::format("cannot write '{}': {}", file.path, error.message());
+    }
+    remove_temporaries(files);
+    return problem;
+}
+
+}  // namespace nplc::seqc

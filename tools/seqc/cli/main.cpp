@@ -1,0 +1,41 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+
+#include "cli/common.h"
+#include "cli/subcommands.h"
+
+namespace {
+
+std::string one_line(std::string text) {
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    using namespace nplc::seqc::cli;
+    CLI::App app(
+        "Compiles sequence programs into tables for a NanoPLC gateway, and tables back into programs.");
+    app.require_subcommand(1);
+    app.set_version_flag("--version", std::string("seqc ") + NPLC_VERSION);
+    app.footer(
+        "Exit codes: 0 done (warnings do not count), 1 the program has errors and nothing was written,\n"
+        "2 wrong usage or a file that cannot be read, written or understood.\n"
+        "The language is described in tools/seqc/README.md; examples are in tools/seqc/examples.");
+    int exit_code = kOk;
+    add_build(app, exit_code);
+    add_check(app, exit_code);
+    add_disasm(app, exit_code);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        return file_problem(fmt::format("{} (see seqc --help)", one_line(error.what())));
+    }
+    return exit_code;
+}

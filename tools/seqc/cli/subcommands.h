@@ -1,0 +1,12 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+/// Each adds one subcommand, whose callback does its work and leaves the exit code.
+namespace nplc::seqc::cli {
+
+void add_build(CLI::App& app, int& exit_code);
+void add_check(CLI::App& app, int& exit_code);
+void add_disasm(CLI::App& app, int& exit_code);
+
+}  // namespace nplc::seqc::cli

@@ -1,0 +1,376 @@
+#include "meaning/checker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "meaning/actions.h"
+#include "sequencer/term.h"
+#include "syntax/names.h"
+
+namespace nplc::seqc {
+namespace {
+
+constexpr std::uint8_t kPowerUp = 0;
+constexpr std::size_t kMostStepsWithPowerUp = 62;
+
+Truth error_cases() {
+    return truth_of_bit(kErrorBit);
+}
+Truth no_error_cases() {
+    return ~error_cases();
+}
+
+/// "Start = 1, Guard = 0": one case of `both`, without the bits that matter to neither condition.
+std::string example_of(const Truth& both, const Truth& a, const Truth& b, const Symbols& symbols) {
+    std::size_t first = 0;
+    while (first < kCases && !both.test(first)) ++first;
+    std::string text;
+    for (std::size_t bit = 0; bit < kBits; ++bit) {
+        if (!depends_on(a, bit) && !depends_on(b, bit)) continue;
+        const bool on = ((first >> bit) & 1U) != 0;
+        const std::string_view name = bit < 6             ? std::string_view(symbols.inputs[bit])
+                                      : bit == kInPosBit  ? "INPOS"
+                                      : bit == kErrorBit  ? "ERROR"
+                                      : bit == kTimerZero ? "TIMER.Q"
+                                                          : "COUNTER.Q";
+        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, on ? 1 : 0);
+    }
+    return text.empty() ? "always" : text;
+}
+
+class Checker {
+  public:
+    Checker(const ast::Program& program, Scope& scope, Report& report, const Symbols& symbols)
+        : program_(program), scope_(scope), report_(report), symbols_(symbols) {}
+
+    Plan run() {
+        const bool raw_only = program_.steps.empty() && !program_.power_up;
+        if (raw_only && program_.terms.empty()) {
+            report_.error("E084", program_.name.span, "the program has no steps",
+                          "write STEP Name: ... END_STEP");
+            return {};
+        }
+        build_entries();
+        find_fault_step();
+        Plan plan;
+        if (!raw_only) {
+            plan.steps.push_back(power_up());
+            for (std::size_t i = 0; i < scope_.steps().size() && i + 1 < kMostStepsWithPowerUp; ++i) {
+                plan.steps.push_back(step(*scope_.steps()[i], static_cast<std::uint8_t>(i + 1)));
+            }
+            warn_unreachable(plan);
+        }
+        for (const ast::RawTerm& term : program_.terms) plan.terms.push_back(raw_term(term));
+        check_raw_terms(plan);
+        return plan;
+    }
+
+  private:
+    struct Seen {
+        Rule rule;
+        std::size_t choice;
+    };
+
+    void build_entries() {
+        for (const ast::Step* step : scope_.steps()) {
+            ActionBuilder builder(scope_);
+            entries_.push_back(builder.build(step->entry));
+            if (const auto marked = builder.marked()) {
+                report_.warning("W006", *marked, "ENTRY happens once by itself", "leave EVERY_SCAN out");
+            }
+            if (entries_.back().next) {
+                report_.error("E064", entries_.back().span, "ENTRY cannot hold NEXT",
+                              "name the step where the sequence really goes");
+                entries_.back().next.reset();
+            }
+        }
+    }
+
+    void find_fault_step() {
+        if (!program_.on_error) return;
+        fault_ = scope_.step(*program_.on_error);
+        if (!fault_ || *fault_ > scope_.steps().size()) return;
+        const ast::Step& step = *scope_.steps()[*fault_ - 1U];
+        if (step.own_error) return;
+        report_
+            .error("E081", step.name.span,
+                   fmt::format("'{}' is the fault step, so it must deal with ERROR itself", step.name.text),
+                   "write OWN ERROR; in it")
+            .notes.push_back({program_.on_error->span, "it is made the fault step here"});
+    }
+
+    void enter(Action& action, std::uint8_t number) {
+        action.next = number;
+        if (number != kPowerUp && number <= entries_.size())
+            append_entry(action, entries_[number - 1U], report_);
+    }
+
+    Rule fault_rule(const std::vector<Send>& before) {
+        Rule rule;
+        rule.when = error_cases();
+        rule.action.span = program_.on_error->span;
+        rule.action.sends = before;
+        enter(rule.action, *fault_);
+        return rule;
+    }
+
+    /// Register values go out whatever ERROR is, so that a motor that starts with an error has them too.
+    StepPlan power_up() {
+        StepPlan plan;
+        plan.name = "POWER_UP";
+        plan.number = kPowerUp;
+        Action action;
+        if (program_.power_up) {
+            const ast::Step& written = *program_.power_up;
+            plan.span = written.name.span;
+            refuse_in_power_up(written);
+            ActionBuilder builder(scope_);
+            if (!written.choices.empty())
+                action = builder.build(written.choices.front().branches.front().statements);
+            if (const auto marked = builder.marked()) {
+                report_.warning("W006", *marked, "POWER_UP happens once by itself", "leave EVERY_SCAN out");
+            }
+            if (!action.next || *action.next == kPowerUp) {
+                report_.error("E085", written.name.span, "POWER_UP does not say which step comes first",
+                              "end it with NEXT := Name;");
+                return plan;
+            }
+        } else {
+            action.next = 1;
+        }
+        const std::vector<Send>& values = scope_.initial_values();
+        action.sends.insert(action.sends.begin(), values.begin(), values.end());
+        enter(action, *action.next);
+        plan.rules.push_back({no_error_cases(), action});
+        if (fault_) plan.rules.push_back(fault_rule(values));
+        return plan;
+    }
+
+    void refuse_in_power_up(const ast::Step& written) {
+        const auto refuse = [&](Span span, const char* what) {
+            report_.error(
+                "E064", span, fmt::format("{} cannot stand in POWER_UP", what),
+                "POWER_UP happens once: commands, register values and NEXT; put the rest into a step");
+        };
+        if (!written.outputs.empty()) refuse(written.outputs.front().span, "OUT");
+        if (!written.conditional.empty()) refuse(written.conditional.front().span, "OUT");
+        if (!written.entry.empty()) refuse(written.entry.front().span, "ENTRY");
+        if (written.own_error) refuse(written.own_error_span, "OWN ERROR");
+        if (!written.terms.empty()) refuse(written.terms.front().span, "TERM");
+        for (std::size_t i = 0; i < written.choices.size(); ++i) {
+            const ast::Choice& choice = written.choices[i];
+            if (!choice.bare) refuse(choice.branches.front().span, "IF");
+        }
+    }
+
+    StepPlan step(const ast::Step& written, std::uint8_t number) {
+        StepPlan plan;
+        plan.name = written.name.text;
+        plan.span = written.name.span;
+        plan.number = number;
+        plan.own_error = written.own_error;
+        add_outputs(written, plan);
+        std::vector<Seen> seen;
+        for (std::size_t i = 0; i < written.choices.size(); ++i)
+            add_choice(written.choices[i], i, plan, seen);
+        if (!written.own_error) {
+            if (fault_) {
+                plan.rules.push_back(fault_rule({}));
+            } else if (!program_.on_error) {
+                report_.error("E080", written.name.span,
+                              fmt::format("'{}' does not say what happens on ERROR", plan.name),
+                              "write ON ERROR NEXT := Fault; at the top, or OWN ERROR; in the step");
+            }
+        }
+        for (const ast::RawTerm& term : written.terms) {
+            plan.terms.push_back(raw_term(term));
+            if ((term.bytes[0] & 0x3F) == number) continue;
+            report_.error(
+                "E092", term.span,
+                fmt::format("this term is for step {}, and '{}' is step {}", term.bytes[0] & 0x3F, plan.name,
+                            number),
+                fmt::format("its first byte must end in {:02X}, or write the TERM outside of the step",
+                            number));
+        }
+        return plan;
+    }
+
+    void add_outputs(const ast::Step& written, StepPlan& plan) {
+        for (const ast::Name& name : written.outputs) {
+            if (const auto bit = scope_.output(name)) plan.outputs |= static_cast<std::uint8_t>(1U << *bit);
+        }
+        for (const ast::ConditionalOutput& conditional : written.conditional) {
+            ConditionalOutput output;
+            output.when = scope_.truth_of(conditional.condition);
+            if (!names_error(conditional.condition)) output.when &= no_error_cases();
+            for (const ast::Name& name : conditional.outputs) {
+                const auto bit = scope_.output(name);
+                if (!bit) continue;
+                output.outputs |= static_cast<std::uint8_t>(1U << *bit);
+                if ((plan.outputs >> *bit) & 1) {
+                    report_.warning("W008", name.span,
+                                    fmt::format("'{}' is on in this step anyway", name.text),
+                                    "take it out of one of the two OUT");
+                }
+            }
+            plan.conditional.push_back(output);
+        }
+    }
+
+    void add_choice(const ast::Choice& choice, std::size_t index, StepPlan& plan, std::vector<Seen>& seen) {
+        Truth taken;
+        for (const ast::Branch& branch : choice.branches) {
+            const std::size_t errors_before = report_.error_count();
+            Truth own = branch.condition ? scope_.truth_of(*branch.condition) : always();
+            if (!branch.condition || !names_error(*branch.condition)) own &= no_error_cases();
+            const bool condition_sound = report_.error_count() == errors_before;
+            Rule rule{own & ~taken, branch_action(branch, plan.number)};
+            taken |= own;
+            if (rule.when.none()) {
+                if (condition_sound) warn_never(branch, own);
+            } else if (!rule.action.is_empty()) {
+                check_error_covered(branch, rule, plan);
+                add_rule(std::move(rule), branch, index, plan, seen);
+            }
+        }
+    }
+
+    void warn_never(const ast::Branch& branch, const Truth& own) {
+        const Span span = branch.condition ? branch.condition->span : branch.span;
+        report_.warning(
+            "W001", span, "this branch is never taken",
+            own.none() ? "its condition contradicts itself" : "the branches before it take every case");
+    }
+
+    Action branch_action(const ast::Branch& branch, std::uint8_t number) {
+        ActionBuilder builder(scope_);
+        Action action = builder.build(branch.statements);
+        const bool leaves = action.next && *action.next != number;
+        if (action.next) enter(action, *action.next);
+        if (leaves) {
+            if (const auto marked = builder.marked()) {
+                report_.warning("W006", *marked, "the branch leaves the step, so this happens once anyway",
+                                "leave EVERY_SCAN out");
+            }
+            return action;
+        }
+        const bool repeats_entry = action.next && !entries_[number - 1U].is_empty();
+        if (builder.unmarked() || repeats_entry) {
+            const Span span = builder.unmarked() ? *builder.unmarked() : action.span;
+            Diagnostic& d = report_.error(
+                "E060", span,
+                action.next ? "the branch stays in its step, so this would happen again in every scan"
+                            : "without NEXT this would happen again in every scan",
+                "go on to another step with NEXT, or write EVERY_SCAN in front if that is what you want");
+            if (repeats_entry)
+                d.notes.push_back({entries_[number - 1U].span, "the step's ENTRY would be repeated too"});
+        }
+        return action;
+    }
+
+    void check_error_covered(const ast::Branch& branch, const Rule& rule, const StepPlan& plan) {
+        if (plan.own_error || !program_.on_error || (rule.when & error_cases()).none()) return;
+        report_
+            .error("E082", branch.condition ? branch.condition->span : branch.span,
+                   fmt::format("ON ERROR covers '{}' already", plan.name),
+                   "write OWN ERROR; in the step, and deal with ERROR in it")
+            .notes.push_back({program_.on_error->span, "ON ERROR is here"});
+    }
+
+    /// Branches with the same effect become one rule.
+    void add_rule(Rule rule, const ast::Branch& branch, std::size_t choice, StepPlan& plan,
+                  std::vector<Seen>& seen) {
+        for (const Seen& earlier : seen) {
+            if (report_.full()) break;
+            const Truth both = earlier.rule.when & rule.when;
+            if (earlier.choice == choice || both.none() || earlier.rule.action.same_effect(rule.action))
+                continue;
+            report_
+                .error("E070", branch.condition ? branch.condition->span : rule.action.span,
+                       fmt::format("this and an earlier IF can hold together: {}",
+                                   example_of(both, earlier.rule.when, rule.when, symbols_)),
+                       "join them with ELSIF, or make the conditions exclude each other")
+                .notes.push_back({earlier.rule.action.span, "the other one does this"});
+        }
+        seen.push_back({rule, choice});
+        for (Rule& earlier : plan.rules) {
+            if (!earlier.action.same_effect(rule.action)) continue;
+            earlier.when |= rule.when;
+            return;
+        }
+        plan.rules.push_back(std::move(rule));
+    }
+
+    RawTerm raw_term(const ast::RawTerm& term) {
+        RawTerm raw{{}, term.span};
+        std::copy(term.bytes.begin(), term.bytes.end(), raw.bytes.begin());
+        return raw;
+    }
+
+    void check_raw_terms(const Plan& plan) {
+        for (const StepPlan& step : plan.steps) {
+            for (const RawTerm& raw : step.terms) check_raw_term(raw);
+        }
+        for (std::size_t i = 0; i < plan.terms.size(); ++i) {
+            const RawTerm& raw = plan.terms[i];
+            if (!sequencer::is_end(raw.bytes)) {
+                check_raw_term(raw);
+                continue;
+            }
+            if (i + 1 == plan.terms.size()) continue;
+            report_.error("E091", plan.terms[i + 1].span, "no term may follow the one that ends the table")
+                .notes.push_back({raw.span, "the table ends here"});
+            return;
+        }
+    }
+
+    void check_raw_term(const RawTerm& raw) {
+        const sequencer::Term term = sequencer::decode(raw.bytes);
+        if (!term.is_flex && term.fast.next_step == sequencer::kEndOfTable) {
+            report_.warning("W009", raw.span, "NEXT_STATE is 63: a gateway refuses a table with this term");
+        } else if (term.is_flex && term.flex.reg == 0) {
+            report_.warning("W009", raw.span, "register 0: a gateway refuses a table with this term");
+        }
+    }
+
+    void warn_unreachable(const Plan& plan) {
+        if (!program_.terms.empty() || report_.has_errors()) return;
+        std::vector<bool> reached(sequencer::kEndOfTable + 1U, false);
+        std::vector<std::size_t> open = {0};
+        reached[0] = true;
+        while (!open.empty()) {
+            const std::size_t from = open.back();
+            open.pop_back();
+            if (from >= plan.steps.size() || !plan.steps[from].terms.empty()) {
+                if (from < plan.steps.size()) return;
+                continue;
+            }
+            for (const Rule& rule : plan.steps[from].rules) {
+                if (!rule.action.next || reached[*rule.action.next]) continue;
+                reached[*rule.action.next] = true;
+                open.push_back(*rule.action.next);
+            }
+        }
+        for (const StepPlan& step : plan.steps) {
+            if (reached[step.number]) continue;
+            report_.warning("W005", step.span, fmt::format("no step leads to '{}'", step.name),
+                            "name it in a NEXT, or take it out");
+        }
+    }
+
+    const ast::Program& program_;
+    Scope& scope_;
+    Report& report_;
+    const Symbols& symbols_;
+    std::vector<Action> entries_;
+    std::optional<std::uint8_t> fault_;
+};
+
+}  // namespace
+
+Plan check(const ast::Program& program, Scope& scope, Report& report) {
+    return Checker(program, scope, report, scope.symbols()).run();
+}
+
+}  // namespace nplc::seqc

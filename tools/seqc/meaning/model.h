@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "meaning/truth.h"
+#include "registers/mac.h"
+#include "seqc/diagnostic.h"
+#include "sequencer/term.h"
+
+/// The program with every name resolved and every value worked out.
+namespace nplc::seqc {
+
+/// What goes to the motor: a FastMAC command or a register value.
+struct Send {
+    const registers::Register* reg = nullptr;  ///< none: a FastMAC command
+    std::uint8_t command = 0;
+    std::uint32_t value = 0;
+    Span span;
+    bool same_effect(const Send& other) const {
+        return reg == other.reg && command == other.command && value == other.value;
+    }
+};
+
+/// All that happens in one scan when a condition holds.
+struct Action {
+    std::optional<std::uint8_t> next;
+    std::vector<Send> sends;
+    std::optional<std::uint16_t> timer;
+    std::optional<std::uint16_t> counter;
+    bool clears_counter = false;
+    bool counts_down = false;
+    Span span;
+
+    bool presets() const { return timer || counter; }
+    bool counts() const { return clears_counter || counts_down; }
+    bool is_empty() const { return !next && sends.empty() && !presets() && !counts(); }
+    bool same_effect(const Action& other) const;
+};
+
+/// Rules of one step never hold in the same case.
+struct Rule {
+    Truth when;
+    Action action;
+};
+
+struct ConditionalOutput {
+    std::uint8_t outputs = 0;
+    Truth when;
+};
+
+struct RawTerm {
+    sequencer::TermBytes bytes;
+    Span span;
+};
+
+struct StepPlan {
+    std::string_view name;
+    Span span;
+    std::uint8_t number = 0;
+    std::uint8_t outputs = 0;
+    bool own_error = false;
+    std::vector<ConditionalOutput> conditional;
+    std::vector<Rule> rules;
+    std::vector<RawTerm> terms;
+};
+
+struct Plan {
+    std::vector<StepPlan> steps;  ///< POWER_UP first, if the program has steps at all
+    std::vector<RawTerm> terms;
+};
+
+}  // namespace nplc::seqc

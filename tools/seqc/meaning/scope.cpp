@@ -1,0 +1,278 @@
+#include "meaning/scope.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "syntax/names.h"
+#include "syntax/parser.h"
+
+namespace nplc::seqc {
+namespace {
+
+constexpr std::size_t kInputs = 6;
+constexpr std::size_t kOutputs = 4;
+constexpr std::size_t kMostSteps = 61;
+
+/// IN0, %IX0.0 and the like: the number behind the address, or nothing if it is no address at all.
+std::optional<std::size_t> address_number(std::string_view text, char direction) {
+    const std::string address = upper(text);
+    const std::string_view plain = direction == 'I' ? "IN" : "OUT";
+    const std::string located = fmt::format("%{}X0.", direction);
+    const std::string_view prefix = address.starts_with('%') ? std::string_view(located) : plain;
+    if (!address.starts_with(prefix) || address.size() == prefix.size() ||
+        address.size() > prefix.size() + 2) {
+        return std::nullopt;
+    }
+    std::size_t number = 0;
+    for (char c : address.substr(prefix.size())) {
+        if (c < '0' || c > '9') return std::nullopt;
+        number = number * 10 + static_cast<std::size_t>(c - '0');
+    }
+    return number;
+}
+
+std::string addresses(char direction, std::size_t count) {
+    const std::string_view plain = direction == 'I' ? "IN" : "OUT";
+    return fmt::format("%{}X0.0..%{}X0.{} ({}0..{}{})", direction, direction, count - 1, plain, plain,
+                       count - 1);
+}
+
+}  // namespace
+
+Scope::Scope(const ast::Program& program, std::string_view source, Report& report, Compilation& result)
+    : source_(source), report_(report), result_(result) {
+    for (std::size_t i = 0; i < kInputs; ++i) result.symbols.inputs[i] = fmt::format("IN{}", i);
+    for (std::size_t i = 0; i < kOutputs; ++i) result.symbols.outputs[i] = fmt::format("OUT{}", i);
+    result.symbols.program = program.name.text;
+    declare_motor(program);
+    declare_scale(program);
+    declare_steps(program);
+    declare_io(program.inputs, inputs_, 'I', kInputs);
+    declare_io(program.outputs, outputs_, 'Q', kOutputs);
+    for (const Variable& v : inputs_) result.symbols.inputs[v.bit] = v.name;
+    for (const Variable& v : outputs_) result.symbols.outputs[v.bit] = v.name;
+    declare_motor_variables(program);
+}
+
+const Scope::Variable* Scope::find(const std::vector<Variable>& variables, std::string_view name) {
+    for (const Variable& variable : variables) {
+        if (same_name(variable.name, name)) return &variable;
+    }
+    return nullptr;
+}
+
+void Scope::declare_motor(const ast::Program& program) {
+    if (!program.motor) return;
+    motor_known_ = true;
+    const auto model = registers::model_of(program.motor->text);
+    if (model) {
+        model_ = *model;
+        result_.symbols.motor = *model;
+        return;
+    }
+    std::string help = suggestion(program.motor->text, {"MAC50", "MAC95", "MAC140", "MAC141", "MAC800"});
+    report_.error("E030", program.motor->span, fmt::format("there is no motor '{}'", program.motor->text),
+                  help.empty() ? "the motors are MAC50, MAC95, MAC140, MAC141 and MAC800" : help);
+}
+
+void Scope::declare_scale(const ast::Program& program) {
+    if (!program.scale) return;
+    const ast::Scale& scale = *program.scale;
+    for (std::string_view taken : {"rev", "rpm", "counts", "count", "samples", "s", "ms"}) {
+        if (!same_name(scale.unit.text, taken)) continue;
+        report_.error("E032", scale.unit.span, fmt::format("'{}' is a unit already", scale.unit.text),
+                      "SCALE names a unit of your machine, such as mm or deg");
+        return;
+    }
+    length_ = LengthUnit{scale.unit.text, scale.length / scale.revolutions};
+}
+
+void Scope::declare_steps(const ast::Program& program) {
+    steps_missing_ = program.steps_missing;
+    for (const ast::Step& step : program.steps) {
+        const auto earlier = std::find_if(steps_.begin(), steps_.end(), [&](const ast::Step* s) {
+            return same_name(s->name.text, step.name.text);
+        });
+        if (earlier != steps_.end()) {
+            report_
+                .error("E020", step.name.span, fmt::format("step '{}' stands twice", step.name.text),
+                       "give one of them another name")
+                .notes.push_back({(*earlier)->name.span, "the first one is here"});
+            continue;
+        }
+        steps_.push_back(&step);
+        if (steps_.size() == kMostSteps + 1) {
+            report_.error("E083", step.name.span,
+                          fmt::format("a table holds at most {} named steps", kMostSteps),
+                          "join steps, or use the counter for repetitions");
+        }
+        if (steps_.size() <= kMostSteps) result_.symbols.steps[steps_.size()] = step.name.text;
+    }
+}
+
+bool Scope::is_new_name(const ast::Name& name) {
+    const std::string_view text = name.text;
+    if (address_number(text, 'I') || address_number(text, 'Q') || registers::find(model_, text) != nullptr) {
+        report_.error(
+            "E011", name.span,
+            fmt::format("'{}' has a meaning already: {}", text,
+                        registers::find(model_, text) ? "it is a register of the motor" : "it is an address"),
+            "choose another name");
+        return false;
+    }
+    for (const auto* variables : {&inputs_, &outputs_, &motor_variables_}) {
+        const Variable* earlier = find(*variables, text);
+        if (earlier == nullptr) continue;
+        report_.error("E020", name.span, fmt::format("'{}' is declared twice", text), "choose another name")
+            .notes.push_back({earlier->span, "the first declaration is here"});
+        return false;
+    }
+    return true;
+}
+
+void Scope::declare_io(const std::vector<ast::Variable>& declared, std::vector<Variable>& variables,
+                       char direction, std::size_t count) {
+    for (const ast::Variable& variable : declared) {
+        const auto number = address_number(variable.address.text, direction);
+        if (!number || *number >= count) {
+            report_.error("E022", variable.address.span,
+                          fmt::format("'{}' is not an {}", variable.address.text,
+                                      direction == 'I' ? "input" : "output"),
+                          fmt::format("there are {}", addresses(direction, count)));
+            continue;
+        }
+        const auto earlier = std::find_if(variables.begin(), variables.end(),
+                                          [&](const Variable& v) { return v.bit == *number; });
+        if (earlier != variables.end()) {
+            report_
+                .error("E022", variable.address.span,
+                       fmt::format("'{}' has a name already", variable.address.text),
+                       fmt::format("use '{}'", earlier->name))
+                .notes.push_back({earlier->span, "declared here"});
+        } else if (is_new_name(variable.name)) {
+            variables.push_back({variable.name.text, variable.name.span, *number, nullptr});
+        }
+    }
+}
+
+void Scope::declare_motor_variables(const ast::Program& program) {
+    for (const ast::Variable& variable : program.motor_variables) {
+        const registers::Register* target =
+            variable.register_number ? reg(*variable.register_number) : reg(variable.address);
+        if (!is_new_name(variable.name) || target == nullptr) continue;
+        const std::string_view shown = variable.register_number ? target->name : variable.address.text;
+        const auto earlier = std::find_if(motor_variables_.begin(), motor_variables_.end(),
+                                          [&](const Variable& v) { return v.reg == target; });
+        if (earlier != motor_variables_.end()) {
+            report_
+                .error("E022", variable.name.span, fmt::format("{} has a name already", shown),
+                       fmt::format("use '{}', or another register", earlier->name))
+                .notes.push_back({earlier->span, "declared here"});
+            continue;
+        }
+        motor_variables_.push_back({variable.name.text, variable.name.span, 0, target});
+        if (!variable.value) continue;
+        if (const auto bits = value(*variable.value, *target, shown)) {
+            const Span first = variable.name.span;
+            const Span last = variable.value->span;
+            initial_values_.push_back(
+                {target, 0, *bits, {first.offset, last.offset + last.length - first.offset}});
+        }
+    }
+}
+
+std::optional<std::uint8_t> Scope::step(const ast::Name& name) {
+    std::vector<std::string_view> names;
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+        if (same_name(steps_[i]->name.text, name.text))
+            return static_cast<std::uint8_t>(std::min<std::size_t>(i + 1, 62));
+        names.push_back(steps_[i]->name.text);
+    }
+    if (steps_missing_) return std::nullopt;
+    report_.error("E021", name.span, fmt::format("there is no step '{}'", name.text),
+                  suggestion(name.text, names));
+    return std::nullopt;
+}
+
+std::optional<std::size_t> Scope::signal(const ast::Name& name, const std::vector<Variable>& variables,
+                                         char direction, std::size_t count) {
+    if (const Variable* variable = find(variables, name.text)) return variable->bit;
+    const auto number = address_number(name.text, direction);
+    if (number && *number < count) return number;
+    const bool input = direction == 'I';
+    if (number) {
+        report_.error("E022", name.span,
+                      fmt::format("there is no {} '{}'", input ? "input" : "output", name.text),
+                      fmt::format("there are {}", addresses(direction, count)));
+        return std::nullopt;
+    }
+    const bool other = input ? is_output(name.text) || address_number(name.text, 'Q').has_value()
+                             : is_input(name.text) || address_number(name.text, 'I').has_value();
+    std::vector<std::string_view> names;
+    names.reserve(variables.size() + 2);
+    for (const Variable& variable : variables) names.push_back(variable.name);
+    if (input) names.insert(names.end(), {"INPOS", "ERROR"});
+    std::string help = suggestion(name.text, names);
+    if (help.empty()) help = fmt::format("declare it under {}", input ? "VAR_INPUT" : "VAR_OUTPUT");
+    if (other) {
+        report_.error(
+            "E023", name.span, fmt::format("'{}' is an {}", name.text, input ? "output" : "input"),
+            input ? "a condition can test inputs, INPOS, ERROR, TIMER.Q and COUNTER.Q" : "OUT takes outputs");
+    } else {
+        report_.error("E021", name.span,
+                      fmt::format("there is no {} '{}'", input ? "input" : "output", name.text), help);
+    }
+    return std::nullopt;
+}
+
+std::optional<std::size_t> Scope::input(const ast::Name& name) {
+    return signal(name, inputs_, 'I', kInputs);
+}
+std::optional<std::size_t> Scope::output(const ast::Name& name) {
+    return signal(name, outputs_, 'Q', kOutputs);
+}
+
+bool names_error(const ast::Expression& expression) {
+    using Kind = ast::Expression::Kind;
+    return expression.kind == Kind::error || expression.kind == Kind::any_error ||
+           std::any_of(expression.operands.begin(), expression.operands.end(), names_error);
+}
+
+Truth Scope::truth_of(const ast::Expression& expression) {
+    using Kind = ast::Expression::Kind;
+    Truth truth;
+    switch (expression.kind) {
+        case Kind::constant:
+            return expression.value ? always() : Truth();
+        case Kind::any_error:
+            return always();
+        case Kind::in_pos:
+            return truth_of_bit(kInPosBit);
+        case Kind::error:
+            return truth_of_bit(kErrorBit);
+        case Kind::timer_q:
+            return truth_of_bit(kTimerZero);
+        case Kind::counter_q:
+            return truth_of_bit(kCounterZero);
+        case Kind::name: {
+            const auto bit = input(expression.name);
+            return bit ? truth_of_bit(*bit) : Truth();
+        }
+        case Kind::negation:
+            return ~truth_of(expression.operands.front());
+        case Kind::all_of:
+            truth.set();
+            for (const auto& operand : expression.operands) truth &= truth_of(operand);
+            return truth;
+        case Kind::any_of:
+            for (const auto& operand : expression.operands) truth |= truth_of(operand);
+            return truth;
+        case Kind::odd_of:
+            for (const auto& operand : expression.operands) truth ^= truth_of(operand);
+            return truth;
+    }
+    return truth;
+}
+
+}  // namespace nplc::seqc

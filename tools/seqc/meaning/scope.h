@@ -1,0 +1,89 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "meaning/model.h"
+#include "meaning/units.h"
+#include "seqc/seqc.h"
+#include "syntax/ast.h"
+#include "syntax/report.h"
+
+namespace nplc::seqc {
+
+/// The names of a program and the motor it is for.
+class Scope {
+  public:
+    Scope(const ast::Program& program, std::string_view source, Report& report, Compilation& result);
+
+    Report& report() { return report_; }
+    const Symbols& symbols() const { return result_.symbols; }
+    const std::vector<const ast::Step*>& steps() const { return steps_; }
+
+    /// Number of a step by name; reports an unknown one. Steps count from 1.
+    std::optional<std::uint8_t> step(const ast::Name& name);
+    /// Bit number of an input 0..5 or an output 0..3, by its name or address.
+    std::optional<std::size_t> input(const ast::Name& name);
+    std::optional<std::size_t> output(const ast::Name& name);
+
+    /// A register by a variable's or the manual's name, or by number; reports what a table cannot reach.
+    const registers::Register* reg(const ast::Name& name);
+    const registers::Register* reg(const ast::Value& number);
+    /// The same without a word: for telling a register from a command.
+    const registers::Register* find_register(std::string_view name) const;
+    bool is_input(std::string_view name) const { return find(inputs_, name) != nullptr; }
+    bool is_output(std::string_view name) const { return find(outputs_, name) != nullptr; }
+
+    /// The bits to write, after unit, range and rounding; reports what does not fit.
+    /// `shown` is what the program calls the register.
+    std::optional<std::uint32_t> value(const ast::Value& value, const registers::Register& reg,
+                                       std::string_view shown);
+
+    /// Register values of VAR_MOTOR, in order.
+    const std::vector<Send>& initial_values() const { return initial_values_; }
+
+    Truth truth_of(const ast::Expression& expression);
+
+  private:
+    struct Variable {
+        std::string_view name;
+        Span span;
+        std::size_t bit = 0;
+        const registers::Register* reg = nullptr;
+    };
+
+    static const Variable* find(const std::vector<Variable>& variables, std::string_view name);
+    void declare_motor(const ast::Program& program);
+    void declare_scale(const ast::Program& program);
+    void declare_steps(const ast::Program& program);
+    void declare_io(const std::vector<ast::Variable>& declared, std::vector<Variable>& variables,
+                    char direction, std::size_t count);
+    void declare_motor_variables(const ast::Program& program);
+    bool is_new_name(const ast::Name& name);
+    std::optional<std::size_t> signal(const ast::Name& name, const std::vector<Variable>& variables,
+                                      char direction, std::size_t count);
+    bool is_reachable(const registers::Register* reg, Span span, std::string_view shown);
+    void require_motor(Span span);
+    bool note_rounding(const ast::Value& value, std::string_view shown, double exact, double raw,
+                       double per_unit);
+    std::string_view text(Span span) const { return source_.substr(span.offset, span.length); }
+
+    std::string_view source_;
+    Report& report_;
+    Compilation& result_;
+    registers::Model model_ = registers::Model::mac140;
+    bool motor_known_ = false;
+    std::optional<LengthUnit> length_;
+    std::vector<const ast::Step*> steps_;
+    bool steps_missing_ = false;
+    std::vector<Variable> inputs_;
+    std::vector<Variable> outputs_;
+    std::vector<Variable> motor_variables_;
+    std::vector<Send> initial_values_;
+};
+
+/// Whether a condition names ERROR or ANY ERROR; otherwise it means NOT ERROR as well.
+bool names_error(const ast::Expression& expression);
+
+}  // namespace nplc::seqc

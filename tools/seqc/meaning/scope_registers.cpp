@@ -1,0 +1,150 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "meaning/scope.h"
+#include "syntax/names.h"
+
+namespace nplc::seqc {
+namespace {
+
+using registers::Format;
+using registers::Register;
+
+constexpr std::uint8_t kLastReachable = 127;
+constexpr double kWorthAWarning = 0.01;
+constexpr double kShownWhole = 100'000;
+
+/// The number that raw bits stand for in a register.
+double number_of_bits(double bits, Format format) {
+    if (registers::is_32_bit(format)) return static_cast<std::int32_t>(static_cast<std::uint32_t>(bits));
+    if (format == Format::word || bits > 0xFFFF) return bits;
+    return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits));
+}
+
+/// Large numbers in whole ones, cut towards zero so that what it shows does fit.
+std::string limit_text(double value) {
+    if (std::fabs(value) >= kShownWhole || value == std::trunc(value))
+        return fmt::format("{:.0f}", std::trunc(value));
+    return fmt::format("{:.6g}", value);
+}
+
+}  // namespace
+
+void Scope::require_motor(Span span) {
+    if (motor_known_) return;
+    motor_known_ = true;
+    report_.error("E031", span, "which motor is this register's?", "name it at the top: MOTOR MAC140;");
+}
+
+bool Scope::is_reachable(const Register* reg, Span span, std::string_view shown) {
+    if (reg->number <= kLastReachable) return true;
+    report_.error(
+        "E041", span,
+        fmt::format("{} is register {}, and a table reaches 1..{}", shown, reg->number, kLastReachable),
+        "set it with a register tool and save it in the motor");
+    return false;
+}
+
+const Register* Scope::find_register(std::string_view name) const {
+    if (const Variable* variable = find(motor_variables_, name)) return variable->reg;
+    return registers::find(model_, name);
+}
+
+const Register* Scope::reg(const ast::Name& name) {
+    if (const Register* found = find_register(name.text)) {
+        require_motor(name.span);
+        return is_reachable(found, name.span, name.text) ? found : nullptr;
+    }
+    std::vector<std::string_view> names = {"TIMER", "COUNTER"};
+    for (const Variable& variable : motor_variables_) names.push_back(variable.name);
+    for (const Register& r : registers::map_of(model_)) names.push_back(r.name);
+    std::string help = suggestion(name.text, names);
+    report_.error(
+        "E040", name.span, fmt::format("'{}' is no register of {}", name.text, registers::name_of(model_)),
+        help.empty() ? "declare it under VAR_MOTOR, or use the manual's name or REG(number)" : help);
+    return nullptr;
+}
+
+const Register* Scope::reg(const ast::Value& number) {
+    require_motor(number.span);
+    const bool whole =
+        number.unit.text.empty() && !number.is_time && std::floor(number.number) == number.number;
+    if (!whole || number.number < 1 || number.number > kLastReachable) {
+        report_.error("E041", number.span, fmt::format("a table reaches registers 1..{}", kLastReachable));
+        return nullptr;
+    }
+    const auto wanted = static_cast<std::uint8_t>(number.number);
+    if (const Register* found = registers::find(model_, wanted)) return found;
+    const Register* before = registers::find(model_, static_cast<std::uint8_t>(wanted - 1));
+    const bool second_word = before != nullptr && registers::is_32_bit(before->format);
+    report_.error(
+        "E040", number.span, fmt::format("{} has no register {}", registers::name_of(model_), wanted),
+        second_word ? fmt::format("it is the upper half of {}: write REG({})", before->name, before->number)
+                    : "the register map is in the motor's manual");
+    return nullptr;
+}
+
+std::optional<std::uint32_t> Scope::value(const ast::Value& value, const Register& reg,
+                                          std::string_view shown_name) {
+    double number = value.number;
+    std::string_view unit = value.unit.text;
+    if (value.is_time) unit = "ms";
+    auto per_unit = raw_per_unit(reg, model_, length_, unit);
+    if (!per_unit) {
+        report_.error("E043", value.unit.text.empty() ? value.span : value.unit.span,
+                      fmt::format("{} cannot be given in '{}'", shown_name, unit),
+                      fmt::format("use {}", units_for(reg, length_)));
+        return std::nullopt;
+    }
+    if (value.is_raw) {
+        number = number_of_bits(number, reg.format);
+        per_unit = 1;
+    }
+    const double exact = number * *per_unit;
+    const double raw = std::round(exact);
+    if (!(raw >= static_cast<double>(reg.min) && raw <= static_cast<double>(reg.max))) {
+        const std::string_view shown = value.is_raw ? std::string_view() : unit;
+        const double one = value.is_raw ? 1 : *per_unit;
+        report_.error(
+            "E042", value.span, fmt::format("{} does not fit {}", text(value.span), shown_name),
+            fmt::format("it takes {} .. {}{}{}", limit_text(static_cast<double>(reg.min) / one),
+                        limit_text(static_cast<double>(reg.max) / one), shown.empty() ? "" : " ", shown));
+        return std::nullopt;
+    }
+    if (reg.dangerous) {
+        report_.warning("W003", value.span,
+                        fmt::format("a wrong value in {} can damage the motor ({})", shown_name, reg.section),
+                        "leave it alone unless its maker told you the value");
+    }
+    if (!note_rounding(value, shown_name, exact, raw, *per_unit)) return std::nullopt;
+    const auto bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(raw));
+    return registers::is_32_bit(reg.format) ? bits : bits & 0xFFFFU;
+}
+
+/// False if nothing is left of the value: a motor without acceleration, say, would never stop.
+bool Scope::note_rounding(const ast::Value& value, std::string_view shown_name, double exact, double raw,
+                          double per_unit) {
+    const double error = exact == 0 ? 0 : (raw - exact) / std::fabs(exact);
+    if (std::fabs(error) < 1e-9) return true;
+    const std::string_view unit = value.is_time ? std::string_view("ms") : value.unit.text;
+    const std::string what = fmt::format("{} := {} is {} ({:.6g}{}{}, {:+.3f} %)", shown_name,
+                                         text(value.span), static_cast<std::int64_t>(raw), raw / per_unit,
+                                         unit.empty() ? "" : " ", unit, error * 100);
+    const std::string step =
+        fmt::format("one step of {} is {:.4g}{}{}", shown_name, 1 / per_unit, unit.empty() ? "" : " ", unit);
+    if (raw == 0) {
+        report_.error("E042", value.span,
+                      fmt::format("{} is too small for {}: it would become 0", text(value.span), shown_name),
+                      step + "; write at least that, or 0 if you mean 0");
+        return false;
+    }
+    result_.roundings.push_back({value.span, what});
+    if (std::fabs(error) > kWorthAWarning) {
+        report_.warning("W002", value.span,
+                        fmt::format("the register is too coarse for this value: {}", what), step);
+    }
+    return true;
+}
+
+}  // namespace nplc::seqc

@@ -1,0 +1,149 @@
+#include "syntax/lexer.h"
+
+#include <fmt/format.h>
+
+#include "syntax/names.h"
+
+namespace nplc::seqc {
+namespace {
+
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+bool is_word(char c) {
+    return is_letter(c) || is_digit(c);
+}
+bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v';
+}
+bool is_symbol(char c) {
+    return std::string_view(":;,().=+-/").find(c) != std::string_view::npos;
+}
+
+class Lexer {
+  public:
+    Lexer(std::string_view source, Report& report) : source_(source), report_(report) {}
+
+    std::vector<Token> run() {
+        if (source_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+        while (skip_blanks_and_comments(), at_ < source_.size()) lex_token();
+        add(TokenKind::end, at_);
+        return std::move(tokens_);
+    }
+
+  private:
+    char peek(std::size_t ahead = 0) const {
+        return at_ + ahead < source_.size() ? source_[at_ + ahead] : '\0';
+    }
+
+    Span span_from(std::size_t start) const {
+        return {static_cast<std::uint32_t>(start), static_cast<std::uint32_t>(at_ - start)};
+    }
+
+    void add(TokenKind kind, std::size_t start) {
+        tokens_.push_back({kind, source_.substr(start, at_ - start), span_from(start)});
+    }
+
+    void skip_blanks_and_comments() {
+        while (at_ < source_.size()) {
+            if (is_blank(peek())) {
+                ++at_;
+            } else if (source_.substr(at_).starts_with("//")) {
+                at_ = std::min(source_.find('\n', at_), source_.size());
+            } else if (source_.substr(at_).starts_with("(*")) {
+                skip_block_comment();
+            } else {
+                return;
+            }
+        }
+    }
+
+    void skip_block_comment() {
+        const std::size_t end = source_.find("*)", at_ + 2);
+        if (end == std::string_view::npos) {
+            report_.error("E002", {static_cast<std::uint32_t>(at_), 2}, "this comment is never closed",
+                          "close it with *)");
+            at_ = source_.size();
+        } else {
+            at_ = end + 2;
+        }
+    }
+
+    void lex_token() {
+        const std::size_t start = at_;
+        if (is_letter(peek())) {
+            lex_word(start);
+        } else if (is_digit(peek())) {
+            lex_number(start);
+        } else if (peek() == '%' && is_letter(peek(1))) {
+            ++at_;
+            take_word_and_dots();
+            add(TokenKind::direct, start);
+        } else if (is_symbol(peek())) {
+            at_ += source_.substr(at_).starts_with(":=") ? 2U : 1U;
+            add(TokenKind::symbol, start);
+        } else {
+            lex_unknown(start);
+        }
+    }
+
+    void take_word_and_dots() {
+        while (is_word(peek()) || (peek() == '.' && is_digit(peek(1)))) ++at_;
+    }
+
+    void lex_word(std::size_t start) {
+        while (is_word(peek())) ++at_;
+        const std::string_view word = source_.substr(start, at_ - start);
+        if (peek() == '#' && (same_name(word, "T") || same_name(word, "TIME"))) {
+            ++at_;
+            take_word_and_dots();
+            add(TokenKind::time, start);
+        } else {
+            add(TokenKind::identifier, start);
+        }
+    }
+
+    void lex_number(std::size_t start) {
+        while (is_digit(peek()) || (peek() == '_' && is_digit(peek(1)))) ++at_;
+        if (peek() == '#') {
+            ++at_;
+            while (is_word(peek())) ++at_;
+            add(TokenKind::based, start);
+            return;
+        }
+        if (peek() == '.' && is_digit(peek(1))) {
+            ++at_;
+            while (is_digit(peek()) || (peek() == '_' && is_digit(peek(1)))) ++at_;
+        }
+        add(TokenKind::number, start);
+    }
+
+    void lex_unknown(std::size_t start) {
+        while (at_ < source_.size() && !is_blank(peek()) && !is_word(peek()) && !is_symbol(peek()) &&
+               !(peek() == '%' && is_letter(peek(1)))) {
+            ++at_;
+        }
+        const std::string_view text = source_.substr(start, at_ - start);
+        const bool shown = text.size() <= 4 && text.find_first_not_of("\"'!#$&*<>?@[]\\^`{|}~%") == text.npos;
+        report_.error("E001", span_from(start),
+                      shown ? fmt::format("'{}' means nothing here", text)
+                            : "these characters mean nothing in a program",
+                      "names are letters, digits and _; comments are // ... or (* ... *)");
+    }
+
+    std::string_view source_;
+    Report& report_;
+    std::size_t at_ = 0;
+    std::vector<Token> tokens_;
+};
+
+}  // namespace
+
+std::vector<Token> tokens_of(std::string_view source, Report& report) {
+    return Lexer(source, report).run();
+}
+
+}  // namespace nplc::seqc

@@ -1,0 +1,62 @@
+#include "syntax/names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace nplc::seqc {
+namespace {
+
+constexpr std::size_t kLongestName = 64;
+
+char upper_char(char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+
+/// Levenshtein's distance, with two neighbours swapped as one change.
+std::size_t distance(std::string_view a, std::string_view b) {
+    std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+    for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+    for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t change = upper_char(a[i - 1]) == upper_char(b[j - 1]) ? 0 : 1;
+            d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + change});
+            if (i > 1 && j > 1 && upper_char(a[i - 1]) == upper_char(b[j - 2]) &&
+                upper_char(a[i - 2]) == upper_char(b[j - 1])) {
+                d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+            }
+        }
+    }
+    return d[a.size()][b.size()];
+}
+
+}  // namespace
+
+bool same_name(std::string_view a, std::string_view b) {
+    return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(),
+                                              [](char x, char y) { return upper_char(x) == upper_char(y); });
+}
+
+std::string upper(std::string_view text) {
+    std::string result(text);
+    std::transform(result.begin(), result.end(), result.begin(), upper_char);
+    return result;
+}
+
+std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates) {
+    if (name.empty() || name.size() > kLongestName) return {};
+    std::string_view best;
+    std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;
+    for (std::string_view candidate : candidates) {
+        if (candidate.size() > kLongestName) continue;
+        const std::size_t d = distance(name, candidate);
+        if (d < best_distance && d < candidate.size()) {
+            best = candidate;
+            best_distance = d;
+        }
+    }
+    return best.empty() ? std::string() : fmt::format("did you mean '{}'?", best);
+}
+
+}  // namespace nplc::seqc

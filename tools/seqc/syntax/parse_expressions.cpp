@@ -1,0 +1,113 @@
+#include <array>
+
+#include "syntax/names.h"
+#include "syntax/parser.h"
+
+namespace nplc::seqc {
+namespace {
+
+using ast::Expression;
+using Kind = ast::Expression::Kind;
+
+struct Operator {
+    std::string_view word;
+    Kind kind;
+};
+
+/// Loosest first, as in IEC 61131-3.
+constexpr std::array kOperators = {
+    Operator{"OR", Kind::any_of},
+    Operator{"XOR", Kind::odd_of},
+    Operator{"AND", Kind::all_of},
+};
+
+}  // namespace
+
+bool Parser::parse_expression(Expression& result) {
+    return parse_operators(result, 0);
+}
+
+bool Parser::parse_operators(Expression& result, std::size_t level) {
+    if (level == kOperators.size()) return parse_primary(result);
+    const Token first = token();
+    if (!parse_operators(result, level + 1)) return false;
+    if (!at(kOperators[level].word)) return true;
+    Expression joined;
+    joined.kind = kOperators[level].kind;
+    joined.operands.push_back(std::move(result));
+    while (take(kOperators[level].word)) {
+        Expression operand;
+        if (!parse_operators(operand, level + 1)) return false;
+        joined.operands.push_back(std::move(operand));
+    }
+    joined.span = span_since(first);
+    result = std::move(joined);
+    return true;
+}
+
+bool Parser::parse_primary(Expression& result) {
+    const Token first = token();
+    if (depth_ >= kDeepest) {
+        report_.error("E013", first.span, "this condition is nested too deeply",
+                      "split it with ELSIF or more steps");
+        return false;
+    }
+    if (take("NOT")) {
+        result.kind = Kind::negation;
+        result.operands.emplace_back();
+        ++depth_;
+        const bool sound = parse_primary(result.operands.back());
+        --depth_;
+        result.span = span_since(first);
+        return sound;
+    }
+    if (take_symbol("(")) {
+        ++depth_;
+        const bool sound = parse_expression(result);
+        --depth_;
+        return sound && expect_symbol(")", "to close the parenthesis");
+    }
+    const bool sound = parse_named_primary(result);
+    result.span = span_since(first);
+    return sound;
+}
+
+bool Parser::parse_named_primary(Expression& result) {
+    if (at("TRUE") || at("FALSE")) {
+        result.kind = Kind::constant;
+        result.value = at("TRUE");
+        ++at_;
+        return true;
+    }
+    if (take("INPOS")) {
+        result.kind = Kind::in_pos;
+        return true;
+    }
+    if (take("ERROR")) {
+        result.kind = Kind::error;
+        return true;
+    }
+    if (take("ANY")) {
+        result.kind = Kind::any_error;
+        return expect("ERROR", "after ANY");
+    }
+    if (at("TIMER") || at("COUNTER")) {
+        result.kind = at("TIMER") ? Kind::timer_q : Kind::counter_q;
+        ++at_;
+        if (take_symbol(".") && take("Q")) return true;
+        report_.error("E014", tokens_[at_ - 1].span,
+                      "only TIMER.Q and COUNTER.Q can be tested: they are true at zero",
+                      "write TIMER.Q or COUNTER.Q");
+        return false;
+    }
+    if (token().kind == TokenKind::direct) {
+        result.kind = Kind::name;
+        result.name = name_of(token());
+        ++at_;
+        return true;
+    }
+    result.kind = Kind::name;
+    return expect_name(result.name, "an input, INPOS, ERROR, TIMER.Q or COUNTER.Q");
+}
+
+}  // namespace nplc::seqc

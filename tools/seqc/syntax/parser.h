@@ -1,0 +1,89 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "syntax/ast.h"
+#include "syntax/report.h"
+#include "syntax/token.h"
+
+namespace nplc::seqc {
+
+/// Reads a program's tokens. After an error it goes on at the next statement, so that one run shows them all.
+class Parser {
+  public:
+    Parser(std::string_view source, std::vector<Token> tokens, Report& report)
+        : source_(source),
+          tokens_(std::move(tokens)),
+          report_(report),
+          comment_is_open_(report.has("E002")) {}
+
+    ast::Program parse();
+
+  private:
+    // parser.cpp: tokens and structure
+    const Token& token(std::size_t ahead = 0) const;
+    bool at(std::string_view word) const;
+    bool at_symbol(std::string_view symbol) const;
+    bool take(std::string_view word);
+    bool take_symbol(std::string_view symbol);
+    bool expect(std::string_view word, std::string_view where);
+    bool expect_symbol(std::string_view symbol, std::string_view where);
+    bool expect_name(ast::Name& name, std::string_view what);
+    void error_here(std::string_view expected, std::string help = {});
+    /// What is missing here stands in a comment that is never closed, which was reported.
+    bool in_open_comment() const { return comment_is_open_ && token().kind == TokenKind::end; }
+    void end_statement();
+    void recover();
+    bool at_boundary() const;
+    bool at_block_end(std::string_view end_word) const;
+    void end_block(std::string_view end_word, Span opened);
+    Span span_since(const Token& first) const;
+    ast::Name name_of(const Token& t) const { return {t.text, t.span}; }
+
+    void parse_item(ast::Program& program);
+    void parse_scale(ast::Program& program);
+    void parse_on_error(ast::Program& program);
+    void parse_variables(std::vector<ast::Variable>& variables, bool motor);
+    void parse_variable(std::vector<ast::Variable>& variables, bool motor);
+    void parse_step(ast::Program& program);
+    void parse_power_up(ast::Program& program);
+    void parse_step_body(ast::Step& step, std::string_view end_word);
+    void parse_out(ast::Step& step);
+
+    // parse_statements.cpp
+    bool parse_if(ast::Choice& choice);
+    void parse_branch_body(ast::Branch& branch);
+    bool parse_statement(ast::Statement& statement);
+    bool parse_simple_statement(ast::Statement& statement);
+    bool parse_assignment(ast::Statement& statement);
+    bool parse_arguments(ast::Statement& statement);
+    bool parse_register_number(std::optional<ast::Value>& number);
+    bool parse_value(ast::Value& value);
+    void parse_unit(ast::Value& value);
+    bool parse_integer(const Token& t, double& number);
+    bool parse_raw_term(std::vector<ast::RawTerm>& terms);
+
+    // parse_expressions.cpp
+    bool parse_expression(ast::Expression& result);
+    bool parse_operators(ast::Expression& result, std::size_t level);
+    bool parse_primary(ast::Expression& result);
+    bool parse_named_primary(ast::Expression& result);
+
+    static constexpr int kDeepest = 100;
+
+    std::string_view source_;
+    std::vector<Token> tokens_;
+    Report& report_;
+    std::size_t at_ = 0;
+    int depth_ = 0;
+    bool comment_is_open_;
+};
+
+/// Milliseconds of T#1s500ms; false if it is malformed.
+bool parse_time(std::string_view text, double& milliseconds);
+
+/// Words that cannot be names.
+bool is_reserved(std::string_view word);
+
+}  // namespace nplc::seqc

@@ -1,0 +1,42 @@
+#include "syntax/report.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace nplc::seqc {
+
+Diagnostic& Report::add(Diagnostic diagnostic) {
+    if (diagnostic.severity == Severity::error) ++errors_;
+    if (full()) {
+        more_ = true;
+        const auto last_warning =
+            std::find_if(diagnostics_.rbegin(), diagnostics_.rend(),
+                         [](const Diagnostic& d) { return d.severity == Severity::warning; });
+        if (diagnostic.severity == Severity::warning || last_warning == diagnostics_.rend())
+            return dropped_ = std::move(diagnostic);
+        diagnostics_.erase(std::next(last_warning).base());
+    }
+    return diagnostics_.emplace_back(std::move(diagnostic));
+}
+
+Diagnostic& Report::error(const char* code, Span span, std::string message, std::string help) {
+    return add({Severity::error, code, std::move(message), std::move(help), span, {}});
+}
+
+Diagnostic& Report::warning(const char* code, Span span, std::string message, std::string help) {
+    return add({Severity::warning, code, std::move(message), std::move(help), span, {}});
+}
+
+bool Report::has(std::string_view code) const {
+    return std::any_of(diagnostics_.begin(), diagnostics_.end(),
+                       [&](const Diagnostic& d) { return d.code == code; });
+}
+
+std::vector<Diagnostic> Report::take() {
+    std::stable_sort(diagnostics_.begin(), diagnostics_.end(),
+                     [](const Diagnostic& a, const Diagnostic& b) { return a.span.offset < b.span.offset; });
+    return std::move(diagnostics_);
+}
+
+}  // namespace nplc::seqc

@@ -1,0 +1,142 @@
+#include "terms/verify.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace nplc::seqc {
+namespace {
+
+using sequencer::Condition;
+using sequencer::FastStatement;
+using sequencer::FlexStatement;
+using sequencer::Term;
+
+/// What a scan did in one case.
+struct Done {
+    std::uint8_t next = sequencer::kNoSwitch;
+    std::uint8_t outputs = 0;
+    bool writes_outputs = false;
+    bool clears = false;
+    bool counts = false;
+    bool wrong_order = false;
+    std::uint16_t timer = 0;
+    std::uint16_t counter = 0;
+    std::size_t sent = 0;
+};
+
+bool is_order_of(const Term& term, const Send& send) {
+    if (!term.is_flex) return send.reg == nullptr && term.fast.command == (send.command & 0x7F);
+    if (send.reg == nullptr) return false;
+    const FlexStatement& flex = term.flex;
+    return flex.reg == send.reg->number && flex.longword == registers::is_32_bit(send.reg->format) &&
+           flex.low_word == (send.value & 0xFFFF) && (!flex.longword || flex.high_word == send.value >> 16);
+}
+
+void apply_fast(const FastStatement& fast, Done& done) {
+    if (fast.next_step != sequencer::kNoSwitch) done.next = fast.next_step;
+    done.outputs = fast.outputs;
+    done.writes_outputs = true;
+    done.clears = fast.clears_counter;
+    done.counts = fast.counts_down;
+    if (fast.preset != 0) (fast.presets_counter ? done.counter : done.timer) = fast.preset;
+}
+
+class Comparison {
+  public:
+    Comparison(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of)
+        : step_(step), outputs_of_(outputs_of) {
+        for (const Rule& rule : step.rules) {
+            for (std::size_t c = 0; c < kCases; ++c) {
+                if (rule.when.test(c)) action_[c] = &rule.action;
+            }
+        }
+    }
+
+    void apply(const Term& term) {
+        const Condition& condition = term.condition;
+        const std::size_t wanted = (condition.input & (condition.care | sequencer::kError)) |
+                                   (condition.needs_timer_zero ? std::size_t{1} << kTimerZero : 0) |
+                                   (condition.needs_counter_zero ? std::size_t{1} << kCounterZero : 0);
+        const std::size_t compared = wanted | condition.care | sequencer::kError;
+        for (std::size_t c = 0; c < kCases; ++c) {
+            if ((c & compared) == wanted) apply_in(term, c);
+        }
+    }
+
+    bool differs(std::size_t c) const {
+        static const Action kNothing{};
+        const Action& action = action_[c] != nullptr ? *action_[c] : kNothing;
+        const Done& done = done_[c];
+        const std::uint8_t next = action.next.value_or(step_.number);
+        const bool leaves = next != step_.number;
+        const std::uint8_t gone = done.next == sequencer::kNoSwitch ? step_.number : done.next;
+        const std::uint8_t outputs = leaves ? entered(next) : resting(c);
+        const bool must_write = leaves || !step_.conditional.empty();
+        return gone != next || done.wrong_order || done.sent != action.sends.size() ||
+               done.timer != action.timer.value_or(0) || done.counter != action.counter.value_or(0) ||
+               done.clears != action.clears_counter || done.counts != action.counts_down ||
+               (done.writes_outputs ? done.outputs != outputs : must_write);
+    }
+
+  private:
+    void apply_in(const Term& term, std::size_t c) {
+        Done& done = done_[c];
+        if (term.is_flex || term.fast.sends) {
+            const Action* action = action_[c];
+            const bool expected = action != nullptr && done.sent < action->sends.size() &&
+                                  is_order_of(term, action->sends[done.sent]);
+            done.wrong_order = done.wrong_order || !expected;
+            ++done.sent;
+        }
+        if (!term.is_flex) apply_fast(term.fast, done);
+    }
+
+    std::uint8_t entered(std::uint8_t next) const {
+        return next < outputs_of_.size() ? outputs_of_[next] : std::uint8_t{0};
+    }
+
+    std::uint8_t resting(std::size_t c) const {
+        std::uint8_t outputs = step_.outputs;
+        for (const ConditionalOutput& conditional : step_.conditional) {
+            if (conditional.when.test(c)) outputs |= conditional.outputs;
+        }
+        return outputs;
+    }
+
+    const StepPlan& step_;
+    const std::vector<std::uint8_t>& outputs_of_;
+    std::array<const Action*, kCases> action_{};
+    std::array<Done, kCases> done_{};
+};
+
+}  // namespace
+
+std::optional<std::size_t> first_difference(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of,
+                                            const std::vector<LoweredTerm>& terms) {
+    Comparison comparison(step, outputs_of);
+    for (std::size_t i = 0; i + step.terms.size() < terms.size(); ++i) {
+        const Term term = sequencer::decode(terms[i].bytes);
+        if (term.condition.step != step.number) return 0;
+        comparison.apply(term);
+    }
+    for (std::size_t c = 0; c < kCases; ++c) {
+        if (comparison.differs(c)) return c;
+    }
+    return std::nullopt;
+}
+
+void check_terms(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of,
+                 const std::vector<LoweredTerm>& terms, Report& report) {
+    const auto found = first_difference(step, outputs_of, terms);
+    if (!found) return;
+    report.error(
+        "E099", step.span,
+        fmt::format("internal error of seqc: its terms for '{}' do something else than the program "
+                    "when inputs, IN_POS and ERROR are 16#{:02X}, TIMER.Q = {}, COUNTER.Q = {}",
+                    step.name, *found & 0xFF, (*found >> kTimerZero) & 1, (*found >> kCounterZero) & 1),
+        "no table is written; please report this with the program, and write the step in another "
+        "way, with fewer branches");
+}
+
+}  // namespace nplc::seqc

@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include "seqc/seqc.h"
+#include "sequencer/term.h"
+#include "syntax/parser.h"
+#include "text/describe.h"
+
+namespace nplc::seqc {
+namespace {
+
+using sequencer::kTermBytes;
+
+bool is_identifier(std::string_view name) {
+    if (name.empty() || name.size() > 60 || (name[0] >= '0' && name[0] <= '9') || is_reserved(name))
+        return false;
+    for (char c : name) {
+        const bool word =
+            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+        if (!word) return false;
+    }
+    return true;
+}
+
+std::string term_line(sequencer::TermView bytes) {
+    std::string text = "TERM ";
+    for (std::size_t i = 0; i < kTermBytes; ++i)
+        text += fmt::format("{}16#{:02X}", i == 0 ? "" : ", ", bytes[i]);
+    return text + fmt::format(";  // {}\n", describe(bytes, nullptr));
+}
+
+}  // namespace
+
+Disassembly disassemble(std::span<const std::uint8_t> table, std::string_view program_name) {
+    Disassembly result;
+    std::string lines;
+    std::size_t at = 0;
+    bool ended = false;
+    for (; !ended && at + kTermBytes <= table.size(); at += kTermBytes) {
+        const auto bytes = table.subspan(at).first<kTermBytes>();
+        lines += term_line(bytes);
+        ended = sequencer::is_end(bytes);
+    }
+    if (!ended) {
+        result.error = fmt::format(
+            "{} bytes hold {} whole terms, and none has STATE 63: this is no sequence table, or "
+            "its end is missing",
+            table.size(), at / kTermBytes);
+        return result;
+    }
+    result.trailing_bytes = table.size() - at;
+    const std::string name(is_identifier(program_name) ? program_name : "Table");
+    result.text = fmt::format(
+        "// {} terms, the end included, one a line: STATE, INPUT, CARE and five bytes of command.\n",
+        at / kTermBytes);
+    if (result.trailing_bytes > 0) {
+        result.text +=
+            fmt::format("// {} bytes that followed the end are left out.\n", result.trailing_bytes);
+    }
+    result.text += fmt::format("PROGRAM {}\n{}END_PROGRAM\n", name, lines);
+    return result;
+}
+
+}  // namespace nplc::seqc
