@@ -69,7 +69,7 @@ HOSTED_STANDARD = set(
     source_location spanstream sstream stack stacktrace stdexcept stop_token streambuf string strstream syncstream
     system_error thread typeindex typeinfo unordered_map unordered_set valarray vector""".split()
 )
-LIBRARIES = ("gtest/", "gmock/", "benchmark/", "fmt/", "CLI/")
+LIBRARIES = ("gtest/", "gmock/", "benchmark/", "fmt/", "CLI/", "nlohmann/")
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)

@@ -4,8 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "cli/common.h"
-#include "cli/files.h"
+#include "cli/input.h"
 #include "cli/subcommands.h"
 
 namespace nplc::seqc::cli {
@@ -17,17 +16,11 @@ struct Options {
 };
 
 int disasm(const Options& options) {
-    const auto table = read_file(options.table);
-    if (!table.error.empty()) return file_problem(table.error);
-    const std::vector<std::uint8_t> bytes(table.text.begin(), table.text.end());
-    const auto result = disassemble(bytes, std::filesystem::path(options.table).stem().string());
-    if (!result.error.empty()) return file_problem(fmt::format("{}: {}", options.table, result.error));
-    if (result.trailing_bytes > 0) {
-        fmt::print(stderr, "seqc: {}: {} bytes after the end of the table are left out\n", options.table,
-                   result.trailing_bytes);
-    }
+    const Input input = read_input(options.table);
+    if (input.exit_code != kOk) return input.exit_code;
     if (!options.output.empty() && is_same_file(options.output, options.table))
         return file_problem(fmt::format("'{}' is the table itself: name another output", options.output));
+    const auto result = disassemble(input.table, std::filesystem::path(options.table).stem().string());
     return print_or_write(result.text, options.output);
 }
 
