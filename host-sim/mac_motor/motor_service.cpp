@@ -36,6 +36,7 @@ void MacMotor::go_to_init() {
 bool MacMotor::write_flash() {
     if (!is_mode(MotorMode::safe)) return false;
     store_registers();
+    ++flash_writes_;
     power_cycle();
     return true;
 }
@@ -64,6 +65,7 @@ void MacMotor::load_parameters(std::uint16_t command) {
     }
     if (command == kDefaultsToFlash) {
         stored_ = wanted;
+        ++flash_writes_;
         return power_cycle();
     }
     if (command != kDefaults && command != kStoredAgain) return;

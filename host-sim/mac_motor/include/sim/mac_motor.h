@@ -96,6 +96,8 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     /// The parameter flash, for whoever keeps it over the program's end.
     const MotorMemory& stored() const { return stored_; }
     void set_stored(const MotorMemory& stored) { stored_ = stored; }
+    /// How often the motor has written its flash since it was built.
+    std::uint32_t flash_writes() const { return flash_writes_; }
     /// Off and on: stored registers, P_IST and P_FNC 0, toggle 0, STARTMODE. The shaft stays where it is.
     void power_cycle();
 
@@ -163,6 +165,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     MacTalkSlave mactalk_;
     SampleBuffer samples_;
 
+    std::uint32_t flash_writes_ = 0;
     bool link_on_ = true;
     std::int64_t last_counts_ = 0;
     std::int32_t torque_ = 0;
