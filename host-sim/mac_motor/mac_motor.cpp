@@ -28,14 +28,14 @@ protocol::fastmac::RegisterCode code_of(const MacMotorOptions& options) {
 }  // namespace
 
 MacMotor::MacMotor(registers::Model model, const MacMotorOptions& options)
-    : memory_(model),
+    : options_(options),
+      memory_(model),
       stored_(model),
       plant_(full_acceleration_16(model), options.load),
       regulator_(full_acceleration_16(model)),
-      link_({.model = model,
-             .baud = options.baud,
-             .code = code_of(options),
-             .log_limit = options.order_limit}) {
+      link_(
+          {.model = model, .baud = options.baud, .code = code_of(options), .log_limit = options.order_limit}),
+      mactalk_(model) {
     write_defaults(stored_, options.address);
     power_cycle();
 }
@@ -53,6 +53,9 @@ void MacMotor::power_cycle() {
     link_on_ =
         is_mac800(model()) || (memory_.get(cell::CNTRL_BITS) & kUserInterfaceBits) == kUserInterfaceBits;
     link_.power_up();
+    mactalk_.power_up();
+    samples_.rewind();
+    samples_.clear();
     last_counts_ = plant_.counts();
     v_history_.clear();
     torque_ = v_old_ = samples_within_ = corrected_braking_ = 0;
@@ -101,6 +104,7 @@ void MacMotor::sample() {
         stay_passive();
     }
     monitor();
+    run_sample_buffer();
 }
 
 void MacMotor::measure() {

@@ -38,9 +38,7 @@ bool MacMotor::error_forbids_motion() const {
 
 void MacMotor::request_mode(std::uint16_t mode) {
     if (is_mode(MotorMode::safe) || mode == number(MotorMode::safe)) {
-        if (mode >= 256 && mode <= 258) {
-            unsupported_ = "MODE_REG " + std::to_string(mode) + " (parameter set-up) is not simulated yet";
-        }
+        if (is_mode(MotorMode::safe)) load_parameters(mode);
         return;
     }
     if (mode > kLastMode) return;
@@ -128,18 +126,6 @@ void MacMotor::fail(std::uint32_t error) {
     } else if (!is_mode(MotorMode::safe)) {
         set_mode(number(MotorMode::init));
     }
-}
-
-bool MacMotor::enter_safe_mode() {
-    if (!is_mode(MotorMode::init)) return false;
-    set_mode(number(MotorMode::safe));
-    return true;
-}
-
-bool MacMotor::leave_safe_mode() {
-    if (!is_mode(MotorMode::safe)) return false;
-    set_mode(number(MotorMode::init));
-    return true;
 }
 
 }  // namespace nplc::sim

@@ -43,6 +43,7 @@ MODULES = [
     Module("firmware/boards", None, ANY, os=True, clock=True),
     Module("host-sim", "sim", ("base", "ports", "protocol", "registers"), os=True),
     Module("host-sim/board", "sim", ANY, os=True, clock=True),
+    Module("host-sim/macsim", None, ("base", "ports", "protocol", "registers", "hal_linux", "sim"), os=True),
     Module("host-sim/nanoplc_sim", None, ANY, os=True, clock=True),
     Module("tools/seqc", "seqc", ("base", "sequencer", "protocol", "registers"), os=True),
     Module("tools/macreg", "macreg", ("base", "sequencer", "protocol", "registers"), os=True),

@@ -11,10 +11,12 @@
 #include "registers/mac.h"
 #include "sim/error_bits.h"
 #include "sim/fastmac_slave.h"
+#include "sim/mactalk_slave.h"
 #include "sim/motor_memory.h"
 #include "sim/plant.h"
 #include "sim/profile.h"
 #include "sim/regulator.h"
+#include "sim/sample_buffer.h"
 
 namespace nplc::sim {
 
@@ -33,7 +35,7 @@ struct MacMotorOptions {
 /// A virtual MAC motor with its user interface set to FastMAC/FlexMAC. It has no clock: the caller gives it
 /// bytes with their times, fetches bytes when the line is free, and calls `sample` once every
 /// `sample_period`. Deterministic: the same calls give the same motion on every machine.
-class MacMotor final : private LinkTarget {
+class MacMotor final : private LinkTarget, private MacTalkTarget {
   public:
     explicit MacMotor(registers::Model model, const MacMotorOptions& options = {});
 
@@ -49,6 +51,10 @@ class MacMotor final : private LinkTarget {
     void receive(std::uint8_t byte, bool framing_error, base::Instant now);
     std::optional<std::uint8_t> transmit(base::Instant now);
     const FastMacSlave& link() const { return link_; }
+
+    /// The MacTalk line, see MacTalkSlave; works whatever the user interface is set to.
+    void receive_mactalk(std::uint8_t byte, bool framing_error);
+    std::optional<std::uint8_t> transmit_mactalk();
 
     /// FastMAC commands and FlexMAC writes in the order in which they were accepted.
     const std::deque<Order>& orders() const { return link_.orders(); }
@@ -74,11 +80,24 @@ class MacMotor final : private LinkTarget {
 
     /// 001 §4.4.16: only over MacTalk, so not over the user interface. False: refused (not in INIT, not in
     /// SAFE).
-    bool enter_safe_mode();
+    bool enter_safe_mode() override;
     bool leave_safe_mode();
+    /// Out of SAFE at once, out of any other mode through STOP (001 §5.1, message 55h).
+    void go_to_init() override;
+    /// Keeps the present registers and resets; false and nothing done outside of SAFE (001 §5.1, message
+    /// 56h).
+    bool write_flash() override;
+    /// As after power-up; false and nothing done unless in INIT or SAFE (message 57h).
+    bool reset() override;
 
-    /// Keeps the present registers over `power_cycle`, as a write to flash does.
-    void store_registers() { stored_ = memory_; }
+    /// Keeps the present registers over `power_cycle`, as a write to flash does: parameters, not what the
+    /// motor counts and shows.
+    void store_registers();
+    /// The parameter flash, for whoever keeps it over the program's end.
+    const MotorMemory& stored() const { return stored_; }
+    void set_stored(const MotorMemory& stored) { stored_ = stored; }
+    /// How often the motor has written its flash since it was built.
+    std::uint32_t flash_writes() const { return flash_writes_; }
     /// Off and on: stored registers, P_IST and P_FNC 0, toggle 0, STARTMODE. The shaft stays where it is.
     void power_cycle();
 
@@ -102,6 +121,12 @@ class MacMotor final : private LinkTarget {
     void copy(Cell from, Cell to) { memory_.set(to, memory_.get(from)); }
     void set_relative(bool p_soll, bool p_fnc);
     void clear_in_position();
+
+    // MacTalk's own: motor_service.cpp
+    void load_parameters(std::uint16_t command);
+    void run_sample_buffer();
+    SampleBuffer::Sample sampled_registers() const;
+    SampleBuffer::Sample next_sample() override;
 
     // Modes and monitoring: motor_modes.cpp
     void request_mode(std::uint16_t mode);
@@ -131,12 +156,16 @@ class MacMotor final : private LinkTarget {
     void set_error_bits(std::uint32_t mask, bool on);
     const FamilyBits& bits() const { return family_bits(model()); }
 
+    MacMotorOptions options_;
     MotorMemory memory_;
     MotorMemory stored_;
     Plant plant_;
     Regulator regulator_;
     FastMacSlave link_;
+    MacTalkSlave mactalk_;
+    SampleBuffer samples_;
 
+    std::uint32_t flash_writes_ = 0;
     bool link_on_ = true;
     std::int64_t last_counts_ = 0;
     std::int32_t torque_ = 0;

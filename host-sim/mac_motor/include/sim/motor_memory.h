@@ -52,7 +52,8 @@ inline constexpr Cell PROG_VERSION = word(1, 1), MODE_REG = word(2, 2), P_SOLL =
                       V1 = integer(65, 65), A1 = word(73, 73), T1 = word(77, 77), L1 = word(81, 81),
                       Z1 = word(85, 85), FNC_OUT = integer(117, 166), V_EXT = integer(120, 163),
                       VF_OUT = integer(121, 169), ANINP = integer(122, 170), MYADDR = word(156, 202),
-                      P_NEW = long_int(163, 4), V_IST_16 = integer(0, 11);
+                      P_NEW = long_int(163, 4), V_IST_16 = integer(0, 11), SAMPLE1 = word(112, 158),
+                      REC_CNT = word(116, 162);
 }  // namespace cell
 
 /// All registers of one motor. MAC50-141: 16-bit words by register number, a LongInt takes its number (low

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+/// MacTalk (001 §5.1; the quick guides in 002 §5.7 and 004 §1.3): three equal bytes say what a message is,
+/// then an address and what belongs to it, each byte followed by its inverse, low byte first, then AAh AAh.
+namespace nplc::protocol::mactalk {
+
+inline constexpr std::uint8_t kMasterAddress = 0;  ///< replies carry it; no unit has it
+inline constexpr std::uint8_t kEveryone = 255;     ///< every unit takes it, and answers (field practice)
+
+/// What a master can ask for. The value is the message's first three bytes.
+enum class Kind : std::uint8_t {
+    read = 0x50,
+    read_block = 0x51,
+    write = 0x52,
+    read_samples = 0x53,
+    safe_mode = 0x54,
+    init_mode = 0x55,
+    write_flash = 0x56,
+    reset = 0x57,
+};
+
+struct Request {
+    Kind kind = Kind::read;
+    std::uint8_t address = 0;
+    std::uint8_t reg = 0;     ///< 1..255 for read, read_block and write, else 0
+    std::uint8_t length = 0;  ///< bytes of a write: 2 or 4, else 0
+    std::uint32_t value = 0;  ///< what to write, else 0
+    bool operator==(const Request&) const = default;
+};
+
+/// Three sync bytes; address, register and length; four data bytes; two end bytes.
+inline constexpr std::size_t kMaxRequestBytes = 19;
+inline constexpr std::size_t kMaxReplyData = 64;
+inline constexpr std::size_t kMaxReplyBytes = 3 + 2 * (3 + kMaxReplyData) + 2;
+
+inline constexpr std::size_t kReadBytes = 4;           ///< a read always answers four (001 §5.1)
+inline constexpr std::size_t kBlockBytes = 64;         ///< R: no manual describes the block read's answer
+inline constexpr std::size_t kSampleBytes = 8;         ///< the four sampled words (R)
+inline constexpr std::size_t kMac800SampleBytes = 16;  ///< the same as longwords (R)
+
+template <std::size_t N>
+struct Encoded {
+    std::array<std::uint8_t, N> bytes{};
+    std::size_t size = 0;
+    std::span<const std::uint8_t> view() const { return {bytes.data(), size}; }
+};
+using EncodedRequest = Encoded<kMaxRequestBytes>;
+using EncodedReply = Encoded<kMaxReplyBytes>;
+
+/// Empty for what no message can say: register 0 in a read or write, a write of another length than 2 or 4.
+EncodedRequest encode(const Request& request);
+
+/// 11h x3: after writes, 54h and 55h; nothing is answered to 56h and 57h (001 §5.1).
+EncodedReply encode_accept();
+/// To `read` with four bytes of data, to `read_block` with 64. Empty for register 0 or too much data.
+EncodedReply encode_registers(std::uint8_t reg, std::span<const std::uint8_t> data);
+/// To `read_samples`: like the other, without a register (field practice).
+EncodedReply encode_samples(std::span<const std::uint8_t> data);
+
+/// A unit's receiving end, a byte at a time. It answers each whole message on the line, whatever its address:
+/// which are its own is the caller's to say. A wrong repeat, inverse, length or end drops the message, and
+/// the bytes after its first may begin the next one, so that after noise the next whole message is
+/// understood. A message is always exactly the bytes that came last.
+class RequestDecoder {
+  public:
+    /// The message that this byte completes.
+    std::optional<Request> receive(std::uint8_t byte);
+    /// To be called at a framing error or an overrun. A pause is no fault: the manuals bound none.
+    void abandon() { count_ = 0; }
+    bool in_message() const { return count_ != 0; }
+
+  private:
+    std::array<std::uint8_t, kMaxRequestBytes> bytes_{};
+    std::uint8_t count_ = 0;
+};
+
+struct Reply {
+    std::uint8_t reg = 0;  ///< 0 for samples and accept
+    std::uint8_t length = 0;
+    std::array<std::uint8_t, kMaxReplyData> data{};
+    std::span<const std::uint8_t> view() const { return {data.data(), length}; }
+    bool operator==(const Reply&) const = default;
+};
+
+/// What a master waits for. A line does not tell register replies and samples apart.
+enum class Answer : std::uint8_t { none, accept, registers, samples };
+
+/// What follows a request.
+Answer answer_to(Kind kind);
+
+/// The master's receiving end. Only the expected kind of answer, with its number of data bytes, is reported;
+/// the same rules as for RequestDecoder otherwise. Whether the register is the one asked for is the caller's
+/// to look at.
+class ReplyDecoder {
+  public:
+    /// `data_bytes`: how many the answer must carry; 0 for accept and none.
+    void expect(Answer answer, std::size_t data_bytes);
+    std::optional<Reply> receive(std::uint8_t byte);
+    void abandon() { count_ = 0; }
+
+  private:
+    Answer answer_ = Answer::none;
+    std::uint8_t data_bytes_ = 0;
+    std::array<std::uint8_t, kMaxReplyBytes> bytes_{};
+    std::uint8_t count_ = 0;
+};
+
+}  // namespace nplc::protocol::mactalk

@@ -1,0 +1,234 @@
+#include "protocol/mactalk.h"
+
+#include <algorithm>
+
+#include "base/bytes.h"
+
+namespace nplc::protocol::mactalk {
+namespace {
+
+constexpr std::size_t kSync = 3;
+constexpr std::uint8_t kEnd = 0xAA;
+constexpr std::size_t kEnds = 2;
+constexpr std::uint8_t kAccept = 0x11;
+constexpr std::uint8_t kFirstKind = 0x50;
+constexpr std::uint8_t kLastKind = 0x57;
+constexpr std::size_t kHeaderPairs = 3;  // address, register, length
+
+enum class Progress : std::uint8_t { wrong, partial, whole };
+
+bool has_register(Kind kind) {
+    return kind == Kind::read || kind == Kind::read_block || kind == Kind::write;
+}
+
+bool is_write_length(std::uint8_t length) {
+    return length == 2 || length == 4;
+}
+
+/// Byte number `index` of the protected ones.
+std::uint8_t protected_byte(std::span<const std::uint8_t> bytes, std::size_t index) {
+    return bytes[kSync + 2 * index];
+}
+
+bool has_protected_byte(std::span<const std::uint8_t> bytes, std::size_t index) {
+    return bytes.size() > kSync + 2 * index;
+}
+
+/// Repeats, inverses and end of a message with so many protected bytes.
+Progress framing(std::span<const std::uint8_t> bytes, std::size_t pairs) {
+    const std::size_t end = kSync + 2 * pairs;
+    for (std::size_t i = 1; i < bytes.size(); ++i) {
+        bool right = true;
+        if (i < kSync) {
+            right = bytes[i] == bytes[0];
+        } else if (i >= end) {
+            right = bytes[i] == kEnd;
+        } else if ((i - kSync) % 2 == 1) {
+            right = bytes[i] == base::inverse(bytes[i - 1]);
+        }
+        if (!right) return Progress::wrong;
+    }
+    return bytes.size() == end + kEnds ? Progress::whole : Progress::partial;
+}
+
+Progress request_progress(std::span<const std::uint8_t> bytes) {
+    if (bytes[0] < kFirstKind || bytes[0] > kLastKind) return Progress::wrong;
+    const Kind kind = static_cast<Kind>(bytes[0]);
+    std::size_t pairs = has_register(kind) ? 2 : 1;
+    if (has_register(kind) && has_protected_byte(bytes, 1) && protected_byte(bytes, 1) == 0)
+        return Progress::wrong;
+    if (kind == Kind::write) {
+        pairs = kHeaderPairs;
+        if (has_protected_byte(bytes, 2)) {
+            const std::uint8_t length = protected_byte(bytes, 2);
+            if (!is_write_length(length)) return Progress::wrong;
+            pairs += length;
+        }
+    }
+    return framing(bytes, pairs);
+}
+
+Progress reply_progress(std::span<const std::uint8_t> bytes, Answer answer, std::size_t data_bytes) {
+    if (answer == Answer::accept) {
+        if (bytes.back() != kAccept) return Progress::wrong;
+        return bytes.size() == kSync ? Progress::whole : Progress::partial;
+    }
+    if (answer == Answer::none || bytes[0] != static_cast<std::uint8_t>(Kind::write)) return Progress::wrong;
+    const std::size_t header = answer == Answer::registers ? kHeaderPairs : kHeaderPairs - 1;
+    if (has_protected_byte(bytes, 0) && protected_byte(bytes, 0) != kMasterAddress) return Progress::wrong;
+    if (answer == Answer::registers && has_protected_byte(bytes, 1) && protected_byte(bytes, 1) == 0)
+        return Progress::wrong;
+    if (has_protected_byte(bytes, header - 1) && protected_byte(bytes, header - 1) != data_bytes)
+        return Progress::wrong;
+    return framing(bytes, header + data_bytes);
+}
+
+Request request_of(std::span<const std::uint8_t> bytes) {
+    Request request{.kind = static_cast<Kind>(bytes[0]), .address = protected_byte(bytes, 0)};
+    if (has_register(request.kind)) request.reg = protected_byte(bytes, 1);
+    if (request.kind != Kind::write) return request;
+    request.length = protected_byte(bytes, 2);
+    for (std::size_t i = 0; i < request.length; ++i) {
+        request.value |= static_cast<std::uint32_t>(protected_byte(bytes, kHeaderPairs + i)) << (8 * i);
+    }
+    return request;
+}
+
+Reply reply_of(std::span<const std::uint8_t> bytes, Answer answer, std::size_t data_bytes) {
+    Reply reply;
+    if (answer == Answer::accept) return reply;
+    const std::size_t header = answer == Answer::registers ? kHeaderPairs : kHeaderPairs - 1;
+    if (answer == Answer::registers) reply.reg = protected_byte(bytes, 1);
+    reply.length = static_cast<std::uint8_t>(data_bytes);
+    for (std::size_t i = 0; i < data_bytes; ++i) reply.data[i] = protected_byte(bytes, header + i);
+    return reply;
+}
+
+/// Takes bytes off the front until what is left may still become a message, or is one.
+template <std::size_t N, class Judge>
+Progress settle(std::array<std::uint8_t, N>& bytes, std::uint8_t& count, Judge judge) {
+    while (count > 0) {
+        const Progress progress = judge(std::span<const std::uint8_t>(bytes.data(), count));
+        if (progress != Progress::wrong) return progress;
+        std::copy(bytes.begin() + 1, bytes.begin() + count, bytes.begin());
+        --count;
+    }
+    return Progress::wrong;
+}
+
+template <std::size_t N>
+void put(Encoded<N>& out, std::uint8_t byte) {
+    out.bytes[out.size] = byte;
+    ++out.size;
+}
+
+template <std::size_t N>
+void put_protected(Encoded<N>& out, std::uint8_t byte) {
+    put(out, byte);
+    put(out, base::inverse(byte));
+}
+
+template <std::size_t N>
+void begin(Encoded<N>& out, Kind kind, std::uint8_t address) {
+    for (std::size_t i = 0; i < kSync; ++i) put(out, static_cast<std::uint8_t>(kind));
+    put_protected(out, address);
+}
+
+template <std::size_t N>
+void end(Encoded<N>& out) {
+    for (std::size_t i = 0; i < kEnds; ++i) put(out, kEnd);
+}
+
+void put_data(EncodedReply& out, std::span<const std::uint8_t> data) {
+    put_protected(out, static_cast<std::uint8_t>(data.size()));
+    for (const std::uint8_t byte : data) put_protected(out, byte);
+    end(out);
+}
+
+}  // namespace
+
+EncodedRequest encode(const Request& request) {
+    const bool is_write = request.kind == Kind::write;
+    if (has_register(request.kind) && request.reg == 0) return {};
+    if (is_write && !is_write_length(request.length)) return {};
+    EncodedRequest out;
+    begin(out, request.kind, request.address);
+    if (has_register(request.kind)) put_protected(out, request.reg);
+    if (is_write) {
+        put_protected(out, request.length);
+        for (unsigned i = 0; i < request.length; ++i)
+            put_protected(out, static_cast<std::uint8_t>(request.value >> (8 * i)));
+    }
+    end(out);
+    return out;
+}
+
+EncodedReply encode_accept() {
+    EncodedReply out;
+    for (std::size_t i = 0; i < kSync; ++i) put(out, kAccept);
+    return out;
+}
+
+EncodedReply encode_registers(std::uint8_t reg, std::span<const std::uint8_t> data) {
+    if (reg == 0 || data.size() > kMaxReplyData) return {};
+    EncodedReply out;
+    begin(out, Kind::write, kMasterAddress);
+    put_protected(out, reg);
+    put_data(out, data);
+    return out;
+}
+
+EncodedReply encode_samples(std::span<const std::uint8_t> data) {
+    if (data.size() > kMaxReplyData) return {};
+    EncodedReply out;
+    begin(out, Kind::write, kMasterAddress);
+    put_data(out, data);
+    return out;
+}
+
+std::optional<Request> RequestDecoder::receive(std::uint8_t byte) {
+    bytes_[count_] = byte;
+    ++count_;
+    if (settle(bytes_, count_, request_progress) != Progress::whole) return std::nullopt;
+    const Request request = request_of({bytes_.data(), count_});
+    count_ = 0;
+    return request;
+}
+
+Answer answer_to(Kind kind) {
+    switch (kind) {
+        case Kind::read:
+        case Kind::read_block:
+            return Answer::registers;
+        case Kind::read_samples:
+            return Answer::samples;
+        case Kind::write:
+        case Kind::safe_mode:
+        case Kind::init_mode:
+            return Answer::accept;
+        case Kind::write_flash:
+        case Kind::reset:
+            break;
+    }
+    return Answer::none;
+}
+
+void ReplyDecoder::expect(Answer answer, std::size_t data_bytes) {
+    answer_ = answer;
+    data_bytes_ = static_cast<std::uint8_t>(std::min(data_bytes, kMaxReplyData));
+    count_ = 0;
+}
+
+std::optional<Reply> ReplyDecoder::receive(std::uint8_t byte) {
+    bytes_[count_] = byte;
+    ++count_;
+    const auto judge = [this](std::span<const std::uint8_t> bytes) {
+        return reply_progress(bytes, answer_, data_bytes_);
+    };
+    if (settle(bytes_, count_, judge) != Progress::whole) return std::nullopt;
+    const Reply reply = reply_of({bytes_.data(), count_}, answer_, data_bytes_);
+    count_ = 0;
+    return reply;
+}
+
+}  // namespace nplc::protocol::mactalk

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+#include "hal_linux/byte_server.h"
+
+namespace nplc::hal_linux {
+
+ByteServer::Opened open_pty_server(const std::string& path);
+
+}  // namespace nplc::hal_linux

@@ -1,0 +1,172 @@
+#include "socket_server.h"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <optional>
+
+#include "file_descriptor.h"
+
+namespace nplc::hal_linux {
+namespace {
+
+std::string reason() {
+    return std::strerror(errno);
+}
+
+/// Of a socket in the file system, which is removed with it.
+class BoundPath {
+  public:
+    explicit BoundPath(std::string path) : path_(std::move(path)) {}
+    BoundPath(BoundPath&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+    BoundPath& operator=(BoundPath&&) = delete;
+    ~BoundPath() {
+        if (!path_.empty()) ::unlink(path_.c_str());
+    }
+
+  private:
+    std::string path_;
+};
+
+class SocketServer final : public ByteServer {
+  public:
+    SocketServer(FileDescriptor listener, std::string name, BoundPath path)
+        : listener_(std::move(listener)), path_(std::move(path)), name_(std::move(name)) {}
+
+    const std::string& name() const override { return name_; }
+
+    bool has_client() override {
+        accept_clients();
+        return static_cast<bool>(client_);
+    }
+
+    std::size_t read(std::span<std::uint8_t> out) override {
+        accept_clients();
+        if (!client_ || out.empty()) return 0;
+        const ssize_t count = ::recv(client_.get(), out.data(), out.size(), 0);
+        if (count > 0) return static_cast<std::size_t>(count);
+        if (count == 0 || (errno != EAGAIN && errno != EINTR)) client_.close();
+        return 0;
+    }
+
+    void write(std::span<const std::uint8_t> bytes) override {
+        accept_clients();
+        if (!client_) return;
+        const ssize_t taken = ::send(client_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+        if (taken < 0 && errno != EAGAIN && errno != EINTR) client_.close();
+    }
+
+    int descriptor() const override { return client_ ? client_.get() : listener_.get(); }
+
+  private:
+    void accept_clients() {
+        for (;;) {
+            FileDescriptor next(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+            if (!next) return;
+            if (client_ && !is_gone()) continue;  // turned away
+            const int on = 1;
+            ::setsockopt(next.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+            client_ = std::move(next);
+        }
+    }
+
+    /// A client that hung up makes room at once, even if nobody has read since.
+    bool is_gone() const {
+        char byte = 0;
+        return ::recv(client_.get(), &byte, 1, MSG_PEEK) == 0;
+    }
+
+    FileDescriptor listener_;
+    FileDescriptor client_;
+    BoundPath path_;
+    std::string name_;
+};
+
+FileDescriptor make_socket(int family) {
+    return FileDescriptor(::socket(family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+}
+
+template <class Address>
+const sockaddr* generic(const Address& address) {
+    return reinterpret_cast<const sockaddr*>(&address);
+}
+
+/// Left behind by a program that was killed: nobody listens there any more.
+bool is_stale_socket(const std::string& path, const sockaddr_un& address) {
+    struct stat status {};
+    if (::lstat(path.c_str(), &status) != 0 || !S_ISSOCK(status.st_mode)) return false;
+    const FileDescriptor probe = make_socket(AF_UNIX);
+    return ::connect(probe.get(), generic(address), sizeof address) != 0 && errno == ECONNREFUSED;
+}
+
+std::optional<sockaddr_in> tcp_address(const std::string& where) {
+    const auto colon = where.rfind(':');
+    if (colon == std::string::npos) return std::nullopt;
+    const std::string host = where.substr(0, colon) == "localhost" ? "127.0.0.1" : where.substr(0, colon);
+    const std::string digits = where.substr(colon + 1);
+    std::uint16_t port = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(port);
+    const bool sound = error == std::errc() && end == digits.data() + digits.size() && !digits.empty() &&
+                       ::inet_pton(AF_INET, host.c_str(), &address.sin_addr) == 1;
+    return sound ? std::optional(address) : std::nullopt;
+}
+
+std::string tcp_name(int listener) {
+    sockaddr_in address{};
+    socklen_t size = sizeof address;
+    ::getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size);
+    char host[INET_ADDRSTRLEN] = {};
+    ::inet_ntop(AF_INET, &address.sin_addr, host, sizeof host);
+    return std::string("tcp:") + host + ":" + std::to_string(ntohs(address.sin_port));
+}
+
+}  // namespace
+
+ByteServer::Opened open_unix_server(const std::string& path) {
+    const std::string name = "unix:" + path;
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    if (path.size() >= sizeof address.sun_path)
+        return {nullptr, name + ": the path is too long for a socket; name a shorter one"};
+    path.copy(address.sun_path, path.size());
+    FileDescriptor listener = make_socket(AF_UNIX);
+    if (!listener) return {nullptr, name + ": " + reason()};
+    if (is_stale_socket(path, address)) ::unlink(path.c_str());
+    if (::bind(listener.get(), generic(address), sizeof address) != 0) {
+        return {nullptr,
+                name + ": " +
+                    (errno == EADDRINUSE ? "there is a file of this name, or another program listens "
+                                           "there; name another path"
+                                         : reason())};
+    }
+    BoundPath bound(path);
+    if (::listen(listener.get(), 1) != 0) return {nullptr, name + ": " + reason()};
+    return {std::make_unique<SocketServer>(std::move(listener), name, std::move(bound)), {}};
+}
+
+ByteServer::Opened open_tcp_server(const std::string& where) {
+    const auto address = tcp_address(where);
+    if (!address) return {nullptr, "tcp:" + where + ": write tcp:127.0.0.1:PORT, PORT 0..65535"};
+    FileDescriptor listener = make_socket(AF_INET);
+    const int on = 1;
+    if (listener) ::setsockopt(listener.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    if (!listener || ::bind(listener.get(), generic(*address), sizeof *address) != 0 ||
+        ::listen(listener.get(), 1) != 0) {
+        return {nullptr, "tcp:" + where + ": " + reason()};
+    }
+    const std::string name = tcp_name(listener.get());
+    return {std::make_unique<SocketServer>(std::move(listener), name, BoundPath(std::string())), {}};
+}
+
+}  // namespace nplc::hal_linux

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sim/mac_motor.h"
+#include "sim/serial_line.h"
+
+namespace nplc::sim {
+
+struct UnitOptions {
+    registers::Model model = registers::Model::mac140;
+    std::uint8_t address = 1;
+};
+
+struct RackOptions {
+    std::vector<UnitOptions> units = {{}};  ///< the first has the FastMAC line; all share the MacTalk line
+    std::uint32_t fastmac_baud = 19'200;
+    std::uint32_t mactalk_baud = 19'200;
+    bool old_register_codes = false;
+};
+
+/// Virtual motors on their lines, in virtual time: characters take their time in both directions, and the
+/// motors sample at their own rates. The same calls give the same bytes.
+class Rack {
+  public:
+    explicit Rack(const RackOptions& options);
+
+    Time now() const { return now_; }
+    /// What a client sends waits for the line to be free; beyond 64 KiB it is lost.
+    void send_fastmac(std::span<const std::uint8_t> bytes) { fastmac_.send(bytes); }
+    void send_mactalk(std::span<const std::uint8_t> bytes) { mactalk_.send(bytes); }
+    void advance(Time to);
+    /// What has arrived at the client since the last call.
+    std::vector<std::uint8_t> received_fastmac() { return std::move(fastmac_.received); }
+    std::vector<std::uint8_t> received_mactalk() { return std::move(mactalk_.received); }
+
+    std::size_t size() const { return units_.size(); }
+    MacMotor& motor(std::size_t unit) { return *units_[unit].motor; }
+    const MacMotor& motor(std::size_t unit) const { return *units_[unit].motor; }
+
+  private:
+    struct Unit {
+        std::unique_ptr<MacMotor> motor;
+        Time next_sample{0};
+    };
+    struct Line {
+        explicit Line(std::uint32_t baud) : to_motor(baud, 1), from_motor(baud, 1) {}
+        void send(std::span<const std::uint8_t> bytes);
+        void start(Time now);
+        void collect(Time now);
+        Time next_event(Time limit) const;
+
+        LineDirection to_motor;
+        LineDirection from_motor;
+        std::deque<std::uint8_t> waiting;
+        std::vector<std::uint8_t> received;
+    };
+
+    Time next_event(Time limit) const;
+    void serve_fastmac();
+    void serve_mactalk();
+
+    std::vector<Unit> units_;
+    Line fastmac_;
+    Line mactalk_;
+    Time now_{0};
+};
+
+}  // namespace nplc::sim

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "command_line.h"
+#include "hal_linux/byte_server.h"
+#include "rack.h"
+
+namespace nplc::sim {
+
+/// The rack with its clients and its flash files. Time is given: `advance` does all that happens until then.
+class Service {
+  public:
+    /// Opens everything; `error` says in one line what could not be.
+    Service(const MacsimOptions& options, std::string& error);
+
+    /// Bytes in, time on, bytes out, flash to its file. Answers what went wrong, or nothing.
+    std::string advance(Time to);
+
+    /// "fastmac: tcp:127.0.0.1:4001", a line each.
+    std::string endpoints() const;
+    /// One line about the motors, for a terminal.
+    std::string status() const;
+
+  private:
+    struct Flash {
+        std::string path;
+        std::uint32_t written = 0;
+    };
+    std::string open_flash(const MacsimOptions& options);
+    std::string keep_flash();
+
+    Rack rack_;
+    std::unique_ptr<hal_linux::ByteServer> fastmac_;
+    std::unique_ptr<hal_linux::ByteServer> mactalk_;
+    std::vector<Flash> flash_;
+};
+
+}  // namespace nplc::sim

@@ -1,0 +1,279 @@
+#!/usr/bin/env python3
+"""macsim from the outside: real terminals and sockets, bytes as clients in the field send them.
+
+usage: macsim_test.py PROGRAM
+"""
+
+import os
+import select
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import tty
+import unittest
+
+PROGRAM = ""
+LONG = 20  # seconds until something that must come is given up
+ACCEPT = bytes.fromhex("111111")
+
+
+def protected(*values):
+    return b"".join(bytes([value, value ^ 0xFF]) for value in values)
+
+
+def read_request(address, register):
+    return b"\x50" * 3 + protected(address, register) + b"\xAA\xAA"
+
+
+def write_request(address, register, value, length):
+    data = (value % (1 << 8 * length)).to_bytes(length, "little")
+    return b"\x52" * 3 + protected(address, register, length, *data) + b"\xAA\xAA"
+
+
+def command(kind, address):
+    return bytes([kind] * 3) + protected(address) + b"\xAA\xAA"
+
+
+def value_in(answer):
+    """The value in the answer to a read, after a look at all of its bytes."""
+    assert len(answer) == 19, answer.hex(" ")
+    assert answer[:5] == b"\x52\x52\x52\x00\xFF" and answer[-2:] == b"\xAA\xAA", answer.hex(" ")
+    assert all(answer[i] ^ answer[i + 1] == 0xFF for i in range(5, 17, 2)), answer.hex(" ")
+    return int.from_bytes(answer[9:17:2], "little")
+
+
+class Terminal:
+    def __init__(self, path):
+        self.fd = os.open(path, os.O_RDWR | os.O_NOCTTY)
+        tty.setraw(self.fd)
+
+    def send(self, data):
+        os.write(self.fd, data)
+
+    def receive(self, seconds):
+        ready, _, _ = select.select([self.fd], [], [], seconds)
+        return os.read(self.fd, 4096) if ready else b""
+
+    def close(self):
+        os.close(self.fd)
+
+
+class Socket:
+    def __init__(self, family, address):
+        self.socket = socket.socket(family)
+        self.socket.connect(address)
+
+    def send(self, data):
+        self.socket.sendall(data)
+
+    def receive(self, seconds):
+        self.socket.settimeout(seconds)
+        try:
+            return self.socket.recv(4096)
+        except TimeoutError:
+            return b""
+
+    def close(self):
+        self.socket.close()
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.running = []
+        self.clients = []
+
+    def tearDown(self):
+        for client in self.clients:
+            client.close()
+        for process in self.running:
+            process.kill()
+            process.communicate()
+        self.folder.cleanup()
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def start(self, *arguments):
+        """Runs it until it is ready; answers the process and what it printed before."""
+        process = subprocess.Popen([PROGRAM, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.running.append(process)
+        lines = []
+        for line in process.stdout:
+            if line == "ready\n":
+                return process, lines
+            lines.append(line.rstrip("\n"))
+        self.fail(f"ended before it was ready: {process.communicate()}")
+
+    def kept(self, client):
+        self.clients.append(client)
+        return client
+
+    def ask(self, client, request, length):
+        """Sends, and collects so many bytes of answer."""
+        client.send(request)
+        return self.collect(client, length)
+
+    def collect(self, client, length):
+        answer = b""
+        end = time.monotonic() + LONG
+        while len(answer) < length and time.monotonic() < end:
+            answer += client.receive(0.1)
+        self.assertEqual(len(answer), length, answer.hex(" "))
+        return answer
+
+
+class MacTalk(Case):
+    def on_all_endpoints(self):
+        process, _ = self.start("--model", "MAC140", "--address", "8", "--mactalk", "pty:" + self.path("tty"))
+        yield process, Terminal(self.path("tty"))
+        process, _ = self.start("--address", "8", "--mactalk", "unix:" + self.path("socket"))
+        yield process, Socket(socket.AF_UNIX, self.path("socket"))
+        process, lines = self.start("--address", "8", "--mactalk", "tcp:127.0.0.1:0")
+        port = int(lines[0].rsplit(":", 1)[1])
+        yield process, Socket(socket.AF_INET, ("127.0.0.1", port))
+
+    def test_the_quick_guides_examples_on_every_endpoint(self):
+        for process, client in self.on_all_endpoints():
+            self.assertEqual(self.ask(client, bytes.fromhex("52525208F705FA02FD58A702FDAAAA"), 3), ACCEPT)
+            answer = self.ask(client, bytes.fromhex("50505008F705FAAAAA"), 19)
+            self.assertEqual(answer[:13], bytes.fromhex("52525200FF05FA04FB58A702FD"))
+            client.close()
+            process.send_signal(signal.SIGTERM)
+            self.assertEqual(process.wait(LONG), 0)
+        self.assertFalse(os.path.lexists(self.path("tty")))
+        self.assertFalse(os.path.lexists(self.path("socket")))
+
+    def client(self, *arguments):
+        self.start(*arguments, "--mactalk", "pty:" + self.path("tty"))
+        return self.kept(Terminal(self.path("tty")))
+
+    def test_shapes_that_clients_send(self):
+        client = self.client("--address", "254")
+        # Exact and 4-byte writes; addresses 254 and 255.
+        self.assertEqual(self.ask(client, write_request(254, 5, 600, 2), 3), ACCEPT)
+        self.assertEqual(self.ask(client, write_request(255, 5, -600, 2), 3), ACCEPT)
+        self.assertEqual(value_in(self.ask(client, read_request(255, 5), 19)) & 0xFFFF, 0x10000 - 600)
+        self.assertEqual(self.ask(client, write_request(254, 5, 40 << 16 | 1000, 4), 3), ACCEPT)
+        self.assertEqual(value_in(self.ask(client, read_request(254, 5), 19)), 40 << 16 | 1000)
+        # A read right behind a write.
+        answer = self.ask(client, write_request(254, 49, -5000, 4) + read_request(254, 49), 22)
+        self.assertEqual(answer[:3], ACCEPT)
+        self.assertEqual(value_in(answer[3:]), (1 << 32) - 5000)
+        # Stray characters, a wrong length, the misprint, other units' messages: the next thing heard is the answer to the
+        # message after them.
+        for stray in (b"\x00", b"\r\n", b"\x50\x50", b"\x52" * 5, b"\x11" * 3, os.urandom(40)[:39] + b"\x00",
+                      bytes.fromhex("525252FE0105FA07F801FE00FFAAAA"), bytes.fromhex("505050FE0105F6AAAA"),
+                      read_request(7, 5), write_request(7, 5, 1, 2)):
+            client.send(stray)
+            self.assertEqual(value_in(self.ask(client, read_request(254, 5), 19)), 40 << 16 | 1000, stray)
+
+    def test_several_motors_on_one_line(self):
+        client = self.client("--model", "MAC140", "--address", "8", "--unit", "MAC95:9", "--unit", "MAC800:10")
+        for address, value, length in ((8, 111, 2), (9, 222, 2), (10, 333, 4)):
+            self.assertEqual(self.ask(client, write_request(address, 65, value, length), 3), ACCEPT)
+        for address, value in ((8, 111), (9, 222), (10, 333)):
+            self.assertEqual(value_in(self.ask(client, read_request(address, 65), 19)) & 0xFFFF, value)
+
+    def test_a_motor_moves(self):
+        client = self.client("--address", "8", "--speed", "20")
+        for register, value, length in ((5, 3000, 2), (3, 40960, 4), (2, 2, 2)):
+            self.assertEqual(self.ask(client, write_request(8, register, value, length), 3), ACCEPT)
+        end = time.monotonic() + LONG
+        position = 0
+        while position != 40960 and time.monotonic() < end:
+            position = value_in(self.ask(client, read_request(8, 10), 19))
+        self.assertEqual(position, 40960)
+        self.assertTrue(value_in(self.ask(client, read_request(8, 35), 19)) & 0x10, "in position")
+
+    def test_safe_mode_flash_and_reset(self):
+        client = self.client("--address", "8", "--flash", self.path("flash"))
+        self.ask(client, write_request(8, 65, 777, 2), 3)
+        self.assertEqual(self.ask(client, command(0x54, 8), 3), ACCEPT)
+        client.send(command(0x56, 8))
+        self.assertEqual(value_in(self.ask(client, read_request(8, 2), 19)) & 0xFFFF, 0)
+        with open(self.path("flash"), encoding="ascii") as file:
+            self.assertIn("65 = 777\n", file.read())
+        self.running[-1].kill()
+        self.running[-1].wait(LONG)
+        again = self.client("--address", "8", "--flash", self.path("flash"))
+        self.assertEqual(value_in(self.ask(again, read_request(8, 65), 19)) & 0xFFFF, 777)
+
+    def test_the_sample_buffer(self):
+        client = self.client("--address", "8", "--speed", "50")
+        self.ask(client, write_request(8, 112, 34, 2), 3)  # INPOSCNT, whose value does not change
+        count = value_in(self.ask(client, read_request(8, 34), 19)) & 0xFFFF
+        self.ask(client, write_request(8, 36, 3 | 0xC0, 2), 3)
+        end = time.monotonic() + LONG
+        while value_in(self.ask(client, read_request(8, 116), 19)) & 0xFFFF != 895:
+            self.assertLess(time.monotonic(), end)
+        self.ask(client, write_request(8, 36, 3 | 0x80, 2), 3)
+        for _ in range(895):
+            answer = self.ask(client, command(0x53, 8), 25)
+            self.assertEqual(answer[:7], bytes.fromhex("52525200FF08F7"))
+            self.assertEqual(answer[7], count)
+        self.assertEqual(value_in(self.ask(client, read_request(8, 116), 19)) & 0xFFFF, 895)
+
+
+class FastMac(Case):
+    def test_status_bytes_come_without_pause_and_a_command_is_taken(self):
+        self.start("--model", "MAC140", "--fastmac", "pty:" + self.path("tty"), "--mactalk",
+                   "unix:" + self.path("socket"))
+        motor = self.kept(Terminal(self.path("tty")))
+        person = self.kept(Socket(socket.AF_UNIX, self.path("socket")))
+        self.assertNotEqual(motor.receive(LONG), b"")
+        self.ask(person, write_request(1, 66, 2500, 2), 3)
+        motor.send(b"\xA9")  # toggle 1, velocity mode, V2 (001 §5.2.1.4: 01 01 001)
+        end = time.monotonic() + LONG
+        while value_in(self.ask(person, read_request(1, 5), 19)) & 0xFFFF != 2500:
+            self.assertLess(time.monotonic(), end)
+        while motor.receive(LONG)[-1] & 0x80 == 0:
+            self.assertLess(time.monotonic(), end, "the toggle is not echoed")
+
+
+class Mistakes(Case):
+    def refused(self, *arguments, says):
+        done = subprocess.run([PROGRAM, *arguments], capture_output=True, timeout=LONG, check=False, text=True)
+        self.assertEqual(done.returncode, 2, arguments)
+        self.assertEqual(done.stdout, "", arguments)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertIn(says, done.stderr)
+
+    def test_of_the_command_line(self):
+        end = ("--mactalk", "pty:" + self.path("x"))
+        self.refused(says="--fastmac EP")
+        self.refused("--model", "MAC145", *end, says="MAC145")
+        self.refused("--address", "0", *end, says="1 to 254")
+        self.refused("--address", "255", *end, says="1 to 254")
+        self.refused("--address", "x", *end, says="whole number")
+        self.refused("--unit", "MAC95", *end, says="MODEL:ADDRESS")
+        self.refused("--unit", "MAC95:1", *end, says="address 1")
+        self.refused("--speed", "0", *end, says="0.01 to 100")
+        self.refused("--baud", "5", *end, says="300 to")
+        self.refused("--wrong", *end, says="--wrong")
+        self.refused("--mactalk", "nowhere", says="nowhere")
+        self.refused("--mactalk", "pty:" + self.path("no/such"), says="no/such")
+        self.assertEqual(os.listdir(self.folder.name), [])
+
+    def test_of_files(self):
+        with open(self.path("flash"), "w", encoding="ascii") as file:
+            file.write("# parameter flash of a virtual MAC140\n65 = many\n")
+        self.refused("--flash", self.path("flash"), "--mactalk", "pty:" + self.path("x"), says="flash:2")
+        self.refused("--model", "MAC800", "--flash", self.path("flash"), "--mactalk", "pty:" + self.path("x"),
+                     says="MAC800")
+        self.start("--mactalk", "unix:" + self.path("socket"))
+        self.refused("--mactalk", "unix:" + self.path("socket"), says="another program")
+
+    def test_help_is_there(self):
+        done = subprocess.run([PROGRAM, "--help"], capture_output=True, timeout=LONG, check=False, text=True)
+        self.assertEqual(done.returncode, 0)
+        for word in ("--model", "--fastmac", "--mactalk", "pty:PATH", "ready", "Exit code"):
+            self.assertIn(word, done.stdout)
+
+
+if __name__ == "__main__":
+    PROGRAM = sys.argv.pop(1)
+    unittest.main(verbosity=2)

@@ -1,0 +1,221 @@
+#include "hal_linux/byte_server.h"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace nplc::hal_linux {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ByteServerTest : public ::testing::Test {
+  protected:
+    ByteServerTest() {
+        std::string folder = fs::temp_directory_path() / "byte_server_XXXXXX";
+        folder_ = ::mkdtemp(folder.data());
+    }
+    ~ByteServerTest() override { fs::remove_all(folder_); }
+
+    std::string path(const std::string& name) const { return folder_ / name; }
+
+    static std::unique_ptr<ByteServer> open(const std::string& endpoint) {
+        auto opened = ByteServer::open(endpoint);
+        EXPECT_EQ(opened.error, "");
+        return std::move(opened.server);
+    }
+
+    fs::path folder_;
+};
+
+/// Waits for what is on its way inside the kernel.
+bool readable(int descriptor) {
+    pollfd state{.fd = descriptor, .events = POLLIN, .revents = 0};
+    return ::poll(&state, 1, 5000) == 1;
+}
+
+std::string read_from(int descriptor) {
+    std::array<char, 100> buffer{};
+    if (!readable(descriptor)) return "nothing came";
+    const ssize_t count = ::read(descriptor, buffer.data(), buffer.size());
+    return count > 0 ? std::string(buffer.data(), static_cast<std::size_t>(count)) : std::string();
+}
+
+void write_to(int descriptor, const std::string& text) {
+    ASSERT_EQ(::write(descriptor, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+}
+
+void send_to(ByteServer& server, const std::string& text) {
+    server.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+std::string received(ByteServer& server) {
+    std::array<std::uint8_t, 100> buffer{};
+    if (!readable(server.descriptor())) return "nothing came";
+    const std::size_t count = server.read(buffer);
+    return {buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
+int connect_unix(const std::string& path) {
+    const int client = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    path.copy(address.sun_path, sizeof address.sun_path - 1);
+    EXPECT_EQ(::connect(client, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    return client;
+}
+
+int connect_tcp(const std::string& name) {
+    const int client = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(std::stoi(name.substr(name.rfind(':') + 1))));
+    ::inet_pton(AF_INET, "127.0.0.1", &address.sin_addr);
+    EXPECT_EQ(::connect(client, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    return client;
+}
+
+// 0Ah, 0Dh, 11h, 13h, 03h and 04h are what a terminal that is not raw would change or swallow.
+const std::string kAllBytes("\x0A\x0D\x11\x13\x03\x04\x00\xFF\x7F text", 14);
+
+void expect_exchange(ByteServer& server, int client) {
+    write_to(client, kAllBytes);
+    EXPECT_EQ(received(server), kAllBytes);
+    EXPECT_TRUE(server.has_client());
+    send_to(server, kAllBytes);
+    EXPECT_EQ(read_from(client), kAllBytes);
+}
+
+TEST_F(ByteServerTest, PtyPassesEveryByte) {
+    const auto server = open("pty:" + path("motor"));
+    EXPECT_EQ(server->name(), "pty:" + path("motor"));
+    EXPECT_TRUE(fs::is_symlink(path("motor")));
+    const int client = ::open(path("motor").c_str(), O_RDWR | O_NOCTTY);
+    ASSERT_GE(client, 0);
+    expect_exchange(*server, client);
+    ::close(client);
+}
+
+TEST_F(ByteServerTest, PtyForgetsWhatNobodyTook) {
+    const auto server = open("pty:" + path("motor"));
+    EXPECT_FALSE(server->has_client());
+    send_to(*server, "old");
+    for (int round = 0; round < 2; ++round) {
+        const int client = ::open(path("motor").c_str(), O_RDWR | O_NOCTTY);
+        EXPECT_TRUE(server->has_client());
+        send_to(*server, "new");
+        EXPECT_EQ(read_from(client), "new");
+        ::close(client);
+        EXPECT_FALSE(server->has_client());
+        send_to(*server, "old");
+    }
+}
+
+TEST_F(ByteServerTest, PtyDoesNotBlockWhenItsClientDoesNotRead) {
+    const auto server = open("pty:" + path("motor"));
+    const int client = ::open(path("motor").c_str(), O_RDWR | O_NOCTTY);
+    for (int i = 0; i < 10'000; ++i) send_to(*server, "0123456789");
+    EXPECT_FALSE(read_from(client).empty());
+    ::close(client);
+}
+
+TEST_F(ByteServerTest, PtyReplacesALinkAndNothingElse) {
+    fs::create_symlink("/dev/pts/no_such", path("motor"));
+    auto server = open("pty:" + path("motor"));
+    server.reset();
+    EXPECT_FALSE(fs::is_symlink(path("motor")));
+    std::ofstream(path("file")) << "precious";
+    const auto refused = ByteServer::open("pty:" + path("file"));
+    EXPECT_EQ(refused.server, nullptr);
+    EXPECT_NE(refused.error.find(path("file")), std::string::npos) << refused.error;
+    EXPECT_EQ(fs::file_size(path("file")), 8U);
+    EXPECT_NE(ByteServer::open("pty:" + path("no/such/folder")).error, "");
+}
+
+TEST_F(ByteServerTest, UnixSocketPassesEveryByteAndGoesAway) {
+    auto server = open("unix:" + path("socket"));
+    const int client = connect_unix(path("socket"));
+    expect_exchange(*server, client);
+    ::close(client);
+    EXPECT_EQ(received(*server), "");
+    EXPECT_FALSE(server->has_client());
+    send_to(*server, "lost");
+    const int second = connect_unix(path("socket"));
+    expect_exchange(*server, second);
+    ::close(second);
+    server.reset();
+    EXPECT_FALSE(fs::exists(path("socket")));
+}
+
+TEST_F(ByteServerTest, ASecondClientIsTurnedAway) {
+    const auto server = open("unix:" + path("socket"));
+    const int first = connect_unix(path("socket"));
+    expect_exchange(*server, first);
+    const int second = connect_unix(path("socket"));
+    EXPECT_TRUE(server->has_client());
+    EXPECT_EQ(read_from(second), "");
+    expect_exchange(*server, first);
+    ::close(first);
+    ::close(second);
+}
+
+TEST_F(ByteServerTest, AClientThatHungUpMakesRoomAtOnce) {
+    const auto server = open("unix:" + path("socket"));
+    const int first = connect_unix(path("socket"));
+    EXPECT_TRUE(server->has_client());
+    ::close(first);
+    const int second = connect_unix(path("socket"));
+    expect_exchange(*server, second);
+    ::close(second);
+}
+
+TEST_F(ByteServerTest, AStaleSocketIsReplacedALiveOneIsNot) {
+    {
+        const int dead = ::socket(AF_UNIX, SOCK_STREAM, 0);
+        sockaddr_un address{};
+        address.sun_family = AF_UNIX;
+        path("socket").copy(address.sun_path, sizeof address.sun_path - 1);
+        ASSERT_EQ(::bind(dead, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+        ::close(dead);
+    }
+    const auto server = open("unix:" + path("socket"));
+    EXPECT_NE(ByteServer::open("unix:" + path("socket")).error, "");
+    const int client = connect_unix(path("socket"));
+    expect_exchange(*server, client);
+    ::close(client);
+}
+
+TEST_F(ByteServerTest, TcpPassesEveryByteAndTellsItsPort) {
+    const auto server = open("tcp:127.0.0.1:0");
+    EXPECT_NE(server->name(), "tcp:127.0.0.1:0");
+    const int client = connect_tcp(server->name());
+    expect_exchange(*server, client);
+    ::close(client);
+    EXPECT_NE(ByteServer::open(server->name()).error, "") << "the port is taken";
+}
+
+TEST_F(ByteServerTest, WhatIsNoEndpointIsNamed) {
+    for (const char* wrong :
+         {"", "pty", "pty:", "serial:/dev/x", "tcp:127.0.0.1", "tcp:127.0.0.1:", "tcp:1.2.3:5",
+          "tcp:127.0.0.1:65536", "tcp:127.0.0.1:12x", "tcp:host:80", "/dev/ttyS0"}) {
+        const auto opened = ByteServer::open(wrong);
+        EXPECT_EQ(opened.server, nullptr) << wrong;
+        EXPECT_NE(opened.error.find(wrong), std::string::npos) << opened.error;
+        EXPECT_EQ(opened.error.find('\n'), std::string::npos) << opened.error;
+    }
+    EXPECT_NE(ByteServer::open("unix:" + std::string(200, 'x')).error, "");
+}
+
+}  // namespace
+}  // namespace nplc::hal_linux

@@ -1,0 +1,116 @@
+#include "rack.h"
+
+#include <gtest/gtest.h>
+
+#include "protocol/mactalk.h"
+
+namespace nplc::sim {
+namespace {
+
+namespace mactalk = protocol::mactalk;
+using registers::Model;
+
+constexpr Time kStep = std::chrono::microseconds{250};
+
+Time characters(std::int64_t count, std::int64_t baud = 19'200) {
+    return Time{count * 10'000'000'000 / baud};
+}
+
+std::vector<std::uint8_t> read_request(std::uint8_t address, std::uint8_t reg) {
+    const auto encoded = mactalk::encode({.kind = mactalk::Kind::read, .address = address, .reg = reg});
+    return {encoded.view().begin(), encoded.view().end()};
+}
+
+/// When the answer was whole.
+Time until_answered(Rack& rack, std::size_t bytes) {
+    std::size_t got = 0;
+    while (got < bytes && rack.now() < std::chrono::seconds{5}) {
+        rack.advance(rack.now() + kStep);
+        got += rack.received_mactalk().size();
+    }
+    EXPECT_EQ(got, bytes);
+    return rack.now();
+}
+
+// 9 characters there and 19 back, 10 bits each.
+TEST(Rack, AReadTakesItsTimeOnTheLine) {
+    for (const std::uint32_t baud : {9'600U, 19'200U, 38'400U}) {
+        Rack rack({.units = {{Model::mac140, 8}}, .mactalk_baud = baud});
+        rack.send_mactalk(read_request(8, 10));
+        const Time took = until_answered(rack, 19);
+        EXPECT_GE(took, characters(28, baud));
+        EXPECT_LE(took, characters(28, baud) + 2 * kStep);
+    }
+}
+
+// 1,920 characters a second.
+TEST(Rack, TheFastMacLineIsNeverIdle) {
+    Rack rack({});
+    rack.advance(std::chrono::seconds{1});
+    const auto count = static_cast<int>(rack.received_fastmac().size());
+    EXPECT_GE(count, 1918);
+    EXPECT_LE(count, 1920);
+}
+
+TEST(Rack, MotorsSampleAtTheirOwnRates) {
+    Rack rack({.units = {{Model::mac140, 1}, {Model::mac800, 2}}});
+    for (std::size_t i = 0; i < 2; ++i) {
+        rack.motor(i).write(registers::V_SOLL, 1600);
+        rack.motor(i).write(registers::MODE_REG, 1);
+    }
+    rack.advance(std::chrono::seconds{2});
+    // 1600 is 100 counts a sample: 520.83 x 60 / 4096 x 100 = 763 rpm; 770 x 60 / 8000 x 100 = 577.5 rpm.
+    EXPECT_NEAR(rack.motor(0).rpm(), 763, 8);
+    EXPECT_NEAR(rack.motor(1).rpm(), 577.5, 6);
+}
+
+TEST(Rack, EachUnitAnswersForItself) {
+    Rack rack({.units = {{Model::mac140, 1}, {Model::mac95, 2}}});
+    rack.motor(1).write(registers::V1, 222);
+    rack.send_mactalk(read_request(2, registers::V1));
+    rack.advance(std::chrono::milliseconds{50});
+    const auto answer = rack.received_mactalk();
+    ASSERT_EQ(answer.size(), 19U);
+    EXPECT_EQ(answer[9], 222);
+}
+
+TEST(Rack, AnswersToEveryoneDisturbEachOther) {
+    Rack rack({.units = {{Model::mac140, 1}, {Model::mac95, 2}}});
+    rack.motor(0).write(registers::V1, 0x0F);
+    rack.motor(1).write(registers::V1, 0x3C);
+    rack.send_mactalk(read_request(mactalk::kEveryone, registers::V1));
+    rack.advance(std::chrono::milliseconds{50});
+    const auto answer = rack.received_mactalk();
+    ASSERT_EQ(answer.size(), 19U);
+    EXPECT_EQ(answer[9], 0x0F & 0x3C);
+    EXPECT_EQ(answer[10], (0xFF & ~0x0F) & (0xFF & ~0x3C));
+}
+
+TEST(Rack, TheSameCallsGiveTheSameBytes) {
+    const auto run = [] {
+        Rack rack({.units = {{Model::mac140, 1}, {Model::mac800, 2}}});
+        std::vector<std::uint8_t> all;
+        for (int i = 0; i < 200; ++i) {
+            rack.send_mactalk(read_request(static_cast<std::uint8_t>(1 + i % 3), registers::P_IST));
+            rack.advance(rack.now() + std::chrono::microseconds{1 + 997 * i});
+            for (const auto& bytes : {rack.received_mactalk(), rack.received_fastmac()})
+                all.insert(all.end(), bytes.begin(), bytes.end());
+        }
+        return all;
+    };
+    EXPECT_EQ(run(), run());
+}
+
+TEST(Rack, AClientThatFloodsLosesBytesAndNothingElse) {
+    Rack rack({.units = {{Model::mac140, 8}}, .mactalk_baud = 1'000'000});
+    const std::vector<std::uint8_t> noise(200'000, 0x50);
+    rack.send_mactalk(noise);
+    rack.advance(std::chrono::seconds{2});
+    rack.received_mactalk();
+    rack.send_mactalk(read_request(8, 10));
+    rack.advance(rack.now() + std::chrono::milliseconds{10});
+    EXPECT_EQ(rack.received_mactalk().size(), 19U);
+}
+
+}  // namespace
+}  // namespace nplc::sim
