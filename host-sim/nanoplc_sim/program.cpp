@@ -24,12 +24,8 @@ Names names_of(const seqc::Symbols& symbols) {
 
 std::string rendered(const seqc::Compilation& compilation, const std::string& source,
                      const std::string& file) {
-    std::string text;
-    for (const seqc::Diagnostic& diagnostic : compilation.diagnostics) {
-        std::string one = seqc::render(diagnostic, source, file);
-        while (one.ends_with('\n')) one.pop_back();
-        text += (text.empty() ? "" : "\n") + one;
-    }
+    std::string text = seqc::render_all(compilation, source, file);
+    while (text.ends_with('\n')) text.pop_back();
     return text;
 }
 

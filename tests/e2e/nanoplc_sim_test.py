@@ -372,6 +372,15 @@ class Source(Case):
         self.assertEqual(done.returncode, 2)
         self.assertEqual(done.stdout, b"")
         self.assertIn("bad.seq:7:", done.stderr.decode())
+        self.assertTrue(done.stderr.decode().endswith("bad.seq: 1 error, 0 warnings\n"))
+
+    def test_many_mistakes_of_a_source_are_said_to_be_more(self):
+        steps = "STEP S: IF Q THEN NEXT := Z; END_IF END_STEP\n" * 500
+        done = self.call("run", self.write("bad.seq", "PROGRAM P\n" + steps + "END_PROGRAM\n"))
+        self.assertEqual(done.returncode, 2)
+        lines = done.stderr.decode().splitlines()[-2:]
+        self.assertIn("there are more; only 100 are shown", lines[0])
+        self.assertTrue(lines[1].endswith("bad.seq: 100 errors, 0 warnings"), lines[1])
 
 
 class Realtime(Case):

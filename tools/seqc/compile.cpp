@@ -49,7 +49,8 @@ Compilation compile(std::string_view source) {
     Compilation result;
     Report report;
     if (source.size() > kLongestSource) {
-        report.error("E003", {}, "the file is larger than 16 MiB: this is no program");
+        report.error("E001", {}, "the file is larger than 16 MiB: this is no program",
+                     "name the program's text, a .seq file");
         result.diagnostics = report.take();
         return result;
     }
@@ -59,7 +60,10 @@ Compilation compile(std::string_view source) {
     Scope scope(program, source, checks, result);
     const Plan plan = check(program, scope, checks);
     if (!plan.steps.empty()) result.symbols.steps[0] = plan.steps.front().name;
-    if (syntax_sound && !checks.has_errors()) check_motor_state(plan, checks);
+    if (syntax_sound && !checks.has_errors()) {
+        check_motor_state(plan, result.symbols.motor, checks);
+        check_invisible_limits(plan, result.symbols.motor, checks);
+    }
     std::vector<LoweredTerm> terms;
     if (syntax_sound && !checks.has_errors()) {
         const std::vector<std::uint8_t> outputs = outputs_of_steps(plan);

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 
 #include "cli/files.h"
@@ -11,6 +14,24 @@ namespace nplc::seqc::cli {
 
 namespace fs = std::filesystem;
 
+ColourChoice& colour_choice() {
+    static ColourChoice choice = ColourChoice::automatic;
+    return choice;
+}
+
+Colour colour_of(std::FILE* stream) {
+    const ColourChoice choice = colour_choice();
+    if (choice != ColourChoice::automatic) return choice == ColourChoice::always ? Colour::on : Colour::off;
+    const char* refused = std::getenv("NO_COLOR");
+    const bool wanted = (refused == nullptr || *refused == '\0') && ::isatty(::fileno(stream)) != 0;
+    return wanted ? Colour::on : Colour::off;
+}
+
+std::string painted(std::FILE* stream, std::string_view code, std::string_view text) {
+    if (colour_of(stream) == Colour::off) return std::string(text);
+    return fmt::format("\x1b[{}m{}\x1b[0m", code, text);
+}
+
 int file_problem(const std::string& message) {
     fmt::print(stderr, "seqc: {}\n", message);
     return kUsageOrFile;
@@ -18,18 +39,7 @@ int file_problem(const std::string& message) {
 
 void print_diagnostics(const Compilation& compilation, std::string_view source,
                        const std::string& file_name) {
-    std::size_t errors = 0;
-    std::size_t warnings = 0;
-    for (const auto& diagnostic : compilation.diagnostics) {
-        fmt::print(stderr, "{}", render(diagnostic, source, file_name));
-        ++(diagnostic.severity == Severity::error ? errors : warnings);
-    }
-    if (errors + warnings == 0) return;
-    if (compilation.more_diagnostics)
-        fmt::print(stderr, "{}: there are more; only {} are shown, mend these first\n", file_name,
-                   errors + warnings);
-    fmt::print(stderr, "{}: {} error{}, {} warning{}\n", file_name, errors, errors == 1 ? "" : "s", warnings,
-               warnings == 1 ? "" : "s");
+    fmt::print(stderr, "{}", render_all(compilation, source, file_name, colour_of(stderr)));
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {

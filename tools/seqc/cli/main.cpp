@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <map>
 #include <string>
 
 #include "cli/common.h"
@@ -15,6 +16,18 @@ std::string one_line(std::string text) {
     return text;
 }
 
+void add_colour_option(CLI::App& app) {
+    using nplc::seqc::cli::ColourChoice;
+    const std::map<std::string, ColourChoice> choices = {
+        {"auto", ColourChoice::automatic}, {"always", ColourChoice::always}, {"never", ColourChoice::never}};
+    app.fallthrough();  // it may stand behind the subcommand too
+    app.add_option_function<std::string>(
+           "--color",
+           [choices](const std::string& text) { nplc::seqc::cli::colour_choice() = choices.at(text); },
+           "Colours: auto (on a terminal, unless NO_COLOR is set), always or never")
+        ->check(CLI::IsMember({"auto", "always", "never"}));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -26,11 +39,14 @@ int main(int argc, char** argv) {
     app.footer(
         "Exit codes: 0 done (warnings do not count), 1 the program has errors and nothing was written,\n"
         "2 wrong usage or a file that cannot be read, written or understood.\n"
+        "`seqc explain E012` tells more about a code.\n"
         "The language is described in tools/seqc/README.md; examples are in tools/seqc/examples.");
+    add_colour_option(app);
     int exit_code = kOk;
     add_build(app, exit_code);
     add_check(app, exit_code);
     add_disasm(app, exit_code);
+    add_explain(app, exit_code);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -8,5 +8,6 @@ namespace nplc::seqc::cli {
 void add_build(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_disasm(CLI::App& app, int& exit_code);
+void add_explain(CLI::App& app, int& exit_code);
 
 }  // namespace nplc::seqc::cli

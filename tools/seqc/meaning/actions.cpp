@@ -24,11 +24,11 @@ int rank(Group group, Mode mode) {
     return 1;
 }
 
-void conflict(Report& report, Span span, const char* what, Span other) {
+void conflict(Report& report, Span span, const char* what, Span entry) {
     report
         .error("E061", span, fmt::format("{} twice in the same scan", what),
-               "only the last would count: keep one")
-        .notes.push_back({other, "the other one is here"});
+               "only the last would count: keep one, here or in the ENTRY")
+        .notes.push_back({entry, "the ENTRY of the step that is entered does it too"});
 }
 
 bool uses_counter(const Action& action) {
@@ -55,7 +55,8 @@ Action ActionBuilder::build(const std::vector<Statement>& statements) {
 }
 
 void ActionBuilder::add(const Statement& statement) {
-    if (statement.every_scan && !marked_) marked_ = statement.every_scan_span;
+    if (statement.every_scan && !marked_ && statement.kind != Statement::Kind::next)
+        marked_ = statement.every_scan_span;
     if (!statement.every_scan && !unmarked_ && statement.kind != Statement::Kind::next)
         unmarked_ = statement.span;
     switch (statement.kind) {
@@ -72,19 +73,25 @@ void ActionBuilder::add(const Statement& statement) {
         case Statement::Kind::counter:
             return add_counter(statement);
         case Statement::Kind::count_down:
-            if (once(uses_counter(action_), statement, "the counter is changed")) action_.counts_down = true;
+            if (once(uses_counter(action_), statement, "the counter is changed", action_.counter_span))
+                action_.counts_down = true;
             return;
         case Statement::Kind::clear_counter:
-            if (once(uses_counter(action_), statement, "the counter is changed"))
+            if (once(uses_counter(action_), statement, "the counter is changed", action_.counter_span))
                 action_.clears_counter = true;
             return;
     }
 }
 
-bool ActionBuilder::once(bool already, const Statement& statement, const char* what) {
-    if (!already) return true;
-    scope_.report().error("E061", statement.span, fmt::format("{} twice in the same branch", what),
-                          "only the last would count: keep one");
+bool ActionBuilder::once(bool already, const Statement& statement, const char* what, Span& place) {
+    if (!already) {
+        place = statement.span;
+        return true;
+    }
+    scope_.report()
+        .error("E061", statement.span, fmt::format("{} twice in the same branch", what),
+               "only the last would count: keep one")
+        .notes.push_back({place, "the first one is here"});
     return false;
 }
 
@@ -95,7 +102,7 @@ void ActionBuilder::add_next(const Statement& statement) {
     }
     const bool to_power_up = same_name(statement.name.text, "POWER_UP");
     const auto number = to_power_up ? std::optional<std::uint8_t>(0) : scope_.step(statement.name);
-    if (!once(action_.next.has_value(), statement, "NEXT is set")) return;
+    if (!once(action_.next.has_value(), statement, "NEXT is set", action_.next_span)) return;
     // A step that does not exist was reported; 62 keeps the branch one that leaves its step.
     action_.next = number.value_or(sequencer::kNoSwitch);
 }
@@ -120,10 +127,13 @@ void ActionBuilder::add_command(const Statement& statement) {
         std::string help = suggestion(statement.name.text, command_names());
         if (scope_.find_register(statement.name.text) != nullptr)
             help = "to write a register: Name := value;";
+        if (scope_.is_input(statement.name.text)) help = "inputs are tested: IF Name THEN ... END_IF";
         if (scope_.is_output(statement.name.text)) help = "to switch an output: OUT Name; in the step";
         if (help.empty())
             help =
-                "motor commands are INIT(..), VELOCITY(..), POSITION(..), STOP, HOME, RESET_ERROR and others";
+                "motor commands are INIT(..), VELOCITY(..), POSITION(..), STOP, HOME, RESET_ERROR and "
+                "others; "
+                "`seqc explain E021` lists them";
         scope_.report().error("E021", statement.name.span,
                               fmt::format("there is no command '{}'", statement.name.text), help);
         return;
@@ -163,25 +173,30 @@ void ActionBuilder::add_selections(const Statement& statement, Mode mode) {
         return;
     }
     std::vector<Selection> selections;
+    std::vector<Span> places;
     for (const ast::Name& argument : statement.arguments) {
         const registers::Register* reg = scope_.reg(argument);
         if (reg == nullptr) continue;
         const auto selection = selection_of(reg->number);
         if (!selection) {
-            scope_.report().error(
+            Diagnostic& d = scope_.report().error(
                 "E050", argument.span, fmt::format("{} cannot be selected", argument.text),
                 "registers to select are P1..P8, V1..V8, A1..A4, T1..T4, L1..L4 and Z1..Z4");
+            scope_.note_declaration(d, argument.text);
             continue;
         }
-        const bool twice = std::any_of(selections.begin(), selections.end(),
-                                       [&](const Selection& s) { return s.group == selection->group; });
-        if (twice) {
-            scope_.report().error("E050", argument.span,
-                                  "two registers of the same kind cannot be selected at once",
-                                  "keep one of them");
+        const auto earlier = std::find_if(selections.begin(), selections.end(),
+                                          [&](const Selection& s) { return s.group == selection->group; });
+        if (earlier != selections.end()) {
+            scope_.report()
+                .error("E050", argument.span, "two registers of the same kind cannot be selected at once",
+                       "keep one of them")
+                .notes.push_back({places[static_cast<std::size_t>(earlier - selections.begin())],
+                                  "the first one is here"});
             continue;
         }
         selections.push_back(*selection);
+        places.push_back(argument.span);
     }
     std::stable_sort(selections.begin(), selections.end(), [&](const Selection& a, const Selection& b) {
         return rank(a.group, mode) < rank(b.group, mode);
@@ -211,14 +226,16 @@ std::optional<std::uint16_t> ActionBuilder::milliseconds(const ast::Value& value
     if (std::fabs(rounded - ms) > 0.01 * ms) {
         scope_.report().warning(
             "W002", value.span,
-            fmt::format("the timer counts whole milliseconds: this becomes {} ms", rounded));
+            fmt::format("the timer counts whole milliseconds: this becomes {} ms", rounded),
+            fmt::format("write T#{}ms if that will do", rounded));
     }
     return static_cast<std::uint16_t>(rounded);
 }
 
 void ActionBuilder::add_timer(const Statement& statement) {
     const auto ms = milliseconds(statement.value);
-    if (ms && once(action_.timer.has_value(), statement, "the timer is set")) action_.timer = ms;
+    if (ms && once(action_.timer.has_value(), statement, "the timer is set", action_.timer_span))
+        action_.timer = ms;
 }
 
 void ActionBuilder::add_counter(const Statement& statement) {
@@ -229,7 +246,7 @@ void ActionBuilder::add_counter(const Statement& statement) {
                               "for more, count in tens or hundreds");
         return;
     }
-    if (!once(uses_counter(action_), statement, "the counter is changed")) return;
+    if (!once(uses_counter(action_), statement, "the counter is changed", action_.counter_span)) return;
     if (value.number == 0) {
         action_.clears_counter = true;  // a preset of 0 presets nothing (001 §6.1.7)
     } else {
@@ -239,9 +256,10 @@ void ActionBuilder::add_counter(const Statement& statement) {
 
 void append_entry(Action& action, const Action& entry, Report& report) {
     action.sends.insert(action.sends.end(), entry.sends.begin(), entry.sends.end());
-    if (action.timer && entry.timer) conflict(report, action.span, "the timer is set", entry.span);
+    if (action.timer && entry.timer)
+        conflict(report, action.timer_span, "the timer is set", entry.timer_span);
     if (uses_counter(action) && uses_counter(entry))
-        conflict(report, action.span, "the counter is changed", entry.span);
+        conflict(report, action.counter_span, "the counter is changed", entry.counter_span);
     if (entry.timer) action.timer = entry.timer;
     if (entry.counter) action.counter = entry.counter;
     action.clears_counter = action.clears_counter || entry.clears_counter;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "meaning/actions.h"
 #include "sequencer/term.h"
@@ -110,6 +111,7 @@ class Checker {
         Rule rule;
         rule.when = error_cases();
         rule.action.span = program_.on_error->span;
+        rule.condition = program_.on_error->span;
         rule.action.sends = before;
         enter(rule.action, *fault_);
         return rule;
@@ -142,7 +144,7 @@ class Checker {
         const std::vector<Send>& values = scope_.initial_values();
         action.sends.insert(action.sends.begin(), values.begin(), values.end());
         enter(action, *action.next);
-        plan.rules.push_back({no_error_cases(), action});
+        plan.rules.push_back({no_error_cases(), action, {}});
         if (fault_) plan.rules.push_back(fault_rule(values));
         return plan;
     }
@@ -186,19 +188,25 @@ class Checker {
         for (const ast::RawTerm& term : written.terms) {
             plan.terms.push_back(raw_term(term));
             if ((term.bytes[0] & 0x3F) == number) continue;
-            report_.error(
+            Diagnostic& d = report_.error(
                 "E092", term.span,
                 fmt::format("this term is for step {}, and '{}' is step {}", term.bytes[0] & 0x3F, plan.name,
                             number),
-                fmt::format("its first byte must end in {:02X}, or write the TERM outside of the step",
-                            number));
+                fmt::format(
+                    "bits 5..0 of its first byte must be 16#{:02X}, or write the TERM outside of the step",
+                    number));
+            d.notes.push_back({plan.span, "steps are numbered in the order they stand, from 1"});
         }
         return plan;
     }
 
     void add_outputs(const ast::Step& written, StepPlan& plan) {
+        std::array<Span, 4> places{};
         for (const ast::Name& name : written.outputs) {
-            if (const auto bit = scope_.output(name)) plan.outputs |= static_cast<std::uint8_t>(1U << *bit);
+            const auto bit = scope_.output(name);
+            if (!bit) continue;
+            plan.outputs |= static_cast<std::uint8_t>(1U << *bit);
+            places.at(*bit) = name.span;
         }
         for (const ast::ConditionalOutput& conditional : written.conditional) {
             ConditionalOutput output;
@@ -209,9 +217,10 @@ class Checker {
                 if (!bit) continue;
                 output.outputs |= static_cast<std::uint8_t>(1U << *bit);
                 if ((plan.outputs >> *bit) & 1) {
-                    report_.warning("W008", name.span,
-                                    fmt::format("'{}' is on in this step anyway", name.text),
-                                    "take it out of one of the two OUT");
+                    report_
+                        .warning("W008", name.span, fmt::format("'{}' is on in this step anyway", name.text),
+                                 "take it out of one of the two OUT")
+                        .notes.push_back({places.at(*bit), "switched on here"});
                 }
             }
             plan.conditional.push_back(output);
@@ -220,15 +229,17 @@ class Checker {
 
     void add_choice(const ast::Choice& choice, std::size_t index, StepPlan& plan, std::vector<Seen>& seen) {
         Truth taken;
+        std::vector<Rule> before;
         for (const ast::Branch& branch : choice.branches) {
-            const std::size_t errors_before = report_.error_count();
+            const std::size_t errors_before = report_.error_count() + scope_.faulty_names_met();
             Truth own = branch.condition ? scope_.truth_of(*branch.condition) : always();
             if (!branch.condition || !names_error(*branch.condition)) own &= no_error_cases();
-            const bool condition_sound = report_.error_count() == errors_before;
-            Rule rule{own & ~taken, branch_action(branch, plan.number)};
+            const bool condition_sound = report_.error_count() + scope_.faulty_names_met() == errors_before;
+            Rule rule{own & ~taken, branch_action(branch, plan.number), place_of(branch)};
             taken |= own;
+            before.push_back({own, {}, rule.condition});
             if (rule.when.none()) {
-                if (condition_sound) warn_never(branch, own);
+                if (condition_sound) warn_never(branch, own, before);
             } else if (!rule.action.is_empty()) {
                 check_error_covered(branch, rule, plan);
                 add_rule(std::move(rule), branch, index, plan, seen);
@@ -236,11 +247,23 @@ class Checker {
         }
     }
 
-    void warn_never(const ast::Branch& branch, const Truth& own) {
-        const Span span = branch.condition ? branch.condition->span : branch.span;
-        report_.warning(
-            "W001", span, "this branch is never taken",
-            own.none() ? "its condition contradicts itself" : "the branches before it take every case");
+    static Span place_of(const ast::Branch& branch) {
+        return branch.condition ? branch.condition->span : branch.span;
+    }
+
+    void warn_never(const ast::Branch& branch, const Truth& own, const std::vector<Rule>& up_to_it) {
+        if (own.none()) {
+            report_.warning("W001", place_of(branch), "this branch is never taken",
+                            "its condition contradicts itself: mend it, or take the branch out");
+            return;
+        }
+        Diagnostic& d = report_.warning("W001", place_of(branch), "this branch is never taken",
+                                        "the branches before it take every case: put it before them, or "
+                                        "take it out");
+        for (std::size_t i = 0; i + 1 < up_to_it.size(); ++i) {
+            if ((up_to_it[i].when & own).any())
+                d.notes.push_back({up_to_it[i].condition, "this one comes first"});
+        }
     }
 
     Action branch_action(const ast::Branch& branch, std::uint8_t number) {
@@ -250,21 +273,30 @@ class Checker {
         if (action.next) enter(action, *action.next);
         if (leaves) {
             if (const auto marked = builder.marked()) {
-                report_.warning("W006", *marked, "the branch leaves the step, so this happens once anyway",
-                                "leave EVERY_SCAN out");
+                report_
+                    .warning("W006", *marked, "the branch leaves the step, so this happens once anyway",
+                             "leave EVERY_SCAN out")
+                    .notes.push_back({action.next_span, "it leaves the step here"});
             }
             return action;
         }
         const bool repeats_entry = action.next && !entries_[number - 1U].is_empty();
-        if (builder.unmarked() || repeats_entry) {
-            const Span span = builder.unmarked() ? *builder.unmarked() : action.span;
+        if (builder.unmarked()) {
             Diagnostic& d = report_.error(
-                "E060", span,
+                "E060", *builder.unmarked(),
                 action.next ? "the branch stays in its step, so this would happen again in every scan"
                             : "without NEXT this would happen again in every scan",
                 "go on to another step with NEXT, or write EVERY_SCAN in front if that is what you want");
+            if (action.next) d.notes.push_back({action.next_span, "this names the step it is in already"});
             if (repeats_entry)
                 d.notes.push_back({entries_[number - 1U].span, "the step's ENTRY would be repeated too"});
+        } else if (repeats_entry) {
+            report_
+                .error("E060", action.next_span,
+                       "this would enter the same step in every scan, and its ENTRY would happen again each "
+                       "time",
+                       "to stay in the step leave NEXT out, or go on to another one")
+                .notes.push_back({entries_[number - 1U].span, "the ENTRY is here"});
         }
         return action;
     }
@@ -272,8 +304,7 @@ class Checker {
     void check_error_covered(const ast::Branch& branch, const Rule& rule, const StepPlan& plan) {
         if (plan.own_error || !program_.on_error || (rule.when & error_cases()).none()) return;
         report_
-            .error("E082", branch.condition ? branch.condition->span : branch.span,
-                   fmt::format("ON ERROR covers '{}' already", plan.name),
+            .error("E082", place_of(branch), fmt::format("ON ERROR covers '{}' already", plan.name),
                    "write OWN ERROR; in the step, and deal with ERROR in it")
             .notes.push_back({program_.on_error->span, "ON ERROR is here"});
     }
@@ -287,15 +318,18 @@ class Checker {
             if (earlier.choice == choice || both.none() || earlier.rule.action.same_effect(rule.action))
                 continue;
             report_
-                .error("E070", branch.condition ? branch.condition->span : rule.action.span,
+                .error("E070", branch.condition ? rule.condition : rule.action.span,
                        fmt::format("this and an earlier IF can hold together: {}",
                                    example_of(both, earlier.rule.when, rule.when, symbols_)),
                        "join them with ELSIF, or make the conditions exclude each other")
-                .notes.push_back({earlier.rule.action.span, "the other one does this"});
+                .notes.push_back(
+                    {earlier.rule.condition, "the earlier one is here, and does something else"});
         }
         seen.push_back({rule, choice});
         for (Rule& earlier : plan.rules) {
             if (!earlier.action.same_effect(rule.action)) continue;
+            if (!depends_on(earlier.when, kInPosBit) && depends_on(rule.when, kInPosBit))
+                earlier.condition = rule.condition;
             earlier.when |= rule.when;
             return;
         }
@@ -319,7 +353,9 @@ class Checker {
                 continue;
             }
             if (i + 1 == plan.terms.size()) continue;
-            report_.error("E091", plan.terms[i + 1].span, "no term may follow the one that ends the table")
+            report_
+                .error("E091", plan.terms[i + 1].span, "no term may follow the one that ends the table",
+                       "let the TERM with STATE 63 be the last, or take it out: the compiler ends the table")
                 .notes.push_back({raw.span, "the table ends here"});
             return;
         }
@@ -328,9 +364,11 @@ class Checker {
     void check_raw_term(const RawTerm& raw) {
         const sequencer::Term term = sequencer::decode(raw.bytes);
         if (!term.is_flex && term.fast.next_step == sequencer::kEndOfTable) {
-            report_.warning("W009", raw.span, "NEXT_STATE is 63: a gateway refuses a table with this term");
+            report_.warning("W009", raw.span, "NEXT_STATE is 63: a gateway refuses a table with this term",
+                            "write 16#3E as the fourth byte if the step is to stay");
         } else if (term.is_flex && term.flex.reg == 0) {
-            report_.warning("W009", raw.span, "register 0: a gateway refuses a table with this term");
+            report_.warning("W009", raw.span, "register 0: a gateway refuses a table with this term",
+                            "bits 6..0 of the fourth byte name the register, 1..127");
         }
     }
 

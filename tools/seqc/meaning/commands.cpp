@@ -15,7 +15,7 @@ using protocol::fastmac::Mode;
 using protocol::fastmac::Number;
 
 constexpr std::string_view kLink =
-    "it would change how the gateway and the motor talk, which is the gateway's own business";
+    "leave it out: it would change how the gateway and the motor talk, which is the gateway's own business";
 
 constexpr std::array kCommands = {
     NamedCommand{"NOP", Number::nop, {}},

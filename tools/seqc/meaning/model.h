@@ -34,6 +34,9 @@ struct Action {
     bool clears_counter = false;
     bool counts_down = false;
     Span span;
+    Span next_span;     ///< where `next` is set
+    Span timer_span;    ///< where the timer is preset
+    Span counter_span;  ///< where the counter is changed
 
     bool presets() const { return timer || counter; }
     bool counts() const { return clears_counter || counts_down; }
@@ -45,6 +48,7 @@ struct Action {
 struct Rule {
     Truth when;
     Action action;
+    Span condition;  ///< empty where the program wrote none
 };
 
 struct ConditionalOutput {

@@ -65,6 +65,7 @@ const Scope::Variable* Scope::find(const std::vector<Variable>& variables, std::
 void Scope::declare_motor(const ast::Program& program) {
     if (!program.motor) return;
     motor_known_ = true;
+    motor_span_ = program.motor->span;
     const auto model = registers::model_of(program.motor->text);
     if (model) {
         model_ = *model;
@@ -85,6 +86,7 @@ void Scope::declare_scale(const ast::Program& program) {
                       "SCALE names a unit of your machine, such as mm or deg");
         return;
     }
+    scale_span_ = scale.span;
     length_ = LengthUnit{scale.unit.text, scale.length / scale.revolutions};
 }
 
@@ -119,13 +121,17 @@ bool Scope::is_new_name(const ast::Name& name) {
             fmt::format("'{}' has a meaning already: {}", text,
                         registers::find(model_, text) ? "it is a register of the motor" : "it is an address"),
             "choose another name");
+        faulty_.push_back(text);
         return false;
     }
     for (const auto* variables : {&inputs_, &outputs_, &motor_variables_}) {
         const Variable* earlier = find(*variables, text);
         if (earlier == nullptr) continue;
-        report_.error("E020", name.span, fmt::format("'{}' is declared twice", text), "choose another name")
-            .notes.push_back({earlier->span, "the first declaration is here"});
+        const bool later = earlier->span.offset < name.span.offset;
+        report_
+            .error("E020", later ? name.span : earlier->span, fmt::format("'{}' is declared twice", text),
+                   "choose another name")
+            .notes.push_back({later ? earlier->span : name.span, "the first declaration is here"});
         return false;
     }
     return true;
@@ -140,6 +146,7 @@ void Scope::declare_io(const std::vector<ast::Variable>& declared, std::vector<V
                           fmt::format("'{}' is not an {}", variable.address.text,
                                       direction == 'I' ? "input" : "output"),
                           fmt::format("there are {}", addresses(direction, count)));
+            faulty_.push_back(variable.name.text);
             continue;
         }
         const auto earlier = std::find_if(variables.begin(), variables.end(),
@@ -150,6 +157,7 @@ void Scope::declare_io(const std::vector<ast::Variable>& declared, std::vector<V
                        fmt::format("'{}' has a name already", variable.address.text),
                        fmt::format("use '{}'", earlier->name))
                 .notes.push_back({earlier->span, "declared here"});
+            faulty_.push_back(variable.name.text);
         } else if (is_new_name(variable.name)) {
             variables.push_back({variable.name.text, variable.name.span, *number, nullptr});
         }
@@ -160,6 +168,7 @@ void Scope::declare_motor_variables(const ast::Program& program) {
     for (const ast::Variable& variable : program.motor_variables) {
         const registers::Register* target =
             variable.register_number ? reg(*variable.register_number) : reg(variable.address);
+        if (target == nullptr) faulty_.push_back(variable.name.text);
         if (!is_new_name(variable.name) || target == nullptr) continue;
         const std::string_view shown = variable.register_number ? target->name : variable.address.text;
         const auto earlier = std::find_if(motor_variables_.begin(), motor_variables_.end(),
@@ -169,6 +178,7 @@ void Scope::declare_motor_variables(const ast::Program& program) {
                 .error("E022", variable.name.span, fmt::format("{} has a name already", shown),
                        fmt::format("use '{}', or another register", earlier->name))
                 .notes.push_back({earlier->span, "declared here"});
+            faulty_.push_back(variable.name.text);
             continue;
         }
         motor_variables_.push_back({variable.name.text, variable.name.span, 0, target});
@@ -182,6 +192,13 @@ void Scope::declare_motor_variables(const ast::Program& program) {
     }
 }
 
+bool Scope::is_faulty(std::string_view name) {
+    const bool known = std::any_of(faulty_.begin(), faulty_.end(),
+                                   [&](std::string_view faulty) { return same_name(faulty, name); });
+    if (known) ++faulty_names_met_;
+    return known;
+}
+
 std::optional<std::uint8_t> Scope::step(const ast::Name& name) {
     std::vector<std::string_view> names;
     for (std::size_t i = 0; i < steps_.size(); ++i) {
@@ -190,9 +207,23 @@ std::optional<std::uint8_t> Scope::step(const ast::Name& name) {
         names.push_back(steps_[i]->name.text);
     }
     if (steps_missing_) return std::nullopt;
-    report_.error("E021", name.span, fmt::format("there is no step '{}'", name.text),
-                  suggestion(name.text, names));
+    std::string help = suggestion(name.text, names);
+    if (help.empty())
+        help = fmt::format("write STEP {}: ... END_STEP, or name one of the steps there are", name.text);
+    report_.error("E021", name.span, fmt::format("there is no step '{}'", name.text), help);
     return std::nullopt;
+}
+
+std::string Scope::how_to_declare(std::string_view name, const std::vector<Variable>& variables,
+                                  char direction, std::size_t count) {
+    const char* block = direction == 'I' ? "VAR_INPUT" : "VAR_OUTPUT";
+    for (std::size_t bit = 0; bit < count; ++bit) {
+        const bool taken =
+            std::any_of(variables.begin(), variables.end(), [&](const Variable& v) { return v.bit == bit; });
+        if (!taken)
+            return fmt::format("declare it under {}: {} AT %{}X0.{} : BOOL;", block, name, direction, bit);
+    }
+    return fmt::format("name one of those under {}: all {} addresses have a name", block, count);
 }
 
 std::optional<std::size_t> Scope::signal(const ast::Name& name, const std::vector<Variable>& variables,
@@ -207,18 +238,21 @@ std::optional<std::size_t> Scope::signal(const ast::Name& name, const std::vecto
                       fmt::format("there are {}", addresses(direction, count)));
         return std::nullopt;
     }
+    if (is_faulty(name.text)) return std::nullopt;
     const bool other = input ? is_output(name.text) || address_number(name.text, 'Q').has_value()
                              : is_input(name.text) || address_number(name.text, 'I').has_value();
     std::vector<std::string_view> names;
     names.reserve(variables.size() + 2);
     for (const Variable& variable : variables) names.push_back(variable.name);
-    if (input) names.insert(names.end(), {"INPOS", "ERROR"});
+    if (input) names.insert(names.end(), {"INPOS", "ERROR", "TRUE", "FALSE"});
     std::string help = suggestion(name.text, names);
-    if (help.empty()) help = fmt::format("declare it under {}", input ? "VAR_INPUT" : "VAR_OUTPUT");
+    if (help.empty()) help = how_to_declare(name.text, variables, direction, count);
     if (other) {
-        report_.error(
+        Diagnostic& d = report_.error(
             "E023", name.span, fmt::format("'{}' is an {}", name.text, input ? "output" : "input"),
             input ? "a condition can test inputs, INPOS, ERROR, TIMER.Q and COUNTER.Q" : "OUT takes outputs");
+        const Variable* declared = find(input ? outputs_ : inputs_, name.text);
+        if (declared != nullptr) d.notes.push_back({declared->span, "declared here"});
     } else {
         report_.error("E021", name.span,
                       fmt::format("there is no {} '{}'", input ? "input" : "output", name.text), help);

@@ -32,6 +32,10 @@ class Scope {
     const registers::Register* reg(const ast::Value& number);
     /// The same without a word: for telling a register from a command.
     const registers::Register* find_register(std::string_view name) const;
+    /// Adds where a register's name was declared, if it is one of VAR_MOTOR.
+    void note_declaration(Diagnostic& diagnostic, std::string_view name) const;
+    /// How often a name was met whose faulty declaration was reported: it is not reported again.
+    std::size_t faulty_names_met() const { return faulty_names_met_; }
     bool is_input(std::string_view name) const { return find(inputs_, name) != nullptr; }
     bool is_output(std::string_view name) const { return find(outputs_, name) != nullptr; }
 
@@ -61,7 +65,13 @@ class Scope {
                     char direction, std::size_t count);
     void declare_motor_variables(const ast::Program& program);
     bool is_new_name(const ast::Name& name);
+    bool is_faulty(std::string_view name);
+    void note_value(Diagnostic& diagnostic, const ast::Value& value, std::string_view shown) const;
+    std::string unit_help(const registers::Register& reg, std::string_view unit) const;
+    void report_no_register(const ast::Name& name);
     std::optional<std::size_t> signal(const ast::Name& name, const std::vector<Variable>& variables,
+                                      char direction, std::size_t count);
+    static std::string how_to_declare(std::string_view name, const std::vector<Variable>& variables,
                                       char direction, std::size_t count);
     bool is_reachable(const registers::Register* reg, Span span, std::string_view shown);
     void require_motor(Span span);
@@ -74,12 +84,16 @@ class Scope {
     Compilation& result_;
     registers::Model model_ = registers::Model::mac140;
     bool motor_known_ = false;
+    Span motor_span_;
     std::optional<LengthUnit> length_;
+    Span scale_span_;
     std::vector<const ast::Step*> steps_;
     bool steps_missing_ = false;
     std::vector<Variable> inputs_;
     std::vector<Variable> outputs_;
     std::vector<Variable> motor_variables_;
+    std::vector<std::string_view> faulty_;  ///< declared, but with a mistake
+    std::size_t faulty_names_met_ = 0;
     std::vector<Send> initial_values_;
 };
 

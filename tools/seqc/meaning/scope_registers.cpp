@@ -29,7 +29,42 @@ std::string limit_text(double value) {
     return fmt::format("{:.6g}", value);
 }
 
+/// P9 and the like: nothing that a misspelling could explain.
+bool is_set_register(std::string_view name) {
+    return name.size() == 2 && std::string_view("PVATLZpvatlz").find(name[0]) != std::string_view::npos &&
+           name[1] >= '0' && name[1] <= '9';
+}
+
+bool begins_with(std::string_view unit, std::string_view length) {
+    return unit.size() >= length.size() && same_name(unit.substr(0, length.size()), length);
+}
+
 }  // namespace
+
+void Scope::note_declaration(Diagnostic& diagnostic, std::string_view name) const {
+    const Variable* variable = find(motor_variables_, name);
+    if (variable == nullptr) return;
+    diagnostic.notes.push_back(
+        {variable->span, fmt::format("'{}' is {}, declared here", variable->name, variable->reg->name)});
+}
+
+/// What a value's limits rest on: the register behind a name, the length behind a unit.
+void Scope::note_value(Diagnostic& diagnostic, const ast::Value& value, std::string_view shown) const {
+    note_declaration(diagnostic, shown);
+    if (!length_ || !begins_with(value.unit.text, length_->name)) return;
+    diagnostic.notes.push_back({scale_span_, fmt::format("1 rev is {:.6g} {} by this SCALE",
+                                                         length_->per_revolution, length_->name)});
+}
+
+std::string Scope::unit_help(const Register& reg, std::string_view unit) const {
+    const std::vector<std::string> fitting = fitting_units(reg, length_);
+    const std::string near = suggestion(unit, {fitting.begin(), fitting.end()});
+    const std::string units = fmt::format("use {}", units_for(reg, length_));
+    if (!near.empty()) return fmt::format("{} ({})", near, units);
+    const bool could_scale = !length_ && !fitting.empty() && reg.unit != registers::Unit::torque &&
+                             reg.unit != registers::Unit::samples && !is_known_unit(unit);
+    return could_scale ? units + "; SCALE 1 rev = 5 mm; at the top adds a unit of your machine" : units;
+}
 
 void Scope::require_motor(Span span) {
     if (motor_known_) return;
@@ -56,14 +91,30 @@ const Register* Scope::reg(const ast::Name& name) {
         require_motor(name.span);
         return is_reachable(found, name.span, name.text) ? found : nullptr;
     }
+    if (!is_faulty(name.text)) report_no_register(name);
+    return nullptr;
+}
+
+void Scope::report_no_register(const ast::Name& name) {
+    const std::string message =
+        fmt::format("'{}' is no register of {}", name.text, registers::name_of(model_));
+    for (registers::Model other : {registers::Model::mac140, registers::Model::mac800}) {
+        if (registers::find(other, name.text) == nullptr || !motor_known_) continue;
+        report_
+            .error("E040", name.span, message,
+                   fmt::format("it is one of {}; REG(number) writes a register by its number",
+                               registers::name_of(other)))
+            .notes.push_back({motor_span_, "the motor is chosen here"});
+        return;
+    }
     std::vector<std::string_view> names = {"TIMER", "COUNTER"};
     for (const Variable& variable : motor_variables_) names.push_back(variable.name);
     for (const Register& r : registers::map_of(model_)) names.push_back(r.name);
-    std::string help = suggestion(name.text, names);
-    report_.error(
-        "E040", name.span, fmt::format("'{}' is no register of {}", name.text, registers::name_of(model_)),
-        help.empty() ? "declare it under VAR_MOTOR, or use the manual's name or REG(number)" : help);
-    return nullptr;
+    std::string help = is_set_register(name.text)
+                           ? "there are P1..P8, V1..V8, A1..A4, T1..T4, L1..L4 and Z1..Z4"
+                           : suggestion(name.text, names);
+    if (help.empty()) help = "declare it under VAR_MOTOR, or use the manual's name or REG(number)";
+    report_.error("E040", name.span, message, help);
 }
 
 const Register* Scope::reg(const ast::Value& number) {
@@ -71,7 +122,8 @@ const Register* Scope::reg(const ast::Value& number) {
     const bool whole =
         number.unit.text.empty() && !number.is_time && std::floor(number.number) == number.number;
     if (!whole || number.number < 1 || number.number > kLastReachable) {
-        report_.error("E041", number.span, fmt::format("a table reaches registers 1..{}", kLastReachable));
+        report_.error("E041", number.span, fmt::format("a table reaches registers 1..{}", kLastReachable),
+                      "set others with a register tool and save them in the motor");
         return nullptr;
     }
     const auto wanted = static_cast<std::uint8_t>(number.number);
@@ -92,9 +144,10 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& value, const Registe
     if (value.is_time) unit = "ms";
     auto per_unit = raw_per_unit(reg, model_, length_, unit);
     if (!per_unit) {
-        report_.error("E043", value.unit.text.empty() ? value.span : value.unit.span,
-                      fmt::format("{} cannot be given in '{}'", shown_name, unit),
-                      fmt::format("use {}", units_for(reg, length_)));
+        Diagnostic& d =
+            report_.error("E043", value.unit.text.empty() ? value.span : value.unit.span,
+                          fmt::format("{} cannot be given in '{}'", shown_name, unit), unit_help(reg, unit));
+        note_declaration(d, shown_name);
         return std::nullopt;
     }
     if (value.is_raw) {
@@ -106,10 +159,11 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& value, const Registe
     if (!(raw >= static_cast<double>(reg.min) && raw <= static_cast<double>(reg.max))) {
         const std::string_view shown = value.is_raw ? std::string_view() : unit;
         const double one = value.is_raw ? 1 : *per_unit;
-        report_.error(
+        Diagnostic& d = report_.error(
             "E042", value.span, fmt::format("{} does not fit {}", text(value.span), shown_name),
             fmt::format("it takes {} .. {}{}{}", limit_text(static_cast<double>(reg.min) / one),
                         limit_text(static_cast<double>(reg.max) / one), shown.empty() ? "" : " ", shown));
+        note_value(d, value, shown_name);
         return std::nullopt;
     }
     if (reg.dangerous) {
@@ -134,15 +188,19 @@ bool Scope::note_rounding(const ast::Value& value, std::string_view shown_name, 
     const std::string step =
         fmt::format("one step of {} is {:.4g}{}{}", shown_name, 1 / per_unit, unit.empty() ? "" : " ", unit);
     if (raw == 0) {
-        report_.error("E042", value.span,
-                      fmt::format("{} is too small for {}: it would become 0", text(value.span), shown_name),
-                      step + "; write at least that, or 0 if you mean 0");
+        Diagnostic& d = report_.error(
+            "E042", value.span,
+            fmt::format("{} is too small for {}: it would become 0", text(value.span), shown_name),
+            step + "; write at least that, or 0 if you mean 0");
+        note_value(d, value, shown_name);
         return false;
     }
     result_.roundings.push_back({value.span, what});
     if (std::fabs(error) > kWorthAWarning) {
-        report_.warning("W002", value.span,
-                        fmt::format("the register is too coarse for this value: {}", what), step);
+        Diagnostic& d = report_.warning("W002", value.span,
+                                        fmt::format("the register is too coarse for this value: {}", what),
+                                        step + "; write a multiple of it, or live with the difference");
+        note_value(d, value, shown_name);
     }
     return true;
 }

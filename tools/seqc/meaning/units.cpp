@@ -119,26 +119,47 @@ std::optional<double> raw_per_unit(const Register& reg, Model model, const std::
     return std::nullopt;
 }
 
-std::string units_for(const Register& reg, const std::optional<LengthUnit>& length) {
-    const std::string own = length ? fmt::format(" or {}", length->name) : std::string();
-    const std::string own_speed = length ? fmt::format(" or {}/s", length->name) : std::string();
+std::vector<std::string> fitting_units(const Register& reg, const std::optional<LengthUnit>& length) {
+    std::vector<std::string> units;
+    const auto with_length = [&](std::vector<std::string> own, const char* suffix) {
+        if (length) own.push_back(fmt::format("{}{}", length->name, suffix));
+        return own;
+    };
     switch (reg.unit) {
         case Unit::counts:
         case Unit::counts_16:
-            return "counts or rev" + own;
+            return with_length({"counts", "rev"}, "");
         case Unit::velocity:
         case Unit::velocity_16:
-            return "rpm or rev/s" + own_speed;
+            return with_length({"rpm", "rev/s"}, "/s");
         case Unit::acceleration_16:
-            return "rpm/s or rev/s2" + (length ? fmt::format(" or {}/s2", length->name) : "");
+            return with_length({"rpm/s", "rev/s2"}, "/s2");
         case Unit::torque:
-            return "%peak (1023 is 100 %peak) or %nominal (1023 is 300 %nominal)";
+            return {"%peak", "%nominal"};
         case Unit::samples:
-            return "samples, ms or s";
+            return {"samples", "ms", "s"};
         case Unit::none:
             break;
     }
-    return "a plain number without unit";
+    return {};
+}
+
+bool is_known_unit(std::string_view unit) {
+    const std::string plain = without_blanks(unit);
+    for (const char* known : {"counts", "count", "rev", "rpm", "rev/s", "rpm/s", "rev/s2", "rev/s/s", "%peak",
+                              "%nominal", "samples", "ms", "s"}) {
+        if (same_name(plain, known)) return true;
+    }
+    return false;
+}
+
+std::string units_for(const Register& reg, const std::optional<LengthUnit>& length) {
+    if (reg.unit == Unit::none) return "a plain number without unit";
+    if (reg.unit == Unit::torque) return "%peak (1023 is 100 %peak) or %nominal (1023 is 300 %nominal)";
+    std::vector<std::string> units = fitting_units(reg, length);
+    const std::string last = std::move(units.back());
+    units.pop_back();
+    return fmt::format("{} or {}", fmt::join(units, ", "), last);
 }
 
 }  // namespace nplc::seqc

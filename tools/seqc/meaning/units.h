@@ -21,6 +21,13 @@ struct LengthUnit {
 std::optional<double> raw_per_unit(const registers::Register& reg, registers::Model model,
                                    const std::optional<LengthUnit>& length, std::string_view written);
 
+/// The units that fit a register.
+std::vector<std::string> fitting_units(const registers::Register& reg,
+                                       const std::optional<LengthUnit>& length);
+
+/// Whether some register takes it.
+bool is_known_unit(std::string_view unit);
+
 /// The units that fit a register, for messages.
 std::string units_for(const registers::Register& reg, const std::optional<LengthUnit>& length);
 

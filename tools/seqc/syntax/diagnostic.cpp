@@ -35,14 +35,55 @@ Line line_at(std::string_view source, std::size_t offset) {
     return {source.substr(start, end - start), start};
 }
 
-/// Control characters would upset a terminal.
+/// Bytes of the UTF-8 character that `text` begins with; 0 if it begins with none.
+std::size_t character_length(std::string_view text) {
+    const auto lead = static_cast<unsigned char>(text[0]);
+    const std::size_t length = lead < 0x80                   ? 1
+                               : lead >= 0xC2 && lead < 0xE0 ? 2
+                               : lead >= 0xE0 && lead < 0xF0 ? 3
+                               : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                             : 0;
+    if (length > text.size()) return 0;
+    for (std::size_t i = 1; i < length; ++i) {
+        if (!continues_character(text[i])) return 0;
+    }
+    return length;
+}
+
+/// What would upset a terminal, one '?' for each.
 std::string printable(std::string_view text) {
-    std::string result(text);
-    for (char& c : result) {
-        if (c != '\t' && (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)) c = '?';
+    std::string result;
+    while (!text.empty()) {
+        const std::size_t length = character_length(text);
+        const auto first = static_cast<unsigned char>(text[0]);
+        const bool control = (first < 0x20 && first != '\t') || first == 0x7F ||
+                             (length == 2 && first == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0);
+        if (length == 0 || control) {
+            result += '?';
+        } else {
+            result += text.substr(0, length);
+        }
+        text.remove_prefix(std::max<std::size_t>(length, 1));
     }
     return result;
 }
+
+/// A terminal's colours, or nothing.
+struct Paint {
+    explicit Paint(Colour colour) : on(colour == Colour::on) {}
+
+    std::string operator()(std::string_view code, std::string_view text) const {
+        return on ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : std::string(text);
+    }
+
+    bool on;
+};
+
+constexpr std::string_view kBold = "1";
+constexpr std::string_view kError = "1;31";
+constexpr std::string_view kWarning = "1;33";
+constexpr std::string_view kNote = "1;36";
+constexpr std::string_view kHelp = "1;32";
 
 /// About kShown bytes of a line, with the column in it; whole characters.
 struct Window {
@@ -62,26 +103,28 @@ Window window_of(std::string_view line, std::size_t column) {
     return {line.substr(begin, end - begin), column - begin, begin > 0, end < line.size()};
 }
 
-std::string excerpt(std::string_view source, Span span) {
+std::string excerpt(std::string_view source, Span span, const Paint& paint, std::string_view colour) {
     const Line line = line_at(source, span.offset);
     const std::size_t column =
         std::min<std::size_t>(span.offset - std::min<std::size_t>(span.offset, line.start), line.text.size());
     const Window window = window_of(line.text, column);
     const std::string_view before = window.cut_before ? "..." : "";
     std::string margin(before.size(), ' ');
-    for (char c : window.text.substr(0, window.column)) {
+    for (char c : printable(window.text.substr(0, window.column))) {
         if (!continues_character(c)) margin += c == '\t' ? '\t' : ' ';
     }
     const std::size_t marked = std::min<std::size_t>(span.length, window.text.size() - window.column);
-    const std::uint32_t width = std::max(1U, characters(window.text.substr(window.column, marked)));
+    const std::uint32_t width =
+        std::max(1U, characters(printable(window.text.substr(window.column, marked))));
     const std::string number = std::to_string(position_of(source, span.offset).line);
-    return fmt::format(" {} | {}{}{}\n {:{}} | {}^{:~<{}}\n", number, before, printable(window.text),
-                       window.cut_after ? "..." : "", "", number.size(), margin, "", width - 1);
+    return fmt::format(" {} | {}{}{}\n {:{}} | {}{}\n", number, before, printable(window.text),
+                       window.cut_after ? "..." : "", "", number.size(), margin,
+                       paint(colour, "^" + std::string(width - 1, '~')));
 }
 
 /// Names and values in a message may be as long as the program.
 std::string bounded(const std::string& message) {
-    if (message.size() <= kLongestMessage) return message;
+    if (message.size() <= kLongestMessage) return printable(message);
     std::size_t head = kLongestMessage / 2;
     std::size_t tail = message.size() - kLongestMessage / 4;
     while (head > 0 && continues_character(message[head])) --head;
@@ -99,18 +142,23 @@ Position position_of(std::string_view source, std::uint32_t offset) {
             1 + characters(source.substr(line.start, at - line.start))};
 }
 
-std::string render(const Diagnostic& diagnostic, std::string_view source, std::string_view file_name) {
+std::string render(const Diagnostic& diagnostic, std::string_view source, std::string_view file_name,
+                   Colour colour) {
+    const Paint paint(colour);
     const Position at = position_of(source, diagnostic.span.offset);
-    const char* kind = diagnostic.severity == Severity::error ? "error" : "warning";
-    std::string text = fmt::format("{}:{}:{}: {} {}: {}\n", file_name, at.line, at.column, kind,
-                                   diagnostic.code, bounded(diagnostic.message));
-    text += excerpt(source, diagnostic.span);
-    if (!diagnostic.help.empty()) text += fmt::format("  help: {}\n", bounded(diagnostic.help));
+    const bool is_error = diagnostic.severity == Severity::error;
+    const std::string_view shade = is_error ? kError : kWarning;
+    const std::string what = fmt::format("{} {}", is_error ? "error" : "warning", diagnostic.code);
+    std::string text = fmt::format("{}:{}:{}: {}: {}\n", file_name, at.line, at.column, paint(shade, what),
+                                   paint(kBold, bounded(diagnostic.message)));
+    text += excerpt(source, diagnostic.span, paint, shade);
+    if (!diagnostic.help.empty())
+        text += fmt::format("  {}: {}\n", paint(kHelp, "help"), bounded(diagnostic.help));
     for (const Note& note : diagnostic.notes) {
         const Position other = position_of(source, note.span.offset);
-        text +=
-            fmt::format("  note: {}:{}:{}: {}\n", file_name, other.line, other.column, bounded(note.message));
-        text += excerpt(source, note.span);
+        text += fmt::format("  {}: {}:{}:{}: {}\n", paint(kNote, "note"), file_name, other.line, other.column,
+                            bounded(note.message));
+        text += excerpt(source, note.span, paint, kNote);
     }
     return text;
 }

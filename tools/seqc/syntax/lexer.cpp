@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "syntax/names.h"
 
 namespace nplc::seqc {
@@ -121,7 +123,23 @@ class Lexer {
         add(TokenKind::number, start);
     }
 
+    /// Other languages' signs for AND, OR and NOT are taken as meant, so that nothing else is reported.
+    bool lex_foreign_operator(std::size_t start) {
+        constexpr std::pair<char, std::string_view> kOperators[] = {{'&', "AND"}, {'|', "OR"}, {'!', "NOT"}};
+        for (const auto& [sign, word] : kOperators) {
+            if (peek() != sign) continue;
+            while (peek() == sign && at_ < start + 2) ++at_;
+            report_.error("E001", span_from(start),
+                          fmt::format("'{}' means nothing here", source_.substr(start, at_ - start)),
+                          fmt::format("write {}", word));
+            tokens_.push_back({TokenKind::identifier, word, span_from(start)});
+            return true;
+        }
+        return false;
+    }
+
     void lex_unknown(std::size_t start) {
+        if (lex_foreign_operator(start)) return;
         while (at_ < source_.size() && !is_blank(peek()) && !is_word(peek()) && !is_symbol(peek()) &&
                !(peek() == '%' && is_letter(peek(1)))) {
             ++at_;

@@ -44,7 +44,7 @@ std::string upper(std::string_view text) {
     return result;
 }
 
-std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates) {
+std::string_view nearest(std::string_view name, const std::vector<std::string_view>& candidates) {
     if (name.empty() || name.size() > kLongestName) return {};
     std::string_view best;
     std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;
@@ -56,6 +56,11 @@ std::string suggestion(std::string_view name, const std::vector<std::string_view
             best_distance = d;
         }
     }
+    return best;
+}
+
+std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates) {
+    const std::string_view best = nearest(name, candidates);
     return best.empty() ? std::string() : fmt::format("did you mean '{}'?", best);
 }
 

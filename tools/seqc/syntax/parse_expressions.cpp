@@ -28,7 +28,11 @@ bool Parser::parse_expression(Expression& result) {
 }
 
 bool Parser::parse_operators(Expression& result, std::size_t level) {
-    if (level == kOperators.size()) return parse_primary(result);
+    if (level == kOperators.size()) {
+        if (!parse_primary(result)) return false;
+        mend({"AND", "OR", "XOR"}, "AND, OR, XOR or the end of the condition");
+        return true;
+    }
     const Token first = token();
     if (!parse_operators(result, level + 1)) return false;
     if (!at(kOperators[level].word)) return true;
@@ -46,6 +50,8 @@ bool Parser::parse_operators(Expression& result, std::size_t level) {
 }
 
 bool Parser::parse_primary(Expression& result) {
+    const bool before_operand = is_word_at(1) || (token(1).kind == TokenKind::symbol && token(1).text == "(");
+    if (before_operand) mend({"NOT"}, "a condition");
     const Token first = token();
     if (depth_ >= kDeepest) {
         report_.error("E013", first.span, "this condition is nested too deeply",
@@ -73,6 +79,7 @@ bool Parser::parse_primary(Expression& result) {
 }
 
 bool Parser::parse_named_primary(Expression& result) {
+    if (token(1).kind == TokenKind::symbol && token(1).text == ".") mend({"TIMER", "COUNTER"}, "a condition");
     if (at("TRUE") || at("FALSE")) {
         result.kind = Kind::constant;
         result.value = at("TRUE");

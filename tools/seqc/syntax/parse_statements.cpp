@@ -87,24 +87,37 @@ bool Parser::parse_if(ast::Choice& choice) {
                 branch.condition->kind = ast::Expression::Kind::constant;
                 while (!at("THEN") && !at_boundary() && !at_symbol(";")) ++at_;
             }
-            if (!take("THEN")) error_here("THEN after the condition");
+            take_then();
         }
-        parse_branch_body(branch);
+        parse_branch_body(branch, opened);
         choice.branches.push_back(std::move(branch));
     } while (!last && (at("ELSIF") || at("ELSE")));
     end_block("END_IF", opened);
     return true;
 }
 
-void Parser::parse_branch_body(ast::Branch& branch) {
+/// What stands too much between the condition and THEN is one mistake.
+void Parser::take_then() {
+    if (take("THEN") || (mend({"THEN"}, "THEN after the condition") && take("THEN"))) return;
+    error_here("THEN after the condition", "write IF condition THEN; AND, OR and XOR join two conditions");
+    const std::size_t before = at_;
+    while (!at("THEN") && !at_boundary() && !at_symbol(";")) ++at_;
+    if (!take("THEN")) at_ = before;
+}
+
+void Parser::parse_branch_body(ast::Branch& branch, Span opened) {
     while (!at("ELSIF") && !at("ELSE") && !at("END_STEP") && !at("STEP") && !at("POWER_UP") &&
            !at("END_POWER_UP") && !at_block_end("END_IF") && !report_.full()) {
         if (take_symbol(";")) continue;
         const std::size_t before = at_;
+        mend_statement({"ELSIF", "ELSE", "END_IF"});
+        if (at("ELSIF") || at("ELSE") || at("END_IF")) break;
         if (at("IF")) {
             ast::Choice inner;
-            report_.error("E064", token().span, "an IF cannot stand inside another",
-                          "join the two conditions with AND, or use ELSIF");
+            report_
+                .error("E064", token().span, "an IF cannot stand inside another",
+                       "join the two conditions with AND, or use ELSIF")
+                .notes.push_back({opened, "the outer IF begins here"});
             parse_if(inner);
         } else if (at("OUT")) {
             report_.error("E064", token().span, "OUT cannot stand inside an IF",
@@ -161,6 +174,10 @@ bool Parser::parse_simple_statement(Statement& statement) {
         statement.kind = Statement::Kind::assign_number;
         return parse_register_number(statement.register_number) &&
                expect_symbol(":=", "after the register") && parse_value(statement.value);
+    }
+    if (token().kind == TokenKind::identifier && is_reserved(token().text)) {
+        error_here("a statement", "statements are NEXT := Step; TIMER := T#1s; commands and register values");
+        return false;
     }
     if (!expect_name(statement.name, "a statement")) return false;
     if (at_symbol(":=")) return parse_assignment(statement);
@@ -221,7 +238,7 @@ bool Parser::parse_value(ast::Value& value) {
                       literal.kind == TokenKind::time ? "write times as T#500ms or T#1s500ms"
                       : literal.kind == TokenKind::based
                           ? "write 16#C0, 8#300 or 2#1100_0000, up to 32 bits, no sign"
-                          : "the number is too large");
+                          : "no register takes a number of this size");
         return false;
     }
     value.is_raw = literal.kind == TokenKind::based;
@@ -266,7 +283,8 @@ bool Parser::parse_raw_term(std::vector<ast::RawTerm>& terms) {
     } while (take_symbol(","));
     term.span = span_since(first);
     if (sound && term.bytes.size() != 8) {
-        report_.error("E090", term.span, fmt::format("a term has 8 bytes, here are {}", term.bytes.size()));
+        report_.error("E090", term.span, fmt::format("a term has 8 bytes, here are {}", term.bytes.size()),
+                      "write all eight: STATE, INPUT, CARE, NEXT_STATE and four bytes more (001 §6.1)");
         sound = false;
     }
     if (sound) terms.push_back(std::move(term));

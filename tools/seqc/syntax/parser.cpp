@@ -2,158 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-
 #include "syntax/names.h"
 
 namespace nplc::seqc {
-namespace {
-
-constexpr std::array kReserved = {
-    std::string_view("PROGRAM"),    std::string_view("END_PROGRAM"),   std::string_view("MOTOR"),
-    std::string_view("SCALE"),      std::string_view("VAR_INPUT"),     std::string_view("VAR_OUTPUT"),
-    std::string_view("VAR_MOTOR"),  std::string_view("END_VAR"),       std::string_view("AT"),
-    std::string_view("ON"),         std::string_view("ERROR"),         std::string_view("NEXT"),
-    std::string_view("POWER_UP"),   std::string_view("END_POWER_UP"),  std::string_view("STEP"),
-    std::string_view("END_STEP"),   std::string_view("OUT"),           std::string_view("WHEN"),
-    std::string_view("ENTRY"),      std::string_view("OWN"),           std::string_view("IF"),
-    std::string_view("THEN"),       std::string_view("ELSIF"),         std::string_view("ELSE"),
-    std::string_view("END_IF"),     std::string_view("AND"),           std::string_view("OR"),
-    std::string_view("NOT"),        std::string_view("XOR"),           std::string_view("TRUE"),
-    std::string_view("FALSE"),      std::string_view("INPOS"),         std::string_view("ANY"),
-    std::string_view("TIMER"),      std::string_view("COUNTER"),       std::string_view("EVERY_SCAN"),
-    std::string_view("COUNT_DOWN"), std::string_view("CLEAR_COUNTER"), std::string_view("TERM"),
-    std::string_view("REG"),
-};
-
-/// Words that begin something on the level above a statement: skipping stops in front of them.
-constexpr std::array kBoundaries = {
-    std::string_view("END_PROGRAM"), std::string_view("MOTOR"),      std::string_view("SCALE"),
-    std::string_view("VAR_INPUT"),   std::string_view("VAR_OUTPUT"), std::string_view("VAR_MOTOR"),
-    std::string_view("END_VAR"),     std::string_view("POWER_UP"),   std::string_view("END_POWER_UP"),
-    std::string_view("STEP"),        std::string_view("END_STEP"),   std::string_view("IF"),
-    std::string_view("ELSIF"),       std::string_view("ELSE"),       std::string_view("END_IF"),
-};
-
-template <std::size_t N>
-bool contains(const std::array<std::string_view, N>& words, std::string_view word) {
-    return std::any_of(words.begin(), words.end(), [&](std::string_view w) { return same_name(w, word); });
-}
-
-std::string shown(const Token& t) {
-    if (t.kind == TokenKind::end) return "the end of the file";
-    return t.text.size() <= 40 ? fmt::format("'{}'", t.text) : fmt::format("'{}...'", t.text.substr(0, 37));
-}
-
-}  // namespace
-
-bool is_reserved(std::string_view word) {
-    return contains(kReserved, word);
-}
-
-const Token& Parser::token(std::size_t ahead) const {
-    return tokens_[std::min(at_ + ahead, tokens_.size() - 1)];
-}
-
-bool Parser::at(std::string_view word) const {
-    return token().kind == TokenKind::identifier && same_name(token().text, word);
-}
-
-bool Parser::at_symbol(std::string_view symbol) const {
-    return token().kind == TokenKind::symbol && token().text == symbol;
-}
-
-bool Parser::take(std::string_view word) {
-    if (!at(word)) return false;
-    ++at_;
-    return true;
-}
-
-bool Parser::take_symbol(std::string_view symbol) {
-    if (!at_symbol(symbol)) return false;
-    ++at_;
-    return true;
-}
-
-void Parser::error_here(std::string_view expected, std::string help) {
-    if (in_open_comment()) return;
-    report_.error("E010", token().span, fmt::format("expected {}, found {}", expected, shown(token())),
-                  std::move(help));
-}
-
-bool Parser::expect(std::string_view word, std::string_view where) {
-    if (take(word)) return true;
-    error_here(fmt::format("{} {}", word, where));
-    return false;
-}
-
-bool Parser::expect_symbol(std::string_view symbol, std::string_view where) {
-    if (take_symbol(symbol)) return true;
-    error_here(fmt::format("'{}' {}", symbol, where));
-    return false;
-}
-
-bool Parser::expect_name(ast::Name& name, std::string_view what) {
-    if (token().kind != TokenKind::identifier) {
-        error_here(what);
-        return false;
-    }
-    name = name_of(token());
-    if (is_reserved(name.text)) {
-        report_.error("E011", name.span,
-                      fmt::format("'{}' is a word of the language, not {}", name.text, what),
-                      "choose another name");
-        return false;
-    }
-    ++at_;
-    return true;
-}
-
-Span Parser::span_since(const Token& first) const {
-    const Token& last = tokens_[at_ == 0 ? 0 : at_ - 1];
-    const std::uint32_t end =
-        std::max(first.span.offset + first.span.length, last.span.offset + last.span.length);
-    return {first.span.offset, end - first.span.offset};
-}
-
-/// A missing semicolon is reported where it belongs, and reading goes on as if it stood there.
-void Parser::end_statement() {
-    if (take_symbol(";") || in_open_comment()) return;
-    const Token& last = tokens_[at_ == 0 ? 0 : at_ - 1];
-    report_.error("E010", {last.span.offset + last.span.length, 1},
-                  fmt::format("expected ';' before {}", shown(token())),
-                  "every statement ends with a semicolon");
-    if (token().kind == TokenKind::identifier && token().span.offset > 0 && !at("ERROR")) return;
-    recover();
-}
-
-bool Parser::at_boundary() const {
-    return token().kind == TokenKind::end ||
-           (token().kind == TokenKind::identifier && contains(kBoundaries, token().text));
-}
-
-void Parser::recover() {
-    while (!at_boundary()) {
-        if (take_symbol(";")) return;
-        ++at_;
-    }
-}
-
-bool Parser::at_block_end(std::string_view end_word) const {
-    return token().kind == TokenKind::end || at(end_word) || at("END_PROGRAM");
-}
-
-void Parser::end_block(std::string_view end_word, Span opened) {
-    if (take(end_word)) {
-        take_symbol(";");
-        return;
-    }
-    if (in_open_comment()) return;
-    Diagnostic& d =
-        report_.error("E012", token().span, fmt::format("expected {}, found {}", end_word, shown(token())));
-    d.notes.push_back({opened, "it would close what begins here"});
-}
 
 ast::Program Parser::parse() {
     ast::Program program;
@@ -161,12 +12,14 @@ ast::Program Parser::parse() {
     program.steps_missing = comment_is_open_;
     if (token().kind == TokenKind::end) {
         if (!report_.has_errors())
-            report_.error("E010", opened, "the file holds no program", "write PROGRAM Name ... END_PROGRAM");
+            report_.error("E010", {}, "the file holds no program", "write PROGRAM Name ... END_PROGRAM");
         return program;
     }
     if (expect("PROGRAM", "at the start")) {
         if (!expect_name(program.name, "the program's name")) recover();
         take_symbol(";");
+    } else if (!at_boundary()) {
+        return program;  // nothing like a program
     }
     while (token().kind != TokenKind::end && !at("END_PROGRAM") && !report_.full()) parse_item(program);
     end_block("END_PROGRAM", opened);
@@ -177,12 +30,19 @@ ast::Program Parser::parse() {
     return program;
 }
 
+void Parser::twice(Span span, std::string_view what, Span first) {
+    report_
+        .error("E020", span, fmt::format("{} stands twice", what),
+               what == "POWER_UP" ? "put all of it into one" : "keep one of the two")
+        .notes.push_back({first, "the first one is here"});
+}
+
 void Parser::parse_item(ast::Program& program) {
     if (take_symbol(";") || (program.steps_missing && take("END_STEP"))) return;
     if (take("MOTOR")) {
         ast::Name motor;
         if (!expect_name(motor, "the motor, such as MAC140")) return recover();
-        if (program.motor) report_.error("E020", motor.span, "MOTOR stands twice", "keep one of the two");
+        if (program.motor) twice(motor.span, "MOTOR", program.motor->span);
         program.motor = motor;
         return end_statement();
     }
@@ -197,10 +57,14 @@ void Parser::parse_item(ast::Program& program) {
         if (!parse_raw_term(program.terms)) recover();
         return;
     }
-    error_here(
-        "MOTOR, SCALE, VAR_INPUT, VAR_OUTPUT, VAR_MOTOR, ON ERROR, POWER_UP, STEP, TERM or END_PROGRAM",
-        suggestion(token().text, {"MOTOR", "SCALE", "VAR_INPUT", "VAR_OUTPUT", "VAR_MOTOR", "POWER_UP",
-                                  "STEP", "TERM", "END_PROGRAM"}));
+    const std::string_view expected =
+        "MOTOR, SCALE, VAR_INPUT, VAR_OUTPUT, VAR_MOTOR, ON ERROR, POWER_UP, STEP, TERM or END_PROGRAM";
+    if (mend({"MOTOR", "SCALE", "VAR_INPUT", "VAR_OUTPUT", "VAR_MOTOR", "POWER_UP", "STEP", "TERM",
+              "END_PROGRAM"},
+             expected)) {
+        return;
+    }
+    error_here(expected, "this belongs into a step, or something above it ends too early");
     program.steps_missing = true;
     const std::size_t before = at_;
     recover();
@@ -228,7 +92,7 @@ void Parser::parse_scale(ast::Program& program) {
         report_.error("E032", scale.span, "SCALE must say how far the machine moves in some revolutions",
                       "write it as SCALE 1 rev = 5 mm;");
     } else if (program.scale) {
-        report_.error("E020", scale.span, "SCALE stands twice", "keep one of the two");
+        twice(scale.span, "SCALE", program.scale->span);
     } else {
         program.scale = scale;
     }
@@ -243,8 +107,7 @@ void Parser::parse_on_error(ast::Program& program) {
         !expect_symbol(":=", "after NEXT") || !expect_name(step, "the name of the fault step")) {
         return recover();
     }
-    if (program.on_error)
-        report_.error("E020", span_since(first), "ON ERROR stands twice", "keep one of the two");
+    if (program.on_error) twice(span_since(first), "ON ERROR", program.on_error->span);
     program.on_error = step;
     end_statement();
 }
@@ -255,7 +118,7 @@ void Parser::parse_variables(std::vector<ast::Variable>& variables, bool motor) 
         return token(1).kind == TokenKind::identifier && same_name(token(1).text, "AT");
     };
     while (!at_block_end("END_VAR") && (!at_boundary() || declares()) && !report_.full()) {
-        if (take_symbol(";")) continue;
+        if (take_symbol(";") || (!declares() && mend({"END_VAR"}, "END_VAR or a variable"))) continue;
         const std::size_t before = at_;
         parse_variable(variables, motor);
         if (at_ == before) break;
@@ -312,8 +175,7 @@ void Parser::parse_power_up(ast::Program& program) {
     step.name = name_of(first);
     parse_step_body(step, "END_POWER_UP");
     end_block("END_POWER_UP", first.span);
-    if (program.power_up)
-        report_.error("E020", first.span, "POWER_UP stands twice", "put all of it into one");
+    if (program.power_up) twice(first.span, "POWER_UP", program.power_up->name.span);
     program.power_up = std::move(step);
 }
 
@@ -321,6 +183,8 @@ void Parser::parse_step_body(ast::Step& step, std::string_view end_word) {
     while (!at_block_end(end_word) && !at("STEP") && !at("POWER_UP") && !at("END_STEP") && !report_.full()) {
         const std::size_t before = at_;
         if (take_symbol(";")) continue;
+        mend_statement({end_word});
+        if (at(end_word)) break;
         if (at("OUT")) {
             parse_out(step);
         } else if (take("OWN")) {
@@ -362,6 +226,7 @@ void Parser::parse_out(ast::Step& step) {
         if (!expect_name(name, "the name of an output")) return recover();
         outputs.push_back(name);
     } while (take_symbol(","));
+    if (!at("WHEN")) mend({"WHEN"}, "';' or WHEN");
     if (take("WHEN")) {
         ast::ConditionalOutput conditional;
         conditional.outputs = std::move(outputs);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -21,7 +22,7 @@ class Parser {
     ast::Program parse();
 
   private:
-    // parser.cpp: tokens and structure
+    // parse_tokens.cpp
     const Token& token(std::size_t ahead = 0) const;
     bool at(std::string_view word) const;
     bool at_symbol(std::string_view symbol) const;
@@ -30,9 +31,17 @@ class Parser {
     bool expect(std::string_view word, std::string_view where);
     bool expect_symbol(std::string_view symbol, std::string_view where);
     bool expect_name(ast::Name& name, std::string_view what);
+    Span place_here() const;
     void error_here(std::string_view expected, std::string help = {});
+    /// Reports a misspelt keyword and goes on as if it were right; false if no word is near.
+    bool mend(const std::vector<std::string_view>& words, std::string_view expected);
+    /// The same for the word that a statement begins with. `end_words` may stand there too.
+    void mend_statement(std::vector<std::string_view> end_words);
+    bool is_word_at(std::size_t ahead) const;
     /// What is missing here stands in a comment that is never closed, which was reported.
     bool in_open_comment() const { return comment_is_open_ && token().kind == TokenKind::end; }
+    /// The file ends, and that was reported.
+    bool end_was_reported();
     void end_statement();
     void recover();
     bool at_boundary() const;
@@ -41,6 +50,8 @@ class Parser {
     Span span_since(const Token& first) const;
     ast::Name name_of(const Token& t) const { return {t.text, t.span}; }
 
+    // parser.cpp: structure
+    void twice(Span span, std::string_view what, Span first);
     void parse_item(ast::Program& program);
     void parse_scale(ast::Program& program);
     void parse_on_error(ast::Program& program);
@@ -53,7 +64,8 @@ class Parser {
 
     // parse_statements.cpp
     bool parse_if(ast::Choice& choice);
-    void parse_branch_body(ast::Branch& branch);
+    void take_then();
+    void parse_branch_body(ast::Branch& branch, Span opened);
     bool parse_statement(ast::Statement& statement);
     bool parse_simple_statement(ast::Statement& statement);
     bool parse_assignment(ast::Statement& statement);
@@ -61,7 +73,6 @@ class Parser {
     bool parse_register_number(std::optional<ast::Value>& number);
     bool parse_value(ast::Value& value);
     void parse_unit(ast::Value& value);
-    bool parse_integer(const Token& t, double& number);
     bool parse_raw_term(std::vector<ast::RawTerm>& terms);
 
     // parse_expressions.cpp
@@ -78,10 +89,14 @@ class Parser {
     std::size_t at_ = 0;
     int depth_ = 0;
     bool comment_is_open_;
+    bool end_reported_ = false;
 };
 
 /// Milliseconds of T#1s500ms; false if it is malformed.
 bool parse_time(std::string_view text, double& milliseconds);
+
+/// A token as messages show it: "'NEXT'", "the end of the file".
+std::string shown(const Token& t);
 
 /// Words that cannot be names.
 bool is_reserved(std::string_view word);

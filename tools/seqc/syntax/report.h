@@ -16,6 +16,9 @@ class Report {
 
     Diagnostic& add(Diagnostic diagnostic);
 
+    /// The one added last; there must be one.
+    Diagnostic& last() { return diagnostics_.back(); }
+
     bool has_errors() const { return errors_ > 0; }
     std::size_t error_count() const { return errors_; }
     bool full() const { return diagnostics_.size() >= kMost; }

@@ -170,7 +170,7 @@ class Lowering {
             if (is_hard(effects_.target[c]) || !is_hard(owner_[c])) continue;
             const Effect& owner = effect(owner_[c]);
             if (owner.action == nullptr && owner.outputs == effects_.resting[c]) continue;
-            override_owner(owner_[c], layer, layer);
+            override_owner(owner_[c], layer, layer, kNobody);
             need[effects_.resting[c]].set(point);
         }
         for (std::size_t outputs = 0; outputs < need.size(); ++outputs) {
@@ -193,12 +193,12 @@ class Lowering {
 
     /// Effect `index`, which has no next step of its own, must name one where another effect held before it.
     void take_over(int index, int owner, std::size_t layer, std::size_t where) {
-        override_owner(owner, layer, where);
+        override_owner(owner, layer, where, index);
         if (!effect(index).next()) effect(index).stays = true;
     }
 
-    /// A term of `layer` takes the cases of layer `where` from another effect.
-    void override_owner(int index, std::size_t layer, std::size_t where) {
+    /// A term of `layer` takes the cases of layer `where` from another effect, for effect `by` if for any.
+    void override_owner(int index, std::size_t layer, std::size_t where, int by) {
         Effect& overridden = effect(index);
         if (!overridden.cannot_be_undone() || overridden.reported) return;
         overridden.reported = true;
@@ -220,7 +220,10 @@ class Lowering {
                     : "test TIMER.Q or COUNTER.Q without NOT and in the branch that comes first, or go "
                       "to a step of "
                       "its own that waits; only NEXT and outputs can depend on a timer that still runs";
-        note_entry(report_.error("E071", overridden.span, message, help), overridden);
+        Diagnostic& diagnostic = report_.error("E071", overridden.span, message, help);
+        note_entry(diagnostic, overridden);
+        if (by != kNobody && effect(by).action != nullptr)
+            diagnostic.notes.push_back({effect(by).span, "this branch decides where both conditions hold"});
     }
 
     /// What cannot be undone may stand in the ENTRY of the step that is entered.

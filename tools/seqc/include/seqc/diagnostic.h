@@ -23,7 +23,7 @@ struct Note {
 
 struct Diagnostic {
     Severity severity = Severity::error;
-    std::string code;     ///< E0xx or W0xx; the README lists them
+    std::string code;     ///< E0xx or W0xx; `seqc explain` tells about each
     std::string message;  ///< what is wrong
     std::string help;     ///< what to write instead; may be empty
     Span span;
@@ -37,8 +37,12 @@ struct Position {
 
 Position position_of(std::string_view source, std::uint32_t offset);
 
+/// Whether a text carries a terminal's colours. They add to it and change nothing else.
+enum class Colour : std::uint8_t { off, on };
+
 /// `file:line:column: error E021: ...`, the source line, a caret, the help and the notes. Of a long line
-/// about 100 characters around the caret.
-std::string render(const Diagnostic& diagnostic, std::string_view source, std::string_view file_name);
+/// about 100 characters around the caret. What is no UTF-8 and control characters show as '?'.
+std::string render(const Diagnostic& diagnostic, std::string_view source, std::string_view file_name,
+                   Colour colour = Colour::off);
 
 }  // namespace nplc::seqc

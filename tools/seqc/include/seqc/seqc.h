@@ -46,6 +46,10 @@ struct Compilation {
 /// Compiles the text of one program. Takes any bytes; never throws on bad input.
 Compilation compile(std::string_view source);
 
+/// All diagnostics as the user sees them, whether there are more, and their number. Empty if there are none.
+std::string render_all(const Compilation& compilation, std::string_view source, std::string_view file_name,
+                       Colour colour = Colour::off);
+
 /// Every term with its bytes, what it does and its source line, then the rounded constants.
 std::string listing(const Compilation& compilation, std::string_view source, std::string_view file_name);
 

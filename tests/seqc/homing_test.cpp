@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include "support.h"
+
+namespace nplc::seqc {
+namespace {
+
+/// A program with `at_start` before POWER_UP, which begins to home in step Begin and goes to step Wait.
+std::string homing(const std::string& wait, const std::string& declarations = {},
+                   const std::string& begin = "HOME;") {
+    return "PROGRAM P MOTOR MAC140;\n" + declarations + "\nSTEP Begin: OWN ERROR; IF IN0 THEN " + begin +
+           " NEXT := Wait; END_IF END_STEP\n"
+           "STEP Wait: OWN ERROR; " +
+           wait +
+           " END_STEP\n"
+           "STEP Done: OWN ERROR; IF IN1 THEN NEXT := POWER_UP; END_IF END_STEP\nEND_PROGRAM\n";
+}
+std::string start_mode(int mode) {
+    return "VAR_MOTOR After AT STARTMODE := " + std::to_string(mode) + "; END_VAR";
+}
+std::string codes(const std::string& source) {
+    return test::codes(compile(source));
+}
+
+const char* const kWaits = "IF INPOS THEN NEXT := Done; END_IF";
+
+TEST(Homing, AWaitForInposNeedsAStartMode) {
+    EXPECT_EQ(codes(homing(kWaits)), "W012");
+    EXPECT_EQ(codes(homing(kWaits, {}, "MODE_REG := 12;")), "W012");
+    EXPECT_EQ(codes(homing(kWaits, start_mode(2))), "");
+    EXPECT_EQ(codes(homing(kWaits, {}, "STARTMODE := 2; HOME;")), "");
+    EXPECT_EQ(codes(homing(kWaits, {}, "HOME; STARTMODE := 2;")), "");  // it is read when homing ends
+}
+
+// IN_POS is 0 in INIT, in the torque and manual modes and with an analogue velocity (001 §4.4.1, §4.4.5 to
+// §4.4.8); velocity, position and gear modes and those that are like them set it (§4.4.2 to §4.4.4, §4.4.18
+// to §4.4.22, §4.4.25).
+TEST(Homing, OnlyModesThatSetInposHelp) {
+    for (int mode : {1, 2, 3, 17, 18, 19, 20, 21, 24})
+        EXPECT_EQ(codes(homing(kWaits, start_mode(mode))), "") << mode;
+    for (int mode : {0, 4, 5, 6, 7, 10, 11, 12, 15, 16, 22, 23})
+        EXPECT_EQ(codes(homing(kWaits, start_mode(mode))), "W012") << mode;
+}
+
+TEST(Homing, NoWordWhereTheProgramWaitsForSomethingElse) {
+    EXPECT_EQ(codes(homing("IF IN2 THEN NEXT := Done; END_IF")), "");
+    EXPECT_EQ(codes(homing("IF TIMER.Q THEN NEXT := Done; END_IF", {}, "TIMER := T#9s; HOME;")), "");
+    EXPECT_EQ(codes(homing("OUT OUT0 WHEN INPOS; IF IN2 THEN NEXT := Done; END_IF")), "");
+    EXPECT_EQ(codes(homing("IF IN2 AND NOT INPOS THEN NEXT := Done; END_IF")), "");
+}
+
+// A selection ends homing, so afterwards INPOS is that of the mode selected.
+TEST(Homing, AMoveAfterItIsWaitedForAsAlways) {
+    const std::string then_moves =
+        "IF IN2 THEN INIT(V1); POSITION(P1); NEXT := Move; END_IF END_STEP\n"
+        "STEP Move: OWN ERROR; IF INPOS THEN NEXT := Done; END_IF";
+    EXPECT_EQ(codes(homing(then_moves)), "");
+}
+
+TEST(Homing, AStartModeOnOneWayOnlyIsNotEnough) {
+    const std::string source =
+        "PROGRAM P MOTOR MAC140;\n"
+        "STEP Begin: OWN ERROR; IF IN0 THEN STARTMODE := 2; NEXT := Go; ELSIF IN1 THEN NEXT := Go; END_IF "
+        "END_STEP\n"
+        "STEP Go: OWN ERROR; IF IN2 THEN HOME; NEXT := Wait; END_IF END_STEP\n"
+        "STEP Wait: OWN ERROR; IF INPOS THEN NEXT := POWER_UP; END_IF END_STEP\nEND_PROGRAM\n";
+    EXPECT_EQ(codes(source), "W012");
+}
+
+TEST(Homing, IsCutShortByASelectionInTheSameScan) {
+    EXPECT_EQ(codes(homing("IF IN2 THEN NEXT := Done; END_IF", {}, "HOME; VELOCITY(V1);")), "W014");
+    EXPECT_EQ(codes(homing("IF IN2 THEN NEXT := Done; END_IF", {}, "VELOCITY(V1); HOME;")), "");
+    EXPECT_EQ(codes(homing("ENTRY VELOCITY(V1); IF IN2 THEN NEXT := Done; END_IF")), "W014");
+    EXPECT_EQ(codes(homing("IF IN2 THEN NEXT := Done; END_IF", {}, "HOME; P1 := 50;")), "");
+}
+
+std::string limited(const std::string& wait, const std::string& limit, const std::string& motor = "MAC140") {
+    return "PROGRAM P MOTOR " + motor + ";\nVAR_MOTOR v AT V1 := 100; l AT " + limit +
+           "; END_VAR\nPOWER_UP INIT(v); NEXT := S; END_POWER_UP\n"
+           "STEP S: OWN ERROR; IF IN0 THEN TIMER := T#9s; POSITION(P1); NEXT := Wait; END_IF END_STEP\n"
+           "STEP Wait: OWN ERROR; " +
+           wait + " END_STEP\nEND_PROGRAM\n";
+}
+
+const char* const kEndless = "IF INPOS THEN NEXT := S; END_IF";
+
+TEST(Limits, ThatDoNotShowInErrorAreSaid) {
+    EXPECT_EQ(codes(limited(kEndless, "MIN_P_IST := -5")), "W013");
+    EXPECT_EQ(codes(limited(kEndless, "MAX_P_IST := 5")), "W013");
+    EXPECT_EQ(codes(limited(kEndless, "MAX_P_IST := 0")), "");  // no limit (001 §4.5.3)
+    EXPECT_EQ(codes(limited(kEndless, "FLWERRMAX := 5")), "");  // bit 1 of ERR_STAT, which ERROR shows
+    EXPECT_EQ(codes(limited(kEndless, "UV_HANDLE := 1", "MAC800")), "W013");
+}
+
+TEST(Limits, AreNoMatterWhereEachWaitHasATimeLimit) {
+    const char* const timed = "IF INPOS THEN NEXT := S; ELSIF TIMER.Q THEN NEXT := POWER_UP; END_IF";
+    EXPECT_EQ(codes(limited(timed, "MIN_P_IST := -5")), "");
+    EXPECT_EQ(codes(limited("IF INPOS AND TIMER.Q THEN NEXT := S; END_IF", "MIN_P_IST := -5")), "W013");
+}
+
+}  // namespace
+}  // namespace nplc::seqc

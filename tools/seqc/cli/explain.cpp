@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/common.h"
+#include "cli/json.h"
+#include "cli/subcommands.h"
+#include "codes/catalog.h"
+#include "syntax/names.h"
+
+namespace nplc::seqc::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+    std::string code;
+    bool json = false;
+};
+
+std::string indented(std::string_view text) {
+    std::string result;
+    while (!text.empty()) {
+        const std::string_view line = text.substr(0, text.find('\n') + 1);
+        result += fmt::format("    {}", line);
+        text.remove_prefix(line.size());
+    }
+    return result;
+}
+
+std::string example(std::string_view title, std::string_view shade, std::string_view program) {
+    if (program.empty()) return {};
+    return fmt::format("\n{}\n{}", painted(stdout, shade, title), indented(shown_program(program)));
+}
+
+std::string page(const CodeInfo& info) {
+    return fmt::format("{}: {}\n\n{}\n", painted(stdout, info.code[0] == 'E' ? "1;31" : "1;33", info.code),
+                       painted(stdout, "1", info.title), info.explanation) +
+           example("Wrong:", "1;31", info.wrong) + example("Right:", "1;32", info.right);
+}
+
+Json page_object(const CodeInfo& info) {
+    Json object;
+    object["code"] = info.code;
+    object["title"] = info.title;
+    object["explanation"] = info.explanation;
+    object["wrong"] = whole_program(info.wrong);
+    object["right"] = whole_program(info.right);
+    return object;
+}
+
+int number_of(std::string_view code) {
+    const std::size_t digits = std::min(code.find_first_of("0123456789"), code.size());
+    int number = -1;
+    std::from_chars(code.data() + digits, code.data() + code.size(), number);
+    return number;
+}
+
+/// "E010, E011 and E012" for E015; nothing for what looks like no code at all.
+std::string nearest_codes(std::string_view wanted, std::vector<CodeInfo> all) {
+    const int number = number_of(wanted);
+    const std::string letter = upper(wanted.substr(0, 1));
+    if (number < 0) return {};
+    std::erase_if(all, [&](const CodeInfo& info) {
+        return (letter == "E" || letter == "W") && !info.code.starts_with(letter);
+    });
+    std::stable_sort(all.begin(), all.end(), [&](const CodeInfo& a, const CodeInfo& b) {
+        return std::abs(number_of(a.code) - number) < std::abs(number_of(b.code) - number);
+    });
+    return fmt::format("; near it are {}, {} and {}", all[0].code, all[1].code, all[2].code);
+}
+
+int unknown(const Options& options, const std::vector<CodeInfo>& all) {
+    const std::string problem = fmt::format("there is no code '{}'{} (seqc explain lists all)",
+                                            options.code.substr(0, 40), nearest_codes(options.code, all));
+    if (!options.json) return file_problem(problem);
+    Json document;
+    document["error"] = problem;
+    return print_json(document, kUsageOrFile);
+}
+
+int list(const std::vector<CodeInfo>& all, bool json) {
+    if (json) {
+        Json document;
+        document["codes"] = Json::array();
+        for (const CodeInfo& info : all) document["codes"].push_back(page_object(info));
+        return print_json(document, kOk);
+    }
+    std::string text;
+    for (const CodeInfo& info : all)
+        text += fmt::format("{}  {}\n", painted(stdout, "1", info.code), info.title);
+    return print_or_write(text, {});
+}
+
+int explain(const Options& options) {
+    const std::vector<CodeInfo> all = catalog();
+    if (options.code.empty()) return list(all, options.json);
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const CodeInfo& info) { return same_name(info.code, options.code); });
+    if (found == all.end()) return unknown(options, all);
+    return options.json ? print_json(page_object(*found), kOk) : print_or_write(page(*found), {});
+}
+
+}  // namespace
+
+void add_explain(CLI::App& app, int& exit_code) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = *app.add_subcommand(
+        "explain", "Tell what an error or warning means, with a wrong and a right program");
+    command.add_option("code", options->code, "Such as E012 or W004; without one all are listed");
+    command.add_flag("--json", options->json, "Print it as JSON");
+    command.callback([options, &exit_code] { exit_code = explain(*options); });
+}
+
+}  // namespace nplc::seqc::cli

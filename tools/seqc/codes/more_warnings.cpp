@@ -1,0 +1,157 @@
+#include "codes/catalog.h"
+
+namespace nplc::seqc::codes {
+namespace {
+
+constexpr CodeInfo kAll[] = {
+    {"W009", "a TERM that a gateway refuses",
+     R"(A gateway checks a table before it takes it. It refuses a next step of 63 and a write to register 0; the whole table then does
+not run.)",
+     R"(PROGRAM P
+TERM 16#C0, 0, 0, 16#3F, 16#80, 0, 0, 0;
+END_PROGRAM
+)",
+     R"(PROGRAM P
+TERM 16#C0, 0, 0, 16#3E, 16#80, 0, 0, 0;
+END_PROGRAM
+)"},
+    {"W010", "more TERMs than every gateway holds",
+     R"(A gateway must hold 1,024 terms, the end included, and may hold more. A program of TERM lines is compiled as it stands; make
+sure that yours holds them all.)",
+     R"(PROGRAM P
+{1..1024}TERM 16#C1, 0, 0, 16#3E, 16#80, 0, 0, 0;  // $
+END_PROGRAM
+)",
+     R"(PROGRAM P
+{1..1023}TERM 16#C1, 0, 0, 16#3E, 16#80, 0, 0, 0;  // $
+END_PROGRAM
+)"},
+    {"W011", "a MODE_REG that may start the motor",
+     R"(Writing a moving mode to MODE_REG starts the motor at once, at the V_SOLL or towards the P_SOLL that it happens to hold.
+VELOCITY(V..) and POSITION(P..) set the target and the mode together.)",
+     R"(PROGRAM P
+MOTOR MAC140;
+POWER_UP INIT(V1); NEXT := S; END_POWER_UP
+STEP S:
+    OWN ERROR;
+    IF IN0 THEN MODE_REG := 1; NEXT := T; END_IF
+END_STEP
+STEP T: OWN ERROR; IF IN5 THEN NEXT := S; END_IF END_STEP
+END_PROGRAM
+)",
+     R"(PROGRAM P
+MOTOR MAC140;
+POWER_UP INIT(V1); NEXT := S; END_POWER_UP
+STEP S:
+    OWN ERROR;
+    IF IN0 THEN VELOCITY(V1); NEXT := T; END_IF
+END_STEP
+STEP T: OWN ERROR; IF IN5 THEN NEXT := S; END_IF END_STEP
+END_PROGRAM
+)"},
+    {"W012", "an INPOS that may never come after homing",
+     R"(While the motor homes INPOS is 0. When it has found its home it changes to the mode in STARTMODE (001 §4.4.13 to 4.4.15), and
+that is the only sign of it: in INIT, the torque mode and the analogue velocity modes INPOS stays 0 for ever. Set STARTMODE to 2
+before: the motor then goes on to position 0 and INPOS comes when it is there. Or wait for an input or a time, and begin a move.)",
+     R"(PROGRAM P
+MOTOR MAC140;
+STEP S:
+    OWN ERROR;
+    IF IN0 THEN HOME; NEXT := T; END_IF
+END_STEP
+STEP T:
+    OWN ERROR;
+    IF INPOS THEN NEXT := S; END_IF
+END_STEP
+END_PROGRAM
+)",
+     R"(PROGRAM P
+MOTOR MAC140;
+VAR_MOTOR After_Homing AT STARTMODE := 2; END_VAR
+STEP S:
+    OWN ERROR;
+    IF IN0 THEN HOME; NEXT := T; END_IF
+END_STEP
+STEP T:
+    OWN ERROR;
+    IF INPOS THEN NEXT := S; END_IF
+END_STEP
+END_PROGRAM
+)"},
+    {"W013", "a limit that does not show in ERROR",
+     R"(ERROR is bits 0 to 3 of ERR_STAT (001 §5.2.1.6). When the motor leaves MIN_P_IST or MAX_P_IST, or a MAC800 finds its supply too
+low or gets too hot, it stops with another bit: ERROR stays 0 and INPOS does not come. Nothing in the table can see that. Give
+each wait for INPOS a time limit, or wire limit switches to inputs.)",
+     R"(PROGRAM P
+MOTOR MAC140;
+VAR_MOTOR
+    Place AT P1 := 20000 counts;
+    Fast  AT V1 := 500 rpm;
+    Left  AT MIN_P_IST := -30000 counts;
+    Right AT MAX_P_IST := 30000 counts;
+END_VAR
+POWER_UP INIT(Fast); NEXT := S; END_POWER_UP
+STEP S:
+    OWN ERROR;
+    IF IN0 THEN TIMER := T#10s; POSITION(Place); NEXT := T; END_IF
+END_STEP
+STEP T:
+    OWN ERROR;
+    IF INPOS THEN NEXT := S; END_IF
+END_STEP
+END_PROGRAM
+)",
+     R"(PROGRAM P
+MOTOR MAC140;
+VAR_MOTOR
+    Place AT P1 := 20000 counts;
+    Fast  AT V1 := 500 rpm;
+    Left  AT MIN_P_IST := -30000 counts;
+    Right AT MAX_P_IST := 30000 counts;
+END_VAR
+POWER_UP INIT(Fast); NEXT := S; END_POWER_UP
+STEP S:
+    OWN ERROR;
+    IF IN0 THEN TIMER := T#10s; POSITION(Place); NEXT := T; END_IF
+END_STEP
+STEP T:
+    OWN ERROR;
+    IF INPOS THEN NEXT := S; ELSIF TIMER.Q THEN NEXT := Fault; END_IF
+END_STEP
+STEP Fault: OWN ERROR; IF IN5 THEN NEXT := POWER_UP; END_IF END_STEP
+END_PROGRAM
+)"},
+    {"W014", "a homing that is cut short",
+     R"(Homing is a mode of the motor. A command that selects registers, or a write to MODE_REG, sets another mode (001 §5.2.1.4), and
+in the same scan it does so before the motor has begun to home. The ENTRY of the step that is entered belongs to the same scan.)",
+     R"(PROGRAM P
+MOTOR MAC140;
+POWER_UP INIT(V1); NEXT := S; END_POWER_UP
+STEP S:
+    OWN ERROR;
+    IF IN0 THEN HOME; POSITION(P1); NEXT := T; END_IF
+END_STEP
+STEP T: OWN ERROR; IF IN5 THEN NEXT := S; END_IF END_STEP
+END_PROGRAM
+)",
+     R"(PROGRAM P
+MOTOR MAC140;
+POWER_UP INIT(V1); NEXT := S; END_POWER_UP
+STEP S:
+    OWN ERROR;
+    IF IN0 THEN HOME; TIMER := T#20s; NEXT := Homing; END_IF
+END_STEP
+STEP Homing:
+    OWN ERROR;
+    IF TIMER.Q THEN POSITION(P1); NEXT := T; END_IF
+END_STEP
+STEP T: OWN ERROR; IF IN5 THEN NEXT := S; END_IF END_STEP
+END_PROGRAM
+)"},
+};
+
+}  // namespace
+
+const std::span<const CodeInfo> kMoreWarnings = kAll;
+
+}  // namespace nplc::seqc::codes

@@ -1,0 +1,210 @@
+#include "syntax/parser.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "syntax/names.h"
+
+namespace nplc::seqc {
+namespace {
+
+constexpr std::array kReserved = {
+    std::string_view("PROGRAM"),    std::string_view("END_PROGRAM"),   std::string_view("MOTOR"),
+    std::string_view("SCALE"),      std::string_view("VAR_INPUT"),     std::string_view("VAR_OUTPUT"),
+    std::string_view("VAR_MOTOR"),  std::string_view("END_VAR"),       std::string_view("AT"),
+    std::string_view("ON"),         std::string_view("ERROR"),         std::string_view("NEXT"),
+    std::string_view("POWER_UP"),   std::string_view("END_POWER_UP"),  std::string_view("STEP"),
+    std::string_view("END_STEP"),   std::string_view("OUT"),           std::string_view("WHEN"),
+    std::string_view("ENTRY"),      std::string_view("OWN"),           std::string_view("IF"),
+    std::string_view("THEN"),       std::string_view("ELSIF"),         std::string_view("ELSE"),
+    std::string_view("END_IF"),     std::string_view("AND"),           std::string_view("OR"),
+    std::string_view("NOT"),        std::string_view("XOR"),           std::string_view("TRUE"),
+    std::string_view("FALSE"),      std::string_view("INPOS"),         std::string_view("ANY"),
+    std::string_view("TIMER"),      std::string_view("COUNTER"),       std::string_view("EVERY_SCAN"),
+    std::string_view("COUNT_DOWN"), std::string_view("CLEAR_COUNTER"), std::string_view("TERM"),
+    std::string_view("REG"),
+};
+
+/// Words that begin something on the level above a statement: skipping stops in front of them.
+constexpr std::array kBoundaries = {
+    std::string_view("END_PROGRAM"), std::string_view("MOTOR"),      std::string_view("SCALE"),
+    std::string_view("VAR_INPUT"),   std::string_view("VAR_OUTPUT"), std::string_view("VAR_MOTOR"),
+    std::string_view("END_VAR"),     std::string_view("POWER_UP"),   std::string_view("END_POWER_UP"),
+    std::string_view("STEP"),        std::string_view("END_STEP"),   std::string_view("IF"),
+    std::string_view("ELSIF"),       std::string_view("ELSE"),       std::string_view("END_IF"),
+};
+
+template <std::size_t N>
+bool contains(const std::array<std::string_view, N>& words, std::string_view word) {
+    return std::any_of(words.begin(), words.end(), [&](std::string_view w) { return same_name(w, word); });
+}
+
+}  // namespace
+
+std::string shown(const Token& t) {
+    if (t.kind == TokenKind::end) return "the end of the file";
+    return t.text.size() <= 40 ? fmt::format("'{}'", t.text) : fmt::format("'{}...'", t.text.substr(0, 37));
+}
+
+bool is_reserved(std::string_view word) {
+    return contains(kReserved, word);
+}
+
+const Token& Parser::token(std::size_t ahead) const {
+    return tokens_[std::min(at_ + ahead, tokens_.size() - 1)];
+}
+
+bool Parser::at(std::string_view word) const {
+    return token().kind == TokenKind::identifier && same_name(token().text, word);
+}
+
+bool Parser::at_symbol(std::string_view symbol) const {
+    return token().kind == TokenKind::symbol && token().text == symbol;
+}
+
+bool Parser::take(std::string_view word) {
+    if (!at(word)) return false;
+    ++at_;
+    return true;
+}
+
+bool Parser::take_symbol(std::string_view symbol) {
+    if (!at_symbol(symbol)) return false;
+    ++at_;
+    return true;
+}
+
+/// The token, or the end of the last one if the file ends.
+Span Parser::place_here() const {
+    if (token().kind != TokenKind::end || at_ == 0) return token().span;
+    const Token& last = tokens_[at_ - 1];
+    return {last.span.offset + last.span.length, 1};
+}
+
+void Parser::error_here(std::string_view expected, std::string help) {
+    if (in_open_comment() || end_was_reported()) return;
+    report_.error("E010", place_here(), fmt::format("expected {}, found {}", expected, shown(token())),
+                  std::move(help));
+}
+
+bool Parser::expect(std::string_view word, std::string_view where) {
+    if (take(word)) return true;
+    const std::string expected = fmt::format("{} {}", word, where);
+    if (mend({word}, expected)) return take(word);
+    error_here(expected);
+    return false;
+}
+
+bool Parser::is_word_at(std::size_t ahead) const {
+    return token(ahead).kind == TokenKind::identifier && !is_reserved(token(ahead).text);
+}
+
+bool Parser::mend(const std::vector<std::string_view>& words, std::string_view expected) {
+    if (!is_word_at(0) || token().text.size() < 2) return false;
+    const std::string_view meant = nearest(token().text, words);
+    if (meant.empty()) return false;
+    error_here(expected, suggestion(token().text, words));
+    tokens_[at_].text = meant;
+    return true;
+}
+
+/// Misspelt is a word where no statement can go on like this: "ELIF Guard", "ENDIF END_STEP", "NXT := Idle".
+void Parser::mend_statement(std::vector<std::string_view> end_words) {
+    if (!is_word_at(0)) return;
+    const Token& after = token(1);
+    const bool symbol = after.kind == TokenKind::symbol;
+    if (symbol && after.text == ":=") {
+        if (is_word_at(2) || same_name(token(2).text, "POWER_UP")) mend({"NEXT"}, "a statement");
+    } else if (symbol && after.text == ";") {
+        mend(end_words, "a statement");
+    } else if (!symbol || after.text != "(") {
+        std::vector<std::string_view> words = std::move(end_words);
+        words.insert(words.end(), {"IF", "OUT", "ENTRY", "OWN", "EVERY_SCAN", "TERM", "NEXT"});
+        mend(words, "a statement");
+    }
+}
+
+bool Parser::expect_symbol(std::string_view symbol, std::string_view where) {
+    if (take_symbol(symbol)) return true;
+    const bool only_equals = symbol == ":=" && at_symbol("=");
+    error_here(fmt::format("'{}' {}", symbol, where), only_equals ? "write := with a colon" : "");
+    if (only_equals) ++at_;
+    return only_equals;
+}
+
+bool Parser::expect_name(ast::Name& name, std::string_view what) {
+    if (token().kind != TokenKind::identifier) {
+        error_here(what);
+        return false;
+    }
+    name = name_of(token());
+    if (is_reserved(name.text)) {
+        report_.error("E011", name.span,
+                      fmt::format("'{}' is a word of the language, not {}", name.text, what),
+                      "choose another name");
+        return false;
+    }
+    ++at_;
+    return true;
+}
+
+bool Parser::end_was_reported() {
+    if (token().kind != TokenKind::end) return false;
+    return std::exchange(end_reported_, true);
+}
+
+Span Parser::span_since(const Token& first) const {
+    const Token& last = tokens_[at_ == 0 ? 0 : at_ - 1];
+    const std::uint32_t end =
+        std::max(first.span.offset + first.span.length, last.span.offset + last.span.length);
+    return {first.span.offset, end - first.span.offset};
+}
+
+/// A missing semicolon is reported where it belongs, and reading goes on as if it stood there.
+void Parser::end_statement() {
+    if (take_symbol(";") || in_open_comment() || end_was_reported()) return;
+    const Token& last = tokens_[at_ == 0 ? 0 : at_ - 1];
+    report_.error("E010", {last.span.offset + last.span.length, 1},
+                  fmt::format("expected ';' before {}", shown(token())),
+                  "every statement ends with a semicolon");
+    if (token().kind == TokenKind::identifier && token().span.offset > 0 && !at("ERROR")) return;
+    recover();
+}
+
+bool Parser::at_boundary() const {
+    return token().kind == TokenKind::end ||
+           (token().kind == TokenKind::identifier && contains(kBoundaries, token().text));
+}
+
+void Parser::recover() {
+    while (!at_boundary()) {
+        if (take_symbol(";")) return;
+        ++at_;
+    }
+}
+
+bool Parser::at_block_end(std::string_view end_word) const {
+    return token().kind == TokenKind::end || at(end_word) || at("END_PROGRAM");
+}
+
+void Parser::end_block(std::string_view end_word, Span opened) {
+    if (take(end_word)) {
+        take_symbol(";");
+        return;
+    }
+    if (in_open_comment()) return;
+    const std::string_view block = end_word.substr(std::string_view("END_").size());
+    if (end_was_reported()) {
+        report_.last().notes.push_back({opened, fmt::format("this {} is still open", block)});
+        return;
+    }
+    Diagnostic& d =
+        report_.error("E012", place_here(), fmt::format("expected {}, found {}", end_word, shown(token())),
+                      fmt::format("write {} where the {} ends", end_word, block));
+    d.notes.push_back({opened, fmt::format("this {} is still open", block)});
+}
+
+}  // namespace nplc::seqc

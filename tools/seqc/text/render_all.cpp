@@ -1,0 +1,26 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "seqc/seqc.h"
+
+namespace nplc::seqc {
+
+std::string render_all(const Compilation& compilation, std::string_view source, std::string_view file_name,
+                       Colour colour) {
+    const std::vector<Diagnostic>& all = compilation.diagnostics;
+    if (all.empty()) return {};
+    std::string text;
+    for (const Diagnostic& diagnostic : all) text += render(diagnostic, source, file_name, colour);
+    if (compilation.more_diagnostics) {
+        text +=
+            fmt::format("{}: there are more; only {} are shown, mend these first\n", file_name, all.size());
+    }
+    const auto errors = std::count_if(all.begin(), all.end(),
+                                      [](const Diagnostic& d) { return d.severity == Severity::error; });
+    const auto warnings = std::ssize(all) - errors;
+    return text + fmt::format("{}: {} error{}, {} warning{}\n", file_name, errors, errors == 1 ? "" : "s",
+                              warnings, warnings == 1 ? "" : "s");
+}
+
+}  // namespace nplc::seqc
