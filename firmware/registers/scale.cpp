@@ -155,7 +155,7 @@ std::optional<Ratio> raw_per_unit(const Register& reg, Model model, string_view 
     std::array<char, 16> kept{};
     std::size_t size = 0;
     for (const char c : unit) {
-        if (c >= '\0' && c <= ' ') continue;
+        if (is_blank(c)) continue;
         if (size == kept.size()) return std::nullopt;
         kept[size++] = c;
     }

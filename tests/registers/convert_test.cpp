@@ -164,18 +164,19 @@ TEST(Write, ManualsExamples) {
     EXPECT_EQ(shown(kLarge, "KVOUT", 2'147'483'647), "32767.999985");
 }
 
-/// Every unit of a register, the usual one and none included.
-void round_trip(const Register& reg, Model model, std::int64_t value) {
-    const Parsed usual = parse(to_text(value, reg, model).view(), reg, model);
-    EXPECT_EQ(usual.raw, value) << reg.name << " " << to_text(value, reg, model).view();
+void returns(const Text& text, std::int64_t value, const Register& reg, Model model) {
+    const Parsed parsed = parse(text.view(), reg, model);
     const bool legal = value >= reg.min && value <= reg.max;
-    EXPECT_EQ(usual.error, legal ? TextError::none : TextError::out_of_range) << reg.name << " " << value;
-    for (const auto unit : units_of(reg.unit)) {
-        const Text text = to_text(value, reg, model, unit);
-        EXPECT_EQ(parse(text.view(), reg, model).raw, value) << reg.name << " " << text.view();
-    }
-    const Text plain = to_text(value, reg, model, "");
-    EXPECT_EQ(parse(plain.view(), reg, model).raw, value) << reg.name << " " << plain.view();
+    if (parsed.raw == value && parsed.error == (legal ? TextError::none : TextError::out_of_range)) return;
+    ADD_FAILURE() << reg.name << ": " << value << " is written as " << text.view() << " and read as "
+                  << parsed.raw;
+}
+
+/// In every unit of a register, the usual one and none included.
+void round_trip(const Register& reg, Model model, std::int64_t value) {
+    returns(to_text(value, reg, model), value, reg, model);
+    for (const auto unit : units_of(reg.unit)) returns(to_text(value, reg, model, unit), value, reg, model);
+    returns(to_text(value, reg, model, ""), value, reg, model);
 }
 
 /// True once for every format and unit of a model: registers that differ in neither convert alike.
@@ -196,8 +197,9 @@ TEST(RoundTrip, EveryValueOf16Bits) {
         if (is_32_bit(reg.format) || !kinds.is_new(reg)) continue;
         for (std::uint32_t bits = 0; bits <= 0xFFFF && !testing::Test::HasFailure(); ++bits) {
             const std::int64_t value = value_of(reg.format, bits);
-            EXPECT_EQ(bits_of(reg.format, value), bits);
-            round_trip(reg, kSmall, value);
+            ASSERT_EQ(bits_of(reg.format, value), bits);
+            returns(to_text(value, reg, kSmall), value, reg, kSmall);
+            if (bits % 13 == 0) round_trip(reg, kSmall, value);
         }
     }
 }

@@ -16,8 +16,10 @@ const Details* details_of(Model model, std::uint8_t number) {
 
 std::span<const Field> fields_of(Model model, std::uint8_t number) {
     const auto all = model == Model::mac800 ? mac800_fields() : small_fields();
-    const auto found = std::ranges::equal_range(all, number, {}, &Field::number);
-    return {found.begin(), found.end()};
+    const auto first =
+        std::find_if(all.begin(), all.end(), [&](const Field& f) { return f.number == number; });
+    const auto end = std::find_if(first, all.end(), [&](const Field& f) { return f.number != number; });
+    return {first, end};
 }
 
 const Field* field_of(Model model, std::uint8_t number, std::string_view name) {

@@ -1,4 +1,7 @@
+#include <utility>
+
 #include "exact.h"
+#include "names.h"
 #include "registers/convert.h"
 #include "registers/scale.h"
 
@@ -12,10 +15,6 @@ constexpr int most_digits(int base) {
     return base == 2 ? 60 : base == 16 ? 15 : 18;
 }
 constexpr int kMostDecimals = 9;
-
-constexpr bool is_blank(char c) {
-    return c >= '\0' && c <= ' ';
-}
 
 constexpr bool is_digit(char c) {
     return c >= '0' && c <= '9';
