@@ -1,5 +1,7 @@
 #include "registers/mac.h"
 
+#include "names.h"
+#include "registers/scale.h"
 #include "tables.h"
 
 namespace nplc::registers {
@@ -17,18 +19,6 @@ constexpr ModelName kModels[] = {
 
 /// Up to this number a register means the same on every motor, whatever each manual calls it.
 constexpr std::uint8_t kLastCommon = 88;
-
-constexpr char upper(char c) {
-    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-}
-
-bool same_name(std::string_view a, std::string_view b) {
-    if (a.size() != b.size()) return false;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        if (upper(a[i]) != upper(b[i])) return false;
-    }
-    return true;
-}
 
 const Register* find_in(std::span<const Register> map, std::string_view name) {
     for (const Register& entry : map) {
@@ -58,8 +48,10 @@ const Register* find(Model model, std::string_view name) {
 }
 
 Scale scale_of(Model model) {
-    if (model == Model::mac800) return {.counts_per_rev = 8000, .samples_per_second = 770.0};
-    return {.counts_per_rev = 4096, .samples_per_second = 7812.5 / 15};
+    const ExactScale exact = exact_scale_of(model);
+    const auto [samples, seconds] = exact.samples_per_second;
+    return {.counts_per_rev = static_cast<std::int32_t>(exact.counts_per_rev),
+            .samples_per_second = static_cast<double>(samples) / static_cast<double>(seconds)};
 }
 
 std::optional<Model> model_of(std::string_view name) {

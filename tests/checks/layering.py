@@ -45,6 +45,7 @@ MODULES = [
     Module("host-sim/board", "sim", ANY, os=True, clock=True),
     Module("host-sim/macsim", None, ("base", "ports", "protocol", "registers", "hal_linux", "sim"), os=True),
     Module("host-sim/nanoplc_sim", None, ANY, os=True, clock=True),
+    Module("tools/registers_reference", "registers_reference", ("base", "registers"), os=True),
     Module("tools/seqc", "seqc", ("base", "sequencer", "protocol", "registers"), os=True),
     Module("tools/macreg", "macreg", ("base", "sequencer", "protocol", "registers"), os=True),
     Module("tests", None, ANY, os=True),

@@ -62,12 +62,24 @@ TEST(Units, TorqueTimesAndPlainNumbers) {
     EXPECT_EQ(written("MAC140", "V_SOLL := 16#FFFE"), "5=65534");
 }
 
+TEST(Units, VoltsDegreesAndAngles) {
+    EXPECT_EQ(written("MAC140", "ANINP_OFFSET := 0.5 V"), "123=51");       // 51.15: 10 V is 1023
+    EXPECT_EQ(written("MAC140", "ANINP_OFFSET := -500 mV"), "123=65485");  // -51
+    EXPECT_EQ(written("MAC140", "ELDEGN_OFFSET := 90 eldeg"), "124=512");  // 2048 / 4
+    EXPECT_EQ(written("MAC800", "DEGCMAX := 85 C"), "31=696L");            // 85 / 0.12207 = 696.32
+}
+
 TEST(Units, WhatDoesNotFitIsNothing) {
     const auto& speed = *registers::find(Model::mac140, "V_SOLL");
     EXPECT_EQ(raw_per_unit(speed, Model::mac140, std::nullopt, "mm/s"), std::nullopt);
     EXPECT_EQ(raw_per_unit(speed, Model::mac140, std::nullopt, "rpm/s"), std::nullopt);
     EXPECT_EQ(raw_per_unit(speed, Model::mac140, std::nullopt, "%peak"), std::nullopt);
     EXPECT_EQ(raw_per_unit(speed, Model::mac140, std::nullopt, "/s"), std::nullopt);
+    const LengthUnit mm{"mm", 5};
+    EXPECT_NE(raw_per_unit(speed, Model::mac140, mm, "mm / s"), std::nullopt);
+    for (const char* unit : {"mm", "mmx/s", "m/s", "mm/s/s", "mm/mm/s", "mm/"}) {
+        EXPECT_EQ(raw_per_unit(speed, Model::mac140, mm, unit), std::nullopt) << unit;
+    }
     EXPECT_NE(raw_per_unit(speed, Model::mac140, std::nullopt, "RPM"), std::nullopt);
 }
 

@@ -62,9 +62,10 @@ enum Number : std::uint8_t {
 
 enum class Format : std::uint8_t { word, integer, long_int, fixed4, fixed8, fixed16, fixed24 };
 
-/// What the number counts; `none` for bits, pointers and plain numbers.
+/// What the number counts; `none` for modes, pointers and plain numbers. Factors: registers/scale.h.
 enum class Unit : std::uint8_t {
     none,
+    bits,             ///< named in registers/details.h
     counts,           ///< encoder counts
     counts_16,        ///< 1/16 encoder counts
     velocity_16,      ///< 1/16 counts/sample
@@ -72,6 +73,19 @@ enum class Unit : std::uint8_t {
     acceleration_16,  ///< 1/16 counts/sample^2
     torque,           ///< 1023 = full torque
     samples,
+    velocity_inner,    ///< counts/sample of the current loop
+    analogue_volts,    ///< at the analogue input
+    supply_volts,      ///< of the motor, MAC50-141
+    logic_volts,       ///< of the control, MAC800
+    bus_volts,         ///< inside the motor, MAC800
+    temperature,       ///< MAC800
+    electrical_angle,  ///< 2048 = one electrical period
+};
+
+enum class Access : std::uint8_t {
+    read_write,
+    motor_writes,  ///< may be written, and the motor writes it too
+    read_only,     ///< the motor overwrites it, or it only tells something
 };
 
 enum class Model : std::uint8_t { mac50, mac95, mac140, mac141, mac800 };
@@ -89,7 +103,8 @@ struct Register {
     Unit unit;
     std::int64_t min;  ///< raw, as written to the line
     std::int64_t max;
-    bool dangerous;            ///< a change may damage the motor or upset its control
+    bool dangerous;  ///< a change may damage the motor or upset its control
+    Access access;
     std::string_view section;  ///< of the manual
 };
 

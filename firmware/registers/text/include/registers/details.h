@@ -1,0 +1,60 @@
+#pragma once
+
+#include "registers/mac.h"
+
+namespace nplc::registers {
+
+/// A range of raw values; 0..0 is none.
+struct RawRange {
+    std::int32_t from = 0;
+    std::int32_t to = 0;
+};
+
+/// What people want to know of a register beside its row in the map.
+struct Details {
+    std::uint8_t number;
+    std::string_view title;
+    RawRange recommended{};   ///< by the manual; both ends the same: its nominal value
+    std::string_view note{};  ///< where the manual is unclear or contradicts itself, and what holds here
+};
+
+/// What a value of a field stands for.
+struct NamedValue {
+    std::uint16_t value;
+    std::string_view name;
+    std::string_view meaning;
+};
+
+/// One or more bits of a register that mean something on their own; for a mode or a pointer the whole
+/// register.
+struct Field {
+    std::uint8_t number;  ///< of the register
+    std::uint8_t first;   ///< lowest bit
+    std::uint8_t width;   ///< bits
+    std::string_view name;
+    std::string_view meaning;
+    std::span<const NamedValue> values{};
+};
+
+constexpr std::uint32_t mask_of(const Field& field) {
+    return (field.width >= 32 ? ~std::uint32_t{0} : (std::uint32_t{1} << field.width) - 1) << field.first;
+}
+
+constexpr std::uint32_t value_in(const Field& field, std::uint32_t bits) {
+    return (bits & mask_of(field)) >> field.first;
+}
+
+/// Every register of the map has details. The manuals give no values from the factory.
+const Details* details_of(Model model, std::uint8_t number);
+
+/// Of a register, lowest bit first; none if it is just a number.
+std::span<const Field> fields_of(Model model, std::uint8_t number);
+/// By the manual's name, as ERR_STAT's IN_POS. Case counts not.
+const Field* field_of(Model model, std::uint8_t number, std::string_view name);
+/// Null if the value has no name.
+const NamedValue* named(const Field& field, std::uint32_t value);
+
+std::string_view name_of(Format format);  ///< as the manuals write it: LongInt, Fixed8
+std::string_view name_of(Access access);
+
+}  // namespace nplc::registers
