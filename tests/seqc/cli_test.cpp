@@ -1,42 +1,13 @@
-#include <gtest/gtest.h>
-#include <sys/wait.h>
+#include "cli_support.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 namespace nplc::seqc {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Cli : public testing::Test {
-  protected:
-    void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "seqc_test_XXXXXX").string();
-        folder_ = mkdtemp(name.data());
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    int run(const std::string& arguments) const {
-        const std::string command =
-            "cd '" + folder_.string() + "' && '" SEQC_PROGRAM "' " + arguments + " >out 2>err";
-        return WEXITSTATUS(std::system(command.c_str()));
-    }
-    void write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_ / name) << text;
-    }
-    std::string read(const std::string& name) const {
-        std::stringstream text;
-        text << std::ifstream(folder_ / name, std::ios::binary).rdbuf();
-        return text.str();
-    }
-    bool exists(const std::string& name) const { return fs::exists(folder_ / name); }
-
-    fs::path folder_;
-};
+using test::Cli;
 
 const char* const kGood = "PROGRAM P STEP S: OWN ERROR; END_STEP END_PROGRAM\n";
 

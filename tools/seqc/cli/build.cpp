@@ -1,9 +1,10 @@
 #include <fmt/format.h>
 
-#include <filesystem>
+#include <cstdio>
 #include <memory>
 #include <string>
 
+#include "cli/build_targets.h"
 #include "cli/common.h"
 #include "cli/files.h"
 #include "cli/subcommands.h"
@@ -11,41 +12,27 @@
 namespace nplc::seqc::cli {
 namespace {
 
-namespace fs = std::filesystem;
+using Options = BuildOptions;
 
-struct Options {
-    std::string source;
-    std::string output;
-    std::string listing;
-};
-
-std::string target_problem(const Options& options) {
-    for (const std::string& target : {options.output, options.listing}) {
-        if (target == "-") return "build writes files only: name one instead of '-' (or ./-)";
-        if (!target.empty() && is_same_file(target, options.source))
-            return fmt::format("'{}' is the program itself: name another output", target);
-    }
-    if (!options.listing.empty() && is_same_file(options.listing, options.output))
-        return fmt::format("'{}' cannot be both table and listing", options.output);
-    return {};
+int write_all(const Options& options, const BuildTargets& targets, const Compilation& compilation,
+              const std::string& source) {
+    if (!has_room(targets, compilation.table.size()))
+        return file_problem(
+            fmt::format("--base-address {}: the table would end beyond 4 GiB", options.base_address));
+    const std::string error = write_files(files_of(targets, options, compilation, source));
+    if (!error.empty()) return file_problem(error);
+    if (!options.quiet) fmt::print("{}", summary(targets, compilation));
+    return std::fflush(stdout) == 0 ? kOk : file_problem("cannot write to standard output");
 }
 
-int write_all(const Options& options, const Compilation& compilation, const std::string& source) {
-    std::vector<OutputFile> files = {{options.output, {compilation.table.begin(), compilation.table.end()}}};
-    if (!options.listing.empty())
-        files.push_back({options.listing, listing(compilation, source, options.source)});
-    const std::string error = write_files(files);
-    return error.empty() ? kOk : file_problem(error);
-}
-
-int build(Options options) {
-    if (options.output.empty()) options.output = fs::path(options.source).replace_extension(".bin").string();
-    if (const std::string problem = target_problem(options); !problem.empty()) return file_problem(problem);
+int build(const Options& options) {
+    const BuildTargets targets = targets_of(options);
+    if (!targets.problem.empty()) return file_problem(targets.problem);
     const auto source = read_file(options.source);
     if (!source.error.empty()) return file_problem(source.error);
     const Compilation compilation = compile(source.text);
     print_diagnostics(compilation, source.text, options.source);
-    return compilation.ok ? write_all(options, compilation, source.text) : kProgramHasErrors;
+    return compilation.ok ? write_all(options, targets, compilation, source.text) : kProgramHasErrors;
 }
 
 int check(const std::string& file) {
@@ -60,10 +47,17 @@ int check(const std::string& file) {
 
 void add_build(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = *app.add_subcommand("build", "Compile a program into a raw table");
+    CLI::App& command = *app.add_subcommand("build", "Compile a program into a table");
     command.add_option("program", options->source, "The program, F.seq")->required();
     command.add_option("-o,--output", options->output,
-                       "The table to write (default: F.bin beside the program)");
+                       "The table to write (default: F.bin beside the program); .hex or .ihx: Intel HEX");
+    command.add_option("--format", options->format, "bin or hex, whatever the table's file is called");
+    command.add_option("--base-address", options->base_address,
+                       "Where Intel HEX puts the table's first byte (0), such as 0x08010000");
+    command.add_option("--symbols", options->symbols,
+                       "The file for the names and source lines (default: F.sym beside the table)");
+    command.add_flag("--no-symbols", options->no_symbols, "Write no F.sym");
+    command.add_flag("--quiet", options->quiet, "Do not say what was written");
     command.add_option("--listing", options->listing,
                        "Also write each term's bytes, meaning and source line");
     command.callback([options, &exit_code] { exit_code = build(*options); });

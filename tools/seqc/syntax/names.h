@@ -10,6 +10,9 @@ namespace nplc::seqc {
 bool same_name(std::string_view a, std::string_view b);
 std::string upper(std::string_view text);
 
+/// Letters, digits and _, no digit first. Words of the language are identifiers too.
+bool is_identifier(std::string_view text);
+
 /// "did you mean 'Travel'?" when a candidate is near enough to `name`, else nothing.
 std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates);
 
