@@ -37,6 +37,9 @@ TEST_F(CliSymbols, BuildSaysWhatItWrote) {
     EXPECT_FALSE(exists("b.sym"));
     EXPECT_EQ(run("build a.seq --quiet"), 0);
     EXPECT_EQ(read("out"), "");
+    write("s.seq", "PROGRAM P STEP S: OWN ERROR; END_STEP END_PROGRAM");
+    EXPECT_EQ(run("build s.seq"), 0);
+    EXPECT_EQ(read("out"), "s.bin: 1 step of 61, 2 terms, 16 bytes; names in s.sym\n");
     write("t.seq", "PROGRAM T TERM 16#C0, 0, 0, 1, 16#80, 0, 0, 0; END_PROGRAM");
     EXPECT_EQ(run("build t.seq"), 0);
     EXPECT_EQ(read("out"), "t.bin: 2 terms, 16 bytes; names in t.sym\n");

@@ -87,6 +87,10 @@ std::string address_problem(const BuildOptions& options, BuildTargets& targets) 
     return {};
 }
 
+std::string counted(std::size_t count, std::string_view what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 }  // namespace
 
 BuildTargets targets_of(const BuildOptions& options) {
@@ -127,9 +131,9 @@ std::string summary(const BuildTargets& targets, const Compilation& compilation)
     if (is_device(targets.table)) return {};
     std::string text = targets.table + ": ";
     if (!compilation.steps.empty())
-        text += fmt::format("{} steps of {}, ", compilation.steps.size() - 1, kMostSteps);
-    text += fmt::format("{} terms, {} bytes", compilation.table.size() / sequencer::kTermBytes,
-                        compilation.table.size());
+        text += fmt::format("{} of {}, ", counted(compilation.steps.size() - 1, "step"), kMostSteps);
+    const std::size_t bytes = compilation.table.size();
+    text += fmt::format("{}, {} bytes", counted(bytes / sequencer::kTermBytes, "term"), bytes);
     if (targets.base_address != 0) text += fmt::format(" at {:X}h", targets.base_address);
     if (!targets.symbols.empty()) text += fmt::format("; names in {}", targets.symbols);
     return text + "\n";
