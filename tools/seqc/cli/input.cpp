@@ -74,15 +74,13 @@ void read_table_into(Input& input, const std::string& text) {
 /// Symbols that are asked for by name must fit; those that happen to stand beside the table need not.
 void read_symbols_into(Input& input, const std::string& asked_for) {
     const std::string file = asked_for.empty() ? symbol_file_beside(input.file) : asked_for;
-    if (asked_for.empty() && !std::filesystem::is_regular_file(file)) return;
+    std::error_code ignored;
+    if (asked_for.empty() && !std::filesystem::is_regular_file(file, ignored)) return;
     const FileText text = read_file(file);
-    SymbolReading reading;
-    if (text.error.empty()) reading = read_symbols(text.text, input.table);
-    const std::string error = text.error.empty() && !reading.error.empty()
-                                  ? fmt::format("{}: {}", file, reading.error)
-                                  : text.error;
+    const SymbolReading reading = text.error.empty() ? read_symbols(text.text, input.table) : SymbolReading{};
+    const std::string error = reading.error.empty() ? text.error : fmt::format("{}: {}", file, reading.error);
     if (error.empty()) {
-        input.symbols = std::move(reading.file.symbols);
+        input.symbols = reading.file.symbols;
     } else if (asked_for.empty()) {
         fmt::print(stderr, "seqc: {}; names are left out\n", error);
     } else {
