@@ -79,8 +79,11 @@ void add_line_options(CLI::App& app, RunOptions& options) {
 void add_run(CLI::App& parent, RunOptions& options) {
     CLI::App& app = *parent.add_subcommand(
         "run", "Run a sequence on the simulated gateway with a virtual motor; prints a timeline");
-    app.add_option("program", options.program, "F.seq (compiled on the way) or F.bin (a raw table)")
+    app.add_option("program", options.program, "F.seq (compiled on the way), or a table: F.bin or F.hex")
         ->required();
+    app.add_option("--symbols", options.symbols,
+                   "names for a table (F.sym beside F.bin, as `seqc build` writes it, if it fits)")
+        ->type_name("F.sym");
     app.add_option("--scenario", options.scenario,
                    "inputs, line faults and expectations, see host-sim/scenario")
         ->type_name("S.scn");
@@ -91,7 +94,7 @@ void add_run(CLI::App& parent, RunOptions& options) {
              }));
     app.add_option("--trace", options.csv, "write a trace as CSV")->type_name("T.csv");
     app.add_option("--vcd", options.vcd, "write a trace as VCD, for GTKWave")->type_name("T.vcd");
-    add_read(app, "--motor", "MODEL", "the motor (the program's own; MAC140 for a raw table)",
+    add_read(app, "--motor", "MODEL", "the motor (the program's own; MAC140 for a table without names)",
              "MAC50, MAC95, MAC140, MAC141 or MAC800",
              into(options.motor, [](const std::string& text) { return registers::model_of(text); }));
     app.add_flag("--realtime", options.realtime, "wall-clock time; keys 0-5 toggle inputs, q ends");
@@ -111,7 +114,8 @@ void add_run(CLI::App& parent, RunOptions& options) {
 void add_scan(CLI::App& parent, ScanOptions& options) {
     CLI::App& app =
         *parent.add_subcommand("scan", "Run the sequence engine alone, one scan a row; prints CSV");
-    app.add_option("table", options.table, "F.bin: terms of 8 bytes, ended by one whose STATE is 3Fh")
+    app.add_option("table", options.table,
+                   "F.bin or F.hex: terms of 8 bytes, ended by one whose STATE is 3Fh")
         ->required();
     app.add_option("--stimulus", options.stimulus,
                    "CSV with the header dt_ms,inputs,inpos,error; - is standard input")

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "seqc/intel_hex.h"
 #include "sequencer/table.h"
 #include "sim/text.h"
 
@@ -39,6 +40,14 @@ bool is_printable(const std::string& text) {
     });
 }
 
+std::vector<std::uint8_t> bytes_of(const std::string& text, const std::string& path) {
+    if (!seqc::is_intel_hex(path, text)) return {text.begin(), text.end()};
+    seqc::HexImage image = seqc::from_intel_hex(text);
+    if (image.error.empty()) return std::move(image.bytes);
+    throw InputError(
+        fmt::format("{}:{}: {}; mend the file or build it again with seqc", path, image.line, image.error));
+}
+
 }  // namespace
 
 bool has_extension(const std::string& path, std::string_view extension) {
@@ -62,8 +71,8 @@ std::vector<std::uint8_t> read_table(const std::string& path) {
     }
     const std::string text = read_input(path, "a sequence table as `seqc build` writes it");
     if (text.empty()) refuse(path, "a sequence table as `seqc build` writes it", "the file is empty");
-    std::vector<std::uint8_t> bytes(text.begin(), text.end());
-    if (is_printable(text) && !sequencer::Table::load(bytes).ok) {
+    std::vector<std::uint8_t> bytes = bytes_of(text, path);
+    if (is_printable(text) && !seqc::is_intel_hex(path, text) && !sequencer::Table::load(bytes).ok) {
         throw InputError(
             fmt::format("{0}: text, not a raw table; if it is a program's source, build the table first: "
                         "seqc build {0} -o {1}",

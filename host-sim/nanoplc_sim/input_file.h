@@ -19,7 +19,7 @@ std::string read_input(const std::string& path, const std::string& what, bool da
 /// Without regard to case; `extension` is lower case and begins with its dot.
 bool has_extension(const std::string& path, std::string_view extension);
 
-/// A raw sequence table, checked: Table::load takes these bytes.
+/// A sequence table, raw or Intel HEX, checked: Table::load takes these bytes.
 std::vector<std::uint8_t> read_table(const std::string& path);
 /// Throws with the file, the term and the reason unless Table::load takes `bytes`.
 void check_table(const std::vector<std::uint8_t>& bytes, const std::string& path);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "input_file.h"
+#include "program.h"
 #include "sim/output_file.h"
 
 namespace nplc::sim {
@@ -46,6 +47,8 @@ void check(const Output& output, const RunOptions& options) {
                         output.option, output.path));
     }
     output.check_against(options.program, "program");
+    const std::string symbols = symbols_of(options.program, options.symbols);
+    if (!symbols.empty()) output.check_against(symbols, "symbol file");
     if (options.scenario) output.check_against(*options.scenario, "scenario");
 }
 

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
+#include "base/crc32.h"
 #include "input_file.h"
 #include "seqc/seqc.h"
+#include "seqc/symbol_file.h"
 #include "sequencer/table.h"
 
 namespace nplc::sim {
@@ -34,8 +37,11 @@ Program compile(const std::string& file) {
     const seqc::Compilation compilation = seqc::compile(source);
     if (!compilation.ok) throw InputError(rendered(compilation, source, file));
     check_table(compilation.table, file);
-    Program program{
-        .file = file, .table = compilation.table, .names = names_of(compilation.symbols), .remark = {}};
+    Program program;
+    program.file = file;
+    program.table = compilation.table;
+    program.name = compilation.symbols.program;
+    program.names = names_of(compilation.symbols);
     if (const auto warnings = compilation.diagnostics.size(); warnings != 0) {
         program.remark = fmt::format("{}: {} warning{}; `seqc check {}` shows {}", file, warnings,
                                      warnings == 1 ? "" : "s", file, warnings == 1 ? "it" : "them");
@@ -43,17 +49,54 @@ Program compile(const std::string& file) {
     return program;
 }
 
+/// Throws InputError, also for symbols that do not fit the table.
+void take_names(Program& program, const std::string& file, const std::string& otherwise) {
+    const seqc::SymbolReading reading =
+        seqc::read_symbols(read_input(file, "a symbol file as `seqc build` writes it"), program.table);
+    if (!reading.error.empty()) throw InputError(fmt::format("{}: {}; {}", file, reading.error, otherwise));
+    program.name = reading.file.symbols.program;
+    program.names = names_of(reading.file.symbols);
+    program.symbols = file;
+}
+
+/// Symbols that stand beside a table by chance need not fit.
+void take_names_beside(Program& program, const std::string& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) return;
+    try {
+        take_names(program, file, "names are left out");
+    } catch (const InputError& misfit) {
+        program.nameless = misfit.what();
+    }
+}
+
 }  // namespace
 
-Program load_program(const std::string& file) {
+std::string symbols_of(const std::string& file, const std::optional<std::string>& symbols) {
+    if (symbols) return *symbols;
+    return has_extension(file, ".seq") ? std::string() : seqc::symbol_file_beside(file);
+}
+
+Program load_program(const std::string& file, const std::optional<std::string>& symbols) {
     Program program;
-    if (has_extension(file, ".seq")) {
+    const bool is_source = has_extension(file, ".seq");
+    if (is_source && symbols)
+        throw InputError(fmt::format("{}: a source brings its own names; leave --symbols out", file));
+    if (is_source) {
         program = compile(file);
     } else {
         program.file = file;
         program.table = read_table(file);
     }
     program.terms = sequencer::Table::load(program.table).table.size();
+    program.table.resize((program.terms + 1) * sequencer::kTermBytes);
+    program.crc32 = base::crc32(program.table);
+    if (is_source) return program;
+    if (symbols) {
+        take_names(program, *symbols, "name the one that `seqc build` wrote with this table");
+    } else {
+        take_names_beside(program, symbols_of(file, symbols));
+    }
     return program;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,12 +14,19 @@ struct Program {
     std::string file;
     std::vector<std::uint8_t> table;  ///< Table::load takes it
     std::size_t terms = 0;
+    std::uint32_t crc32 = 0;  ///< of the table, its end term included
+    std::string name;         ///< as the source has it; empty for a table without names
     Names names;
-    std::string remark;  ///< one line for the user about the source, or empty
+    std::string symbols;   ///< the file that the names of a table come from, or empty
+    std::string nameless;  ///< one line for the user why a table's symbols were left out, or empty
+    std::string remark;    ///< one line for the user about the source, or empty
 };
 
-/// `.seq` is compiled, anything else is read as a raw table. Throws InputError; for a source its message
-/// holds all of the compiler's diagnostics.
-Program load_program(const std::string& file);
+/// `.seq` is compiled, anything else is read as a table. Its names come from `symbols`, which must fit, or
+/// from the file beside it if that fits. Throws InputError; for a source its message holds all of the
+/// compiler's diagnostics.
+Program load_program(const std::string& file, const std::optional<std::string>& symbols = {});
+/// The symbols that load_program would read for a table, there or not; empty if none.
+std::string symbols_of(const std::string& file, const std::optional<std::string>& symbols);
 
 }  // namespace nplc::sim

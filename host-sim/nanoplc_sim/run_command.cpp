@@ -109,7 +109,8 @@ void run_realtime(Session& session, const volatile std::sig_atomic_t& interrupte
 
 int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted) {
     check_outputs(options);
-    Program program = load_program(options.program);
+    Program program = load_program(options.program, options.symbols);
+    if (!program.nameless.empty()) fmt::print(stderr, "{}\n", program.nameless);
     if (options.motor && *options.motor != program.names.motor && !program.names.steps.empty()) {
         fmt::print(stderr, "{}: was compiled for {} and runs on {}; its register values may not fit\n",
                    program.file, registers::name_of(program.names.motor), registers::name_of(*options.motor));

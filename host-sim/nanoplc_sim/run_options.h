@@ -12,6 +12,7 @@ namespace nplc::sim {
 /// The command line of `nanoplc-sim run`.
 struct RunOptions {
     std::string program;
+    std::optional<std::string> symbols;  ///< without it, F.sym beside a table if it fits
     std::optional<std::string> scenario;
     std::optional<std::string> csv;
     std::optional<std::string> vcd;

@@ -49,6 +49,12 @@ std::string_view in_words(gateway::SafeReason reason) {
     return "";
 }
 
+/// Which table a trace is of; no file's name, which could hold anything.
+std::string identity(const Program& program) {
+    return fmt::format("{}table CRC-32 {:08X}",
+                       program.name.empty() ? "" : fmt::format("program {}, ", program.name), program.crc32);
+}
+
 std::string in_words(std::string_view direction, const LineCounters& c) {
     return fmt::format(
         "{}: {} characters, {} lost, {} damaged, {} with framing error, {} delayed, {} while cut", direction,
@@ -82,7 +88,7 @@ Session::Session(const RunOptions& options, const Program& program, const Scenar
                                      registers::name_of(program.names.motor)));
     }
     if (options.csv) csv_.emplace(*options.csv);
-    if (options.vcd) vcd_.emplace(*options.vcd, program.names);
+    if (options.vcd) vcd_.emplace(*options.vcd, program.names, identity(program));
     if (!length_ && !options.realtime && !scenario.can_end()) length_ = kDefaultLength;
     world_.on_log([this](const std::string& text) { timeline_.remark('"' + text + '"'); });
     runner_.on_failure([this](const Outcome& outcome, Time) {
@@ -93,9 +99,11 @@ Session::Session(const RunOptions& options, const Program& program, const Scenar
 void Session::heading() const {
     const std::string seed =
         options_.faults == LineFaults{} ? "" : fmt::format(", faults with seed {}", options_.seed);
-    fmt::print("{}: {} terms, {}, {} baud, {} communication{}\n\n", program_.file, program_.terms,
+    const std::string names =
+        program_.symbols.empty() ? "" : fmt::format(", names from {}", program_.symbols);
+    fmt::print("{}: {} terms, {}, {} baud, {} communication{}{}\n\n", program_.file, program_.terms,
                registers::name_of(program_.names.motor), options_.baud, options_.rapid ? "rapid" : "safe",
-               seed);
+               seed, names);
     if (!options_.quiet) timeline_.heading();
 }
 

@@ -58,12 +58,15 @@ double rpm_of(std::int32_t v_ist, registers::Model motor) {
 
 }  // namespace
 
-VcdTrace::VcdTrace(const std::string& path, const Names& names) : file_(path), names_(names) {
-    header();
+VcdTrace::VcdTrace(const std::string& path, const Names& names, const std::string& comment)
+    : file_(path), names_(names) {
+    header(comment);
 }
 
-void VcdTrace::header() {
-    std::string text = "$version nanoplc-sim $end\n$timescale 1 us $end\n$scope module nanoplc $end\n";
+void VcdTrace::header(const std::string& comment) {
+    std::string text = "$version nanoplc-sim $end\n";
+    if (!comment.empty()) text += fmt::format("$comment {} $end\n", comment);
+    text += "$timescale 1 us $end\n$scope module nanoplc $end\n";
     const auto declare = [&](std::string_view type, int bits, const std::string& code_text,
                              std::string_view name) {
         text += fmt::format("$var {} {} {} {} $end\n", type, bits, code_text, name);

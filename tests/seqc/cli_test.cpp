@@ -1,14 +1,13 @@
-#include <gtest/gtest.h>
+#include "cli_support.h"
 
 #include <algorithm>
-
-#include "cli_fixture.h"
 
 namespace nplc::seqc {
 namespace {
 
 namespace fs = std::filesystem;
-using Cli = test::CliTest;
+
+using test::Cli;
 
 const char* const kGood = "PROGRAM P STEP S: OWN ERROR; END_STEP END_PROGRAM\n";
 

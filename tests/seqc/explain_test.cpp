@@ -4,13 +4,13 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "cli_fixture.h"
+#include "cli_support.h"
 #include "codes/catalog.h"
 
 namespace nplc::seqc {
 namespace {
 
-using Explain = test::CliTest;
+using Explain = test::Cli;
 using Json = nlohmann::json;
 
 const char* const kWrong = "PROGRAM P STEP S: OWN ERROR; NEXT := Q; END_STEP END_PROGRAM\n";

@@ -2,12 +2,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli_fixture.h"
+#include "cli_support.h"
 
 namespace nplc::seqc {
 namespace {
 
-using JsonOutput = test::CliTest;
+using JsonOutput = test::Cli;
 using Json = nlohmann::json;
 
 TEST_F(JsonOutput, ADiagnosticWithItsPlaceAndNotes) {

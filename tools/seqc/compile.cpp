@@ -60,6 +60,7 @@ Compilation compile(std::string_view source) {
     Scope scope(program, source, checks, result);
     const Plan plan = check(program, scope, checks);
     if (!plan.steps.empty()) result.symbols.steps[0] = plan.steps.front().name;
+    for (const StepPlan& step : plan.steps) result.steps.push_back({step.number, step.span, step.outputs});
     if (syntax_sound && !checks.has_errors()) {
         check_motor_state(plan, result.symbols.motor, checks);
         check_invisible_limits(plan, result.symbols.motor, checks);

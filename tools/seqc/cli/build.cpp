@@ -1,10 +1,11 @@
 #include <fmt/format.h>
 
-#include <filesystem>
+#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "cli/build_targets.h"
 #include "cli/common.h"
 #include "cli/files.h"
 #include "cli/json.h"
@@ -13,33 +14,15 @@
 namespace nplc::seqc::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
-struct Options {
-    std::string source;
-    std::string output;
-    std::string listing;
-    bool json = false;
-};
+using Options = BuildOptions;
 
 constexpr const char* kJsonHelp = "Print the diagnostics as JSON on standard output";
 
-std::string target_problem(const Options& options) {
-    for (const std::string& target : {options.output, options.listing}) {
-        if (target == "-") return "build writes files only: name one instead of '-' (or ./-)";
-        if (!target.empty() && is_same_file(target, options.source))
-            return fmt::format("'{}' is the program itself: name another output", target);
-    }
-    if (!options.listing.empty() && is_same_file(options.listing, options.output))
-        return fmt::format("'{}' cannot be both table and listing", options.output);
-    return {};
-}
-
-std::string written(const Options& options, const Compilation& compilation, const std::string& source) {
-    std::vector<OutputFile> files = {{options.output, {compilation.table.begin(), compilation.table.end()}}};
-    if (!options.listing.empty())
-        files.push_back({options.listing, listing(compilation, source, options.source)});
-    return write_files(files);
+std::string written(const Options& options, const BuildTargets& targets, const Compilation& compilation,
+                    const std::string& source) {
+    if (!has_room(targets, compilation.table.size()))
+        return fmt::format("--base-address {}: the table would end beyond 4 GiB", options.base_address);
+    return write_files(files_of(targets, options, compilation, source));
 }
 
 int problem(const Options& options, const std::string& message) {
@@ -54,16 +37,21 @@ int report(const Options& options, const Compilation& compilation, const std::st
     return exit_code;
 }
 
-int build(Options options) {
-    if (options.output.empty()) options.output = fs::path(options.source).replace_extension(".bin").string();
-    if (const std::string target = target_problem(options); !target.empty()) return problem(options, target);
+int build(const Options& options) {
+    const BuildTargets targets = targets_of(options);
+    if (!targets.problem.empty()) return problem(options, targets.problem);
     const auto source = read_file(options.source);
     if (!source.error.empty()) return problem(options, source.error);
     const Compilation compilation = compile(source.text);
-    const std::string unwritten = compilation.ok ? written(options, compilation, source.text) : std::string();
-    if (unwritten.empty()) return report(options, compilation, source.text);
-    if (!options.json) print_diagnostics(compilation, source.text, options.source);
-    return problem(options, unwritten);
+    const std::string unwritten =
+        compilation.ok ? written(options, targets, compilation, source.text) : std::string();
+    if (!unwritten.empty()) {
+        if (!options.json) print_diagnostics(compilation, source.text, options.source);
+        return problem(options, unwritten);
+    }
+    const int exit_code = report(options, compilation, source.text);
+    if (exit_code == kOk && !options.quiet && !options.json) fmt::print("{}", summary(targets, compilation));
+    return std::fflush(stdout) == 0 ? exit_code : file_problem("cannot write to standard output");
 }
 
 int check(const Options& options) {
@@ -76,10 +64,17 @@ int check(const Options& options) {
 
 void add_build(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = *app.add_subcommand("build", "Compile a program into a raw table");
+    CLI::App& command = *app.add_subcommand("build", "Compile a program into a table");
     command.add_option("program", options->source, "The program, F.seq")->required();
     command.add_option("-o,--output", options->output,
-                       "The table to write (default: F.bin beside the program)");
+                       "The table to write (default: F.bin beside the program); .hex or .ihx: Intel HEX");
+    command.add_option("--format", options->format, "bin or hex, whatever the table's file is called");
+    command.add_option("--base-address", options->base_address,
+                       "Where Intel HEX puts the table's first byte (0), such as 0x08010000");
+    command.add_option("--symbols", options->symbols,
+                       "The file for the names and source lines (default: F.sym beside the table)");
+    command.add_flag("--no-symbols", options->no_symbols, "Write no F.sym");
+    command.add_flag("--quiet", options->quiet, "Do not say what was written");
     command.add_option("--listing", options->listing,
                        "Also write each term's bytes, meaning and source line");
     command.add_flag("--json", options->json, kJsonHelp);

@@ -11,16 +11,17 @@ namespace nplc::seqc::cli {
 namespace {
 
 struct Options {
-    std::string table;
+    InputFile table;
     std::string output;
 };
 
 int disasm(const Options& options) {
     const Input input = read_input(options.table);
     if (input.exit_code != kOk) return input.exit_code;
-    if (!options.output.empty() && is_same_file(options.output, options.table))
+    if (!options.output.empty() && is_same_file(options.output, input.file))
         return file_problem(fmt::format("'{}' is the table itself: name another output", options.output));
-    const auto result = disassemble(input.table, std::filesystem::path(options.table).stem().string());
+    const auto result = disassemble(input.table, std::filesystem::path(input.file).stem().string(),
+                                    input.symbols ? &*input.symbols : nullptr);
     return print_or_write(result.text, options.output);
 }
 
@@ -30,8 +31,11 @@ void add_disasm(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<Options>();
     CLI::App& command =
         *app.add_subcommand("disasm", "Print a table as a program of TERM lines, each explained");
-    command.add_option("table", options->table, "The raw table, F.bin: terms of 8 bytes up to STATE 63")
+    command
+        .add_option("table", options->table.file,
+                    "The table, F.bin or F.hex: terms of 8 bytes up to STATE 63")
         ->required();
+    add_symbols_option(command, options->table);
     command.add_option("-o,--output", options->output, "Write to a file instead of standard output (-)");
     command.callback([options, &exit_code] { exit_code = disasm(*options); });
 }

@@ -22,12 +22,6 @@ std::string reason() {
     return errno != 0 ? std::strerror(errno) : "unknown reason";
 }
 
-/// A device or pipe is written to in place: a rename would replace it.
-bool is_special(const std::string& path) {
-    std::error_code error;
-    return fs::exists(path, error) && !fs::is_regular_file(path, error);
-}
-
 /// What a symbolic link leads to is written, not the link; it need not exist yet.
 std::string behind_links(const std::string& path) {
     constexpr int kMostLinks = 40;
@@ -60,6 +54,11 @@ void remove_temporaries(const std::vector<OutputFile>& files) {
 
 }  // namespace
 
+bool is_special(const std::string& path) {
+    std::error_code error;
+    return fs::exists(path, error) && !fs::is_regular_file(path, error);
+}
+
 FileText read_file(const std::string& path) {
     std::error_code error;
     if (fs::is_directory(path, error)) return {{}, fmt::format("'{}' is a folder", path)};
@@ -74,7 +73,9 @@ FileText read_file(const std::string& path) {
 
 std::string write_files(const std::vector<OutputFile>& named) {
     std::vector<OutputFile> files = named;
-    for (OutputFile& file : files) file.path = behind_links(file.path);
+    for (OutputFile& file : files) {
+        if (!is_special(file.path)) file.path = behind_links(file.path);
+    }
     std::string problem;
     for (const OutputFile& file : files) {
         std::error_code error;

@@ -12,6 +12,9 @@ struct FileText {
 
 FileText read_file(const std::string& path);
 
+/// A device or pipe, which is written to in place: a rename would replace it.
+bool is_special(const std::string& path);
+
 struct OutputFile {
     std::string path;
     std::string content;

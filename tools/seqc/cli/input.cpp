@@ -6,6 +6,8 @@
 #include <span>
 
 #include "cli/files.h"
+#include "seqc/intel_hex.h"
+#include "seqc/symbol_file.h"
 #include "sequencer/term.h"
 
 namespace nplc::seqc::cli {
@@ -39,8 +41,20 @@ std::size_t table_length(std::span<const std::uint8_t> bytes) {
     return 0;
 }
 
+/// Whether there are bytes; raw ones are taken as they are.
+bool take_bytes(Input& input, const std::string& text, std::vector<std::uint8_t>& bytes) {
+    bytes.assign(text.begin(), text.end());
+    if (!is_intel_hex(input.file, text)) return true;
+    HexImage image = from_intel_hex(text);
+    bytes = std::move(image.bytes);
+    if (image.error.empty()) return true;
+    input.exit_code = file_problem(fmt::format("{}:{}: {}", input.file, image.line, image.error));
+    return false;
+}
+
 void read_table_into(Input& input, const std::string& text) {
-    std::vector<std::uint8_t> bytes(text.begin(), text.end());
+    std::vector<std::uint8_t> bytes;
+    if (!take_bytes(input, text, bytes)) return;
     const std::size_t length = table_length(bytes);
     if (length == 0) {
         input.exit_code = file_problem(fmt::format(
@@ -57,20 +71,51 @@ void read_table_into(Input& input, const std::string& text) {
     input.table = std::move(bytes);
 }
 
+/// Symbols that are asked for by name must fit; those that happen to stand beside the table need not.
+void read_symbols_into(Input& input, const std::string& asked_for) {
+    const std::string file = asked_for.empty() ? symbol_file_beside(input.file) : asked_for;
+    std::error_code ignored;
+    if (asked_for.empty() && !std::filesystem::is_regular_file(file, ignored)) return;
+    const FileText text = read_file(file);
+    const SymbolReading reading = text.error.empty() ? read_symbols(text.text, input.table) : SymbolReading{};
+    const std::string error = reading.error.empty() ? text.error : fmt::format("{}: {}", file, reading.error);
+    if (error.empty()) {
+        input.symbols = reading.file.symbols;
+    } else if (asked_for.empty()) {
+        fmt::print(stderr, "seqc: {}; names are left out\n", error);
+    } else {
+        input.table.clear();
+        input.exit_code = file_problem(error);
+    }
+}
+
 }  // namespace
 
-Input read_input(const std::string& file) {
+Input read_input(const InputFile& named) {
     Input input;
-    input.file = file;
-    const FileText text = read_file(file);
+    input.file = named.file;
+    const FileText text = read_file(named.file);
     if (!text.error.empty()) {
         input.exit_code = file_problem(text.error);
-    } else if (is_program(file)) {
-        compile_into(input, text.text);
+    } else if (is_program(named.file)) {
+        if (named.symbols.empty()) {
+            compile_into(input, text.text);
+        } else {
+            input.exit_code =
+                file_problem(fmt::format("{} brings its own names: leave --symbols out", named.file));
+        }
     } else {
         read_table_into(input, text.text);
+        if (input.exit_code == kOk) read_symbols_into(input, named.symbols);
     }
     return input;
+}
+
+void add_symbols_option(CLI::App& command, InputFile& named) {
+    command
+        .add_option("--symbols", named.symbols,
+                    "Take a table's names from here (default: F.sym beside F.bin, if it fits)")
+        ->type_name("F.sym");
 }
 
 }  // namespace nplc::seqc::cli

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,18 +11,30 @@
 
 namespace nplc::seqc::cli {
 
+/// What a subcommand reads.
+struct InputFile {
+    std::string file;
+    std::string symbols;  ///< F.sym by name; without one, the file beside a table is taken if it fits
+};
+
 /// A program or a table from a file, ready to be looked at.
 struct Input {
     std::string file;
     std::vector<std::uint8_t> table;     ///< whole terms, the end term last
-    std::optional<Symbols> symbols;      ///< nothing for a bare table
+    std::optional<Symbols> symbols;      ///< nothing for a bare table without F.sym
     std::optional<Compilation> program;  ///< nothing for a table
     std::string source;                  ///< the program's text
     int exit_code = kOk;                 ///< not kOk: why was printed, and the rest is empty
 };
 
-/// Compiles what ends in `.seq` and reads all else as a table. Prints what is wrong with it on standard
-/// error.
-Input read_input(const std::string& file);
+/// Compiles what ends in `.seq` and reads all else as a table, raw or Intel HEX. Prints what is wrong with it
+/// on standard error.
+Input read_input(const InputFile& named);
+inline Input read_input(const std::string& file) {
+    return read_input(InputFile{file, {}});
+}
+
+/// `--symbols FILE`, the same in every subcommand that takes a table.
+void add_symbols_option(CLI::App& command, InputFile& named);
 
 }  // namespace nplc::seqc::cli

@@ -88,6 +88,7 @@ void Scope::declare_scale(const ast::Program& program) {
     }
     scale_span_ = scale.span;
     length_ = LengthUnit{scale.unit.text, scale.length / scale.revolutions};
+    result_.symbols.scale = Scale{scale.revolutions, scale.length, std::string(scale.unit.text)};
 }
 
 void Scope::declare_steps(const ast::Program& program) {
@@ -182,12 +183,15 @@ void Scope::declare_motor_variables(const ast::Program& program) {
             continue;
         }
         motor_variables_.push_back({variable.name.text, variable.name.span, 0, target});
+        MotorName& named = result_.symbols.motor_names.emplace_back();
+        named = {std::string(variable.name.text), std::string(target->name), target->number, {}};
         if (!variable.value) continue;
         if (const auto bits = value(*variable.value, *target, shown)) {
             const Span first = variable.name.span;
             const Span last = variable.value->span;
             initial_values_.push_back(
                 {target, 0, *bits, {first.offset, last.offset + last.length - first.offset}});
+            named.initial = static_cast<std::int64_t>(number_of_bits(*bits, target->format));
         }
     }
 }

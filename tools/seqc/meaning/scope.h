@@ -97,6 +97,9 @@ class Scope {
     std::vector<Send> initial_values_;
 };
 
+/// The number that raw bits stand for in a register.
+double number_of_bits(double bits, registers::Format format);
+
 /// Whether a condition names ERROR or ANY ERROR; otherwise it means NOT ERROR as well.
 bool names_error(const ast::Expression& expression);
 

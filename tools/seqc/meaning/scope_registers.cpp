@@ -15,13 +15,6 @@ constexpr std::uint8_t kLastReachable = 127;
 constexpr double kWorthAWarning = 0.01;
 constexpr double kShownWhole = 100'000;
 
-/// The number that raw bits stand for in a register.
-double number_of_bits(double bits, Format format) {
-    if (registers::is_32_bit(format)) return static_cast<std::int32_t>(static_cast<std::uint32_t>(bits));
-    if (format == Format::word || bits > 0xFFFF) return bits;
-    return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits));
-}
-
 /// Large numbers in whole ones, cut towards zero so that what it shows does fit.
 std::string limit_text(double value) {
     if (std::fabs(value) >= kShownWhole || value == std::trunc(value))
@@ -40,6 +33,12 @@ bool begins_with(std::string_view unit, std::string_view length) {
 }
 
 }  // namespace
+
+double number_of_bits(double bits, Format format) {
+    if (registers::is_32_bit(format)) return static_cast<std::int32_t>(static_cast<std::uint32_t>(bits));
+    if (format == Format::word || bits > 0xFFFF) return bits;
+    return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits));
+}
 
 void Scope::note_declaration(Diagnostic& diagnostic, std::string_view name) const {
     const Variable* variable = find(motor_variables_, name);

@@ -44,6 +44,12 @@ std::string upper(std::string_view text) {
     return result;
 }
 
+bool is_identifier(std::string_view text) {
+    const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+    return !text.empty() && letter(text[0]) &&
+           std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+}
+
 std::string_view nearest(std::string_view name, const std::vector<std::string_view>& candidates) {
     if (name.empty() || name.size() > kLongestName) return {};
     std::string_view best;

@@ -13,6 +13,9 @@ std::string upper(std::string_view text);
 /// The candidate that `name` may be a misspelling of; nothing if none is near enough.
 std::string_view nearest(std::string_view name, const std::vector<std::string_view>& candidates);
 
+/// Letters, digits and _, no digit first. Words of the language are identifiers too.
+bool is_identifier(std::string_view text);
+
 /// "did you mean 'Travel'?" when a candidate is near enough to `name`, else nothing.
 std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates);
 

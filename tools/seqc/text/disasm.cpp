@@ -2,6 +2,7 @@
 
 #include "seqc/seqc.h"
 #include "sequencer/term.h"
+#include "syntax/names.h"
 #include "syntax/parser.h"
 #include "text/describe.h"
 
@@ -10,34 +11,28 @@ namespace {
 
 using sequencer::kTermBytes;
 
-bool is_identifier(std::string_view name) {
-    if (name.empty() || name.size() > 60 || (name[0] >= '0' && name[0] <= '9') || is_reserved(name))
-        return false;
-    for (char c : name) {
-        const bool word =
-            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-        if (!word) return false;
-    }
-    return true;
+bool can_name_a_program(std::string_view name) {
+    return name.size() <= 60 && is_identifier(name) && !is_reserved(name);
 }
 
-std::string term_line(sequencer::TermView bytes) {
+std::string term_line(sequencer::TermView bytes, const Symbols* symbols) {
     std::string text = "TERM ";
     for (std::size_t i = 0; i < kTermBytes; ++i)
         text += fmt::format("{}16#{:02X}", i == 0 ? "" : ", ", bytes[i]);
-    return text + fmt::format(";  // {}\n", describe(bytes, nullptr));
+    return text + fmt::format(";  // {}\n", describe(bytes, symbols));
 }
 
 }  // namespace
 
-Disassembly disassemble(std::span<const std::uint8_t> table, std::string_view program_name) {
+Disassembly disassemble(std::span<const std::uint8_t> table, std::string_view program_name,
+                        const Symbols* symbols) {
     Disassembly result;
     std::string lines;
     std::size_t at = 0;
     bool ended = false;
     for (; !ended && at + kTermBytes <= table.size(); at += kTermBytes) {
         const auto bytes = table.subspan(at).first<kTermBytes>();
-        lines += term_line(bytes);
+        lines += term_line(bytes, symbols);
         ended = sequencer::is_end(bytes);
     }
     if (!ended) {
@@ -48,10 +43,13 @@ Disassembly disassemble(std::span<const std::uint8_t> table, std::string_view pr
         return result;
     }
     result.trailing_bytes = table.size() - at;
-    const std::string name(is_identifier(program_name) ? program_name : "Table");
+    const std::string name(can_name_a_program(program_name) ? program_name : "Table");
     result.text = fmt::format(
         "// {} terms, the end included, one a line: STATE, INPUT, CARE and five bytes of command.\n",
         at / kTermBytes);
+    if (symbols != nullptr)
+        result.text += fmt::format("// The names are those of program {}, for {}.\n", symbols->program,
+                                   registers::name_of(symbols->motor));
     if (result.trailing_bytes > 0) {
         result.text +=
             fmt::format("// {} bytes that followed the end are left out.\n", result.trailing_bytes);

@@ -11,7 +11,7 @@ namespace nplc::sim {
 ///     time_ms,step,timer,counter,inputs,outputs,inpos,error,command,p_ist,v_ist
 /// A row at every change of a column and at least every 10 ms; time_ms has three decimals; `command` holds
 /// the commands given at that instant, space separated: two hex digits without the toggle bit, or REG=VALUE
-/// in decimal.
+/// in decimal. Steps, inputs and outputs are numbers, whatever names the program has for them.
 class CsvTrace {
   public:
     static constexpr Time kLongestGap = std::chrono::milliseconds{10};

@@ -10,11 +10,13 @@
 namespace nplc::sim {
 
 /// The trace as a value change dump (IEEE 1364), in microseconds, for GTKWave and its like. Signals have the
-/// program's names. `step_name` and `command` are GTKWave's string variables; `command` falls back to "-" one
-/// millisecond after the command was given, so that two equal ones can be told apart.
+/// program's names (IN0, OUT0 and step numbers without any). `step_name` and `command` are GTKWave's string
+/// variables; `command` falls back to "-" one millisecond after the command was given, so that two equal ones
+/// can be told apart.
 class VcdTrace {
   public:
-    VcdTrace(const std::string& path, const Names& names);
+    /// `comment` stands in the header.
+    VcdTrace(const std::string& path, const Names& names, const std::string& comment = {});
 
     /// Times must not fall.
     void observe(const Snapshot& snapshot);
@@ -22,7 +24,7 @@ class VcdTrace {
     void finish(Time end);
 
   private:
-    void header();
+    void header(const std::string& comment);
     void at(Time time);
     /// Writes `value` under `name` if it is not what the file says already.
     void put(const std::string& name, const std::string& value);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,13 +14,40 @@
 
 namespace nplc::seqc {
 
+/// A name of VAR_MOTOR.
+struct MotorName {
+    std::string name;
+    std::string reg;                      ///< as in the manual: V1
+    std::uint8_t number = 0;              ///< 1..127
+    std::optional<std::int64_t> initial;  ///< what POWER_UP writes, in the register's own steps
+    bool operator==(const MotorName&) const = default;
+};
+
+/// SCALE 1 rev = 5 mm
+struct Scale {
+    double revolutions = 1;
+    double length = 1;
+    std::string unit;
+    bool operator==(const Scale&) const = default;
+};
+
 /// What the numbers of a table are called in its source.
 struct Symbols {
     std::string program;
     registers::Model motor = registers::Model::mac140;
+    std::optional<Scale> scale;
     std::array<std::string, 63> steps;   ///< by step number; empty where the table has no such step
     std::array<std::string, 6> inputs;   ///< as declared, else IN0..IN5
     std::array<std::string, 4> outputs;  ///< as declared, else OUT0..OUT3
+    std::vector<MotorName> motor_names;  ///< in source order
+    bool operator==(const Symbols&) const = default;
+};
+
+/// Where a step comes from, and what its OUT without WHEN switches on.
+struct StepOrigin {
+    std::uint8_t number = 0;
+    Span span;  ///< of its name; length 0 for a POWER_UP that the compiler adds
+    std::uint8_t outputs = 0;
 };
 
 /// Where a term of the table comes from, in table order, the end term included.
@@ -38,6 +66,7 @@ struct Compilation {
     std::vector<Diagnostic> diagnostics;  ///< in source order, 100 at the most
     Symbols symbols;
     std::vector<TermOrigin> origins;
+    std::vector<StepOrigin> steps;  ///< by number, POWER_UP first
     std::vector<Rounding> roundings;
     bool more_diagnostics = false;  ///< there were more than 100
     bool ok = false;                ///< no errors; warnings do not count
@@ -59,7 +88,9 @@ struct Disassembly {
     std::string error;               ///< why there is no text; empty when there is
 };
 
-/// Takes a raw table: terms of 8 bytes up to the first whose STATE is 63.
-Disassembly disassemble(std::span<const std::uint8_t> table, std::string_view program_name);
+/// Takes a raw table: terms of 8 bytes up to the first whose STATE is 63. With symbols the comments name
+/// steps, signals and registers as the program did.
+Disassembly disassemble(std::span<const std::uint8_t> table, std::string_view program_name,
+                        const Symbols* symbols = nullptr);
 
 }  // namespace nplc::seqc

@@ -11,19 +11,23 @@
 
 namespace nplc::seqc::test {
 
-/// Runs the program in a folder of its own, with what it prints in `out` and `err`.
-class CliTest : public testing::Test {
+namespace fs = std::filesystem;
+
+/// The program seqc, run in a folder of its own.
+class Cli : public testing::Test {
   protected:
     void SetUp() override {
-        std::string name = (std::filesystem::temp_directory_path() / "seqc_test_XXXXXX").string();
+        std::string name = (fs::temp_directory_path() / "seqc_test_XXXXXX").string();
         folder_ = mkdtemp(name.data());
     }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
+    void TearDown() override { fs::remove_all(folder_); }
 
     int run(const std::string& arguments) const {
-        const std::string command =
-            "cd '" + folder_.string() + "' && '" SEQC_PROGRAM "' " + arguments + " >out 2>err";
-        return WEXITSTATUS(std::system(command.c_str()));
+        const std::string command = "'" SEQC_PROGRAM "' " + arguments + " >out 2>err";
+        return shell(command);
+    }
+    int shell(const std::string& command) const {
+        return WEXITSTATUS(std::system(("cd '" + folder_.string() + "' && " + command).c_str()));
     }
     void write(const std::string& name, const std::string& text) const {
         std::ofstream(folder_ / name) << text;
@@ -33,9 +37,9 @@ class CliTest : public testing::Test {
         text << std::ifstream(folder_ / name, std::ios::binary).rdbuf();
         return text.str();
     }
-    bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
+    bool exists(const std::string& name) const { return fs::exists(folder_ / name); }
 
-    std::filesystem::path folder_;
+    fs::path folder_;
 };
 
 }  // namespace nplc::seqc::test

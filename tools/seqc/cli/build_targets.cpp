@@ -1,0 +1,142 @@
+#include "cli/build_targets.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+#include <optional>
+
+#include "cli/common.h"
+#include "formats/symbols_format.h"
+#include "seqc/intel_hex.h"
+#include "seqc/symbol_file.h"
+#include "sequencer/term.h"
+
+namespace nplc::seqc::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostSteps = 61;
+
+/// Decimal, or hexadecimal with 0x.
+std::optional<std::uint32_t> address_of(std::string_view text) {
+    const bool hex = text.starts_with("0x") || text.starts_with("0X");
+    if (hex) text.remove_prefix(2);
+    std::uint32_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, hex ? 16 : 10);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+/// A pipe or a device takes the table and has no place beside it.
+bool is_device(const std::string& path) {
+    return is_special(path) || fs::path(path).lexically_normal().string().starts_with("/dev/");
+}
+
+std::string overlap(const BuildTargets& targets, const BuildOptions& options) {
+    struct Target {
+        std::string_view what;
+        const std::string& path;
+    };
+    const Target all[] = {
+        {"the table", targets.table}, {"the listing", targets.listing}, {"the symbols", targets.symbols}};
+    for (const Target& target : all) {
+        if (target.path.empty()) continue;
+        if (target.path == "-") return "build writes files only: name one instead of '-' (or ./-)";
+        if (is_same_file(target.path, options.source)) {
+            return fmt::format("'{}' is the program itself: name another file for {}", target.path,
+                               target.what);
+        }
+        for (const Target& other : all) {
+            if (&other == &target) break;
+            if (other.path.empty() || !is_same_file(target.path, other.path)) continue;
+            return fmt::format("'{}' cannot be both {} and {}: name another file", target.path,
+                               other.what.substr(4), target.what.substr(4));
+        }
+    }
+    return {};
+}
+
+/// Nobody asked for the symbols by name, so they must not replace what somebody else has written there.
+std::string foreign(const std::string& symbols) {
+    std::error_code error;
+    if (symbols.empty() || !fs::is_regular_file(symbols, error)) return {};
+    if (read_file(symbols).text.find(kSymbolsFormat) != std::string::npos) return {};
+    return fmt::format("'{}' is there and was not written by seqc: use --symbols FILE or --no-symbols",
+                       symbols);
+}
+
+std::string format_problem(const BuildOptions& options) {
+    if (!options.format.empty() && options.format != "bin" && options.format != "hex")
+        return fmt::format("--format {}: write bin or hex", options.format);
+    if (options.no_symbols && !options.symbols.empty())
+        return "--symbols and --no-symbols exclude each other: leave one out";
+    return {};
+}
+
+std::string address_problem(const BuildOptions& options, BuildTargets& targets) {
+    if (options.base_address.empty()) return {};
+    if (!targets.hex) return "--base-address: a raw table has no address; write Intel HEX with --format hex";
+    const auto address = address_of(options.base_address);
+    if (!address) {
+        return fmt::format("--base-address {}: write a number 0 to 4294967295 or 0x0 to 0xFFFFFFFF",
+                           options.base_address);
+    }
+    targets.base_address = *address;
+    return {};
+}
+
+std::string counted(std::size_t count, std::string_view what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+BuildTargets targets_of(const BuildOptions& options) {
+    BuildTargets targets;
+    targets.problem = format_problem(options);
+    if (!targets.problem.empty()) return targets;
+    targets.hex = options.format == "hex" || (options.format.empty() && has_hex_extension(options.output));
+    targets.table = options.output;
+    if (targets.table.empty())
+        targets.table = fs::path(options.source).replace_extension(targets.hex ? ".hex" : ".bin").string();
+    targets.listing = options.listing;
+    targets.symbols = options.symbols;
+    if (targets.symbols.empty() && !options.no_symbols && !is_device(targets.table))
+        targets.symbols = fs::path(targets.table).replace_extension(".sym").string();
+    targets.problem = address_problem(options, targets);
+    if (targets.problem.empty()) targets.problem = overlap(targets, options);
+    if (targets.problem.empty() && options.symbols.empty()) targets.problem = foreign(targets.symbols);
+    return targets;
+}
+
+std::vector<OutputFile> files_of(const BuildTargets& targets, const BuildOptions& options,
+                                 const Compilation& compilation, const std::string& source) {
+    const std::vector<std::uint8_t>& table = compilation.table;
+    std::vector<OutputFile> files = {{targets.table, targets.hex ? to_intel_hex(table, targets.base_address)
+                                                                 : std::string(table.begin(), table.end())}};
+    if (!targets.listing.empty())
+        files.push_back({targets.listing, listing(compilation, source, options.source)});
+    if (!targets.symbols.empty())
+        files.push_back({targets.symbols, write_symbols(compilation, source, options.source)});
+    return files;
+}
+
+bool has_room(const BuildTargets& targets, std::size_t bytes) {
+    return std::uint64_t{targets.base_address} + bytes <= 0x1'0000'0000U;
+}
+
+std::string summary(const BuildTargets& targets, const Compilation& compilation) {
+    if (is_device(targets.table)) return {};
+    std::string text = targets.table + ": ";
+    if (!compilation.steps.empty())
+        text += fmt::format("{} of {}, ", counted(compilation.steps.size() - 1, "step"), kMostSteps);
+    const std::size_t bytes = compilation.table.size();
+    text += fmt::format("{}, {} bytes", counted(bytes / sequencer::kTermBytes, "term"), bytes);
+    if (targets.base_address != 0) text += fmt::format(" at {:X}h", targets.base_address);
+    if (!targets.symbols.empty()) text += fmt::format("; names in {}", targets.symbols);
+    return text + "\n";
+}
+
+}  // namespace nplc::seqc::cli

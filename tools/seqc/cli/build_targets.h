@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cli/files.h"
+#include "seqc/seqc.h"
+
+namespace nplc::seqc::cli {
+
+/// What `seqc build` is asked for, and where it goes.
+struct BuildOptions {
+    std::string source;
+    std::string output;   ///< the table
+    std::string listing;  ///< empty: none
+    std::string symbols;  ///< empty: beside the table
+    std::string format;   ///< bin or hex; empty: by the output's extension
+    std::string base_address;
+    bool no_symbols = false;
+    bool quiet = false;
+    bool json = false;
+};
+
+/// The same with every name filled in.
+struct BuildTargets {
+    std::string table;
+    std::string listing;  ///< empty: none
+    std::string symbols;  ///< empty: none
+    bool hex = false;
+    std::uint32_t base_address = 0;
+    std::string problem;  ///< why nothing can be built like that; empty when it can
+};
+
+BuildTargets targets_of(const BuildOptions& options);
+
+/// Everything that is written together. The compilation must be good.
+std::vector<OutputFile> files_of(const BuildTargets& targets, const BuildOptions& options,
+                                 const Compilation& compilation, const std::string& source);
+
+/// Whether the table ends within 32 bits of address.
+bool has_room(const BuildTargets& targets, std::size_t bytes);
+
+/// `F.bin: 7 steps of 61, 25 terms, 200 bytes; names in F.sym` and a line feed; nothing where the table went
+/// to a device, which may be standard output.
+std::string summary(const BuildTargets& targets, const Compilation& compilation);
+
+}  // namespace nplc::seqc::cli
