@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -83,7 +84,7 @@ FileText read_standard_input() {
     errno = 0;
     FileText result;
     result.text.assign(std::istreambuf_iterator<char>(std::cin), {});
-    if (std::cin.bad()) return {{}, fmt::format("cannot read standard input: {}", reason())};
+    if (std::cin.bad() || std::ferror(stdin) != 0) return {{}, fmt::format("cannot read standard input: {}", reason())};
     return result;
 }
 

@@ -65,6 +65,7 @@ class Assembler {
         }
         while (!lines_.empty() && first < next && items_[first].breaks == 0)
             lines_.back().comments.push_back(&items_[first++]);
+        column_of_next_ = at_end ? 0 : items_[start_of_source_line(next)].column;
         while (first < next) {
             std::size_t last = first + 1;
             while (last < next && items_[last].breaks == 0) ++last;
@@ -75,6 +76,12 @@ class Assembler {
             }
             first = last;
         }
+    }
+
+    /// Where the comments begin that stand before the token `i` on its line, or the token itself.
+    std::size_t start_of_source_line(std::size_t i) const {
+        while (i > 0 && items_[i].breaks == 0 && items_[i - 1].is_comment()) --i;
+        return i;
     }
 
     /// Comments before the first word of a line.
@@ -97,7 +104,7 @@ class Assembler {
         if (next == items_.size()) return 0;
         const Item& token = items_[next];
         const bool is_deeper =
-            token.role == Role::closer || (token.role == Role::middle && comment.column > token.column);
+            token.role == Role::closer || (token.role == Role::middle && comment.column > column_of_next_);
         return token.level + (is_deeper ? 1U : 0U);
     }
 
@@ -139,6 +146,7 @@ class Assembler {
 
     std::vector<Item>& items_;
     std::vector<Line> lines_;
+    std::uint32_t column_of_next_ = 0;
     bool must_break_ = false;
     bool line_begun_ = false;
 };
