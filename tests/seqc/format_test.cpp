@@ -149,6 +149,32 @@ TEST(Format, ATermInSymbolsStaysOnOneLine) {
     EXPECT_EQ(laid_out(source), source);
 }
 
+TEST(Format, ItsOwnCheckSeesWhateverChanged) {
+    const std::string good = "PROGRAM P\n// a\nSTEP S: OWN ERROR; END_STEP\n(* b *)\nEND_PROGRAM\n";
+    EXPECT_EQ(layout::fault_between(good, good), "");
+    EXPECT_EQ(layout::fault_between("program p // a \nstep s:own error;end_step(* b *)end_program",
+                                    "PROGRAM p                               // a\n"
+                                    "STEP s: OWN ERROR; END_STEP             (* b *)\nEND_PROGRAM\n"),
+              "");
+    const auto fault_with = [&](const std::string& from, const std::string& to) {
+        std::string changed = good;
+        return layout::fault_between(good, changed.replace(changed.find(from), from.size(), to));
+    };
+    for (const auto& [from, to] : {std::pair{"OWN", "ON"},
+                                   {"ERROR;", "ERROR"},
+                                   {"ERROR;", "ERROR;;"},
+                                   {"STEP S", "STEPS"},
+                                   {"// a\n", ""},
+                                   {"// a", "// A"},
+                                   {"(* b *)", "// b"},
+                                   {"b *)", "b"},
+                                   {"(* b *)\nEND_PROGRAM", "END_PROGRAM\n(* b *)"}}) {
+        EXPECT_NE(fault_with(from, to).find("not be the same"), std::string::npos) << from << " -> " << to;
+    }
+    EXPECT_NE(fault_with("OWN", "own").find("change it again"), std::string::npos);
+    EXPECT_NE(fault_with("// a", "  // a").find("change it again"), std::string::npos);
+}
+
 TEST(Format, SyntaxErrorsAreRefused) {
     const char* const programs[] = {
         "",
@@ -187,6 +213,27 @@ TEST(Format, TooManyMistakesOfAnyKindAreRefused) {
     const Formatted result = format_program(source + "END_PROGRAM\n");
     EXPECT_FALSE(result.ok);
     EXPECT_EQ(result.diagnostics.size(), 100U);
+}
+
+TEST(Format, ALineOfAnyLengthIsBroken) {
+    std::string source = "PROGRAM P STEP S: OUT OUT0 WHEN IN0";
+    for (int i = 0; i < 20'000; ++i) source += " OR IN0";
+    const std::string text = formatted(source + "; END_STEP END_PROGRAM");
+    std::istringstream lines(text);
+    std::size_t longest = 0;
+    for (std::string line; std::getline(lines, line);) longest = std::max(longest, line.size());
+    EXPECT_LE(longest, 120U);
+    EXPECT_GT(longest, 113U);  // " OR IN0" of 7 columns would not have fitted
+}
+
+TEST(Format, AResultThatIsNoProgramAnyMoreIsRefused) {
+    // The first line is 72 columns wide, so all comments stand behind 74: 5 bytes become 77.
+    std::string source = "PROGRAM P STEP S: OUT " + std::string(63, 'A');
+    while (source.size() < 1'200'000) source += ",//\nA";
+    const Formatted result = format_program(source + "; END_STEP END_PROGRAM");
+    EXPECT_FALSE(result.ok);
+    ASSERT_EQ(result.diagnostics.size(), 1U);
+    EXPECT_EQ(result.diagnostics[0].code, "E003");
 }
 
 /// Columns that grow with the longest name would make a large text of a small one.

@@ -84,7 +84,8 @@ FileText read_standard_input() {
     errno = 0;
     FileText result;
     result.text.assign(std::istreambuf_iterator<char>(std::cin), {});
-    if (std::cin.bad() || std::ferror(stdin) != 0) return {{}, fmt::format("cannot read standard input: {}", reason())};
+    if (std::cin.bad() || std::ferror(stdin) != 0)
+        return {{}, fmt::format("cannot read standard input: {}", reason())};
     return result;
 }
 

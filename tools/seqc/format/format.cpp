@@ -12,6 +12,29 @@
 
 namespace nplc::seqc {
 namespace layout {
+namespace {
+
+struct Lexed {
+    Lexed(std::string_view text, Report& report) : source(text), tokens(tokens_of(text, report, &comments)) {}
+
+    std::string_view source;
+    std::vector<Token> comments;
+    std::vector<Token> tokens;
+};
+
+bool is_same(const Item& a, const Item& b) {
+    if (a.token != b.token) return false;
+    return a.is_comment() ? a.text == b.text : same_name(a.text, b.text);
+}
+
+bool has_same_items(const Lexed& a, const Lexed& b) {
+    const Document before = document_of(a.source, a.tokens, a.comments);
+    const Document after = document_of(b.source, b.tokens, b.comments);
+    return std::equal(before.items.begin(), before.items.end(), after.items.begin(), after.items.end(),
+                      is_same);
+}
+
+}  // namespace
 
 std::string lay_out(std::string_view source, const std::vector<Token>& tokens,
                     const std::vector<Token>& comments) {
@@ -25,44 +48,21 @@ std::string lay_out(std::string_view source, const std::vector<Token>& tokens,
     return print(lines);
 }
 
+std::string fault_between(std::string_view source, std::string_view text) {
+    Report before_report;
+    Report after_report;
+    const Lexed before(source, before_report);
+    const Lexed after(text, after_report);
+    if (after_report.has_errors() || !has_same_items(before, after))
+        return "the formatted program would not be the same program";
+    if (lay_out(text, after.tokens, after.comments) != text)
+        return "formatting the formatted program would change it again";
+    return {};
+}
+
 }  // namespace layout
 
 namespace {
-
-struct Lexed {
-    explicit Lexed(std::string_view text, Report& report)
-        : source(text), tokens(tokens_of(text, report, &comments)) {}
-
-    std::string_view source;
-    std::vector<Token> comments;
-    std::vector<Token> tokens;
-};
-
-std::string lay_out(const Lexed& lexed) {
-    return layout::lay_out(lexed.source, lexed.tokens, lexed.comments);
-}
-
-bool is_same(const layout::Item& a, const layout::Item& b) {
-    if (a.token != b.token) return false;
-    return a.is_comment() ? a.text == b.text : same_name(a.text, b.text);
-}
-
-bool has_same_items(const Lexed& a, const Lexed& b) {
-    const layout::Document before = layout::document_of(a.source, a.tokens, a.comments);
-    const layout::Document after = layout::document_of(b.source, b.tokens, b.comments);
-    return std::equal(before.items.begin(), before.items.end(), after.items.begin(), after.items.end(),
-                      is_same);
-}
-
-/// What went wrong, or nothing.
-std::string fault_in(const Lexed& source, const std::string& text) {
-    Report report;
-    const Lexed again(text, report);
-    if (report.has_errors() || !has_same_items(source, again))
-        return "the formatted program would not be the same program";
-    if (lay_out(again) != text) return "formatting the formatted program would change it again";
-    return {};
-}
 
 /// The parser also reports what stands twice or has an odd value: such programs can be laid out.
 bool is_about_grammar(const Diagnostic& diagnostic) {
@@ -81,8 +81,9 @@ Formatted format_program(std::string_view source) {
         result.diagnostics = report.take();
         return result;
     }
-    const Lexed lexed(source, report);
-    Parser(source, lexed.tokens, report).parse();
+    std::vector<Token> comments;
+    const std::vector<Token> tokens = tokens_of(source, report, &comments);
+    Parser(source, tokens, report).parse();
     const bool was_read_whole = !report.full();
     result.more_diagnostics = report.has_more();
     std::vector<Diagnostic> found = report.take();
@@ -90,8 +91,13 @@ Formatted format_program(std::string_view source) {
         result.diagnostics = std::move(found);
         return result;
     }
-    std::string text = lay_out(lexed);
-    result.fault = fault_in(lexed, text);
+    std::string text = layout::lay_out(source, tokens, comments);
+    if (text.size() > kLongestSource) {
+        report.error("E003", {}, "the formatted program would be larger than 16 MiB");
+        result.diagnostics = report.take();
+        return result;
+    }
+    result.fault = layout::fault_between(source, text);
     result.ok = result.fault.empty();
     if (result.ok) result.text = std::move(text);
     return result;

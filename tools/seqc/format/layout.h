@@ -12,4 +12,8 @@ namespace nplc::seqc::layout {
 std::string lay_out(std::string_view source, const std::vector<Token>& tokens,
                     const std::vector<Token>& comments);
 
+/// Why `text` cannot stand for `source`: a word or a comment differs, or formatting it again would change it.
+/// Empty if it can.
+std::string fault_between(std::string_view source, std::string_view text);
+
 }  // namespace nplc::seqc::layout

@@ -10,9 +10,9 @@ namespace {
 constexpr std::size_t kWidest = 120;
 constexpr std::size_t kWidestAligned = 40;
 
-bool may_break_before(const Line& line, std::size_t i) {
-    const Item& item = *line.code[i];
-    return line.code[i - 1]->is_symbol(",") || item.is_keyword("AND") || item.is_keyword("OR") ||
+bool may_break_before(const std::vector<Item*>& code, std::size_t i) {
+    const Item& item = *code[i];
+    return code[i - 1]->is_symbol(",") || item.is_keyword("AND") || item.is_keyword("OR") ||
            item.is_keyword("XOR") || item.is_keyword("WHEN");
 }
 
@@ -23,35 +23,34 @@ bool may_wrap(const Line& line) {
            });
 }
 
-/// The first word of the next line: the last possible one, or the first if even that stands too far right.
-std::size_t place_to_break(const Line& line) {
-    std::size_t place = 0;
-    std::size_t before = line.indent + width(line.code.front()->text);
-    for (std::size_t i = 1; i < line.code.size(); ++i) {
-        if (may_break_before(line, i)) {
-            if (place > 0 && before > kWidest) break;
-            place = i;
-        }
-        before += line.code[i]->blanks + width(line.code[i]->text);
+/// Behind the last word of the line that begins at `first`. Where nothing may break within the width, the
+/// line is as short as it can be.
+std::size_t end_of_line(const std::vector<Item*>& code, std::size_t first, std::size_t indent) {
+    std::size_t end = 0;
+    std::size_t before = indent + width(code[first]->text);
+    for (std::size_t i = first + 1; i < code.size(); ++i) {
+        if (may_break_before(code, i)) end = i;
+        before += code[i]->blanks + width(code[i]->text);
+        if (before > kWidest && end > 0) return end;
     }
-    return place;
+    return code.size();
 }
 
 void wrap_onto(std::vector<Line>& lines, Line line) {
-    while (may_wrap(line)) {
-        const auto place = static_cast<std::ptrdiff_t>(place_to_break(line));
-        if (place == 0) break;
-        Line rest = line;
-        rest.indent = line.continues ? line.indent : line.indent + 2 * kIndent;
-        rest.continues = true;
-        rest.blank_before = false;
-        rest.code.erase(rest.code.begin(), rest.code.begin() + place);
-        line.code.resize(static_cast<std::size_t>(place));
-        line.comments.clear();
-        lines.push_back(std::move(line));
-        line = std::move(rest);
+    const std::vector<Item*> code = std::move(line.code);
+    const std::vector<const Item*> comments = std::move(line.comments);
+    line.comments.clear();
+    std::size_t end = 0;
+    for (std::size_t first = 0; end < code.size(); first = end) {
+        end = end_of_line(code, first, line.indent);
+        line.code.assign(code.begin() + static_cast<std::ptrdiff_t>(first),
+                         code.begin() + static_cast<std::ptrdiff_t>(end));
+        if (end == code.size()) line.comments = comments;
+        lines.push_back(line);
+        if (!line.continues) line.indent += 2 * kIndent;
+        line.continues = true;
+        line.blank_before = false;
     }
-    lines.push_back(std::move(line));
 }
 
 bool belongs_to_line_before(const Line& line) {
@@ -137,7 +136,13 @@ void align_block(std::vector<Declaration>& block) {
 void wrap(std::vector<Line>& lines) {
     std::vector<Line> result;
     result.reserve(lines.size());
-    for (Line& line : lines) wrap_onto(result, std::move(line));
+    for (Line& line : lines) {
+        if (may_wrap(line)) {
+            wrap_onto(result, std::move(line));
+        } else {
+            result.push_back(std::move(line));
+        }
+    }
     lines = std::move(result);
 }
 
