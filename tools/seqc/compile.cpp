@@ -14,7 +14,6 @@ namespace nplc::seqc {
 namespace {
 
 constexpr std::size_t kTermsEverywhere = 1024;  // what every gateway holds at the least
-constexpr std::size_t kLongestSource = 16U << 20;
 
 std::vector<std::uint8_t> outputs_of_steps(const Plan& plan) {
     std::vector<std::uint8_t> outputs;

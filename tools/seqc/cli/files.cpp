@@ -4,9 +4,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 
 namespace nplc::seqc {
@@ -39,11 +41,18 @@ std::string where_first(const std::string& path) {
     return is_special(path) ? path : temporary_name(path);
 }
 
+void keep_permissions(const std::string& path) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    if (fs::is_regular_file(status)) fs::permissions(temporary_name(path), status.permissions(), ignored);
+}
+
 std::string write_first(const OutputFile& file) {
     errno = 0;
     std::ofstream stream(where_first(file.path), std::ios::binary | std::ios::trunc);
     stream.write(file.content.data(), static_cast<std::streamsize>(file.content.size()));
     stream.close();
+    keep_permissions(file.path);
     return stream ? std::string() : fmt::format("cannot write '{}': {}", file.path, reason());
 }
 
@@ -68,6 +77,15 @@ FileText read_file(const std::string& path) {
     FileText result;
     result.text.assign(std::istreambuf_iterator<char>(stream), {});
     if (stream.bad()) return {{}, fmt::format("cannot read '{}': {}", path, reason())};
+    return result;
+}
+
+FileText read_standard_input() {
+    errno = 0;
+    FileText result;
+    result.text.assign(std::istreambuf_iterator<char>(std::cin), {});
+    if (std::cin.bad() || std::ferror(stdin) != 0)
+        return {{}, fmt::format("cannot read standard input: {}", reason())};
     return result;
 }
 

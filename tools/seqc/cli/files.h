@@ -11,6 +11,7 @@ struct FileText {
 };
 
 FileText read_file(const std::string& path);
+FileText read_standard_input();
 
 /// A device or pipe, which is written to in place: a rename would replace it.
 bool is_special(const std::string& path);
@@ -21,7 +22,7 @@ struct OutputFile {
 };
 
 /// Writes into temporary files beside the targets and renames them once all are written whole, so that no
-/// half file is ever seen. Answers what went wrong, or nothing.
+/// half file is ever seen. A target that exists keeps its permissions. Answers what went wrong, or nothing.
 std::string write_files(const std::vector<OutputFile>& files);
 
 }  // namespace nplc::seqc

@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
     add_check(app, exit_code);
     add_disasm(app, exit_code);
     add_explain(app, exit_code);
+    add_fmt(app, exit_code);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

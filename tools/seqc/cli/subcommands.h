@@ -9,5 +9,6 @@ void add_build(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_disasm(CLI::App& app, int& exit_code);
 void add_explain(CLI::App& app, int& exit_code);
+void add_fmt(CLI::App& app, int& exit_code);
 
 }  // namespace nplc::seqc::cli

@@ -27,7 +27,8 @@ bool is_symbol(char c) {
 
 class Lexer {
   public:
-    Lexer(std::string_view source, Report& report) : source_(source), report_(report) {}
+    Lexer(std::string_view source, Report& report, std::vector<Token>* comments)
+        : source_(source), report_(report), comments_(comments) {}
 
     std::vector<Token> run() {
         if (source_.starts_with("\xEF\xBB\xBF")) at_ = 3;
@@ -51,16 +52,24 @@ class Lexer {
 
     void skip_blanks_and_comments() {
         while (at_ < source_.size()) {
+            const std::size_t start = at_;
             if (is_blank(peek())) {
                 ++at_;
             } else if (source_.substr(at_).starts_with("//")) {
                 at_ = std::min(source_.find('\n', at_), source_.size());
+                add_comment(start);
             } else if (source_.substr(at_).starts_with("(*")) {
                 skip_block_comment();
+                add_comment(start);
             } else {
                 return;
             }
         }
+    }
+
+    void add_comment(std::size_t start) {
+        if (comments_ == nullptr) return;
+        comments_->push_back({TokenKind::comment, source_.substr(start, at_ - start), span_from(start)});
     }
 
     void skip_block_comment() {
@@ -154,14 +163,15 @@ class Lexer {
 
     std::string_view source_;
     Report& report_;
+    std::vector<Token>* comments_;
     std::size_t at_ = 0;
     std::vector<Token> tokens_;
 };
 
 }  // namespace
 
-std::vector<Token> tokens_of(std::string_view source, Report& report) {
-    return Lexer(source, report).run();
+std::vector<Token> tokens_of(std::string_view source, Report& report, std::vector<Token>* comments) {
+    return Lexer(source, report, comments).run();
 }
 
 }  // namespace nplc::seqc

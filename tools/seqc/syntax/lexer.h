@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -8,7 +9,10 @@
 
 namespace nplc::seqc {
 
-/// The tokens of `source`, an end token last. They point into `source`.
-std::vector<Token> tokens_of(std::string_view source, Report& report);
+inline constexpr std::size_t kLongestSource = 16U << 20;
+
+/// The tokens of `source`, an end token last. They point into `source`. Comments go to `comments`, if it is
+/// given: with their marks, a line comment without its line end.
+std::vector<Token> tokens_of(std::string_view source, Report& report, std::vector<Token>* comments = nullptr);
 
 }  // namespace nplc::seqc

@@ -15,6 +15,7 @@ enum class TokenKind : std::uint8_t {
     time,        ///< T#1s500ms
     direct,      ///< %IX0.0, %peak
     symbol,      ///< one of  := : ; , ( ) . = + - /
+    comment,     ///< only where comments are asked for
 };
 
 struct Token {

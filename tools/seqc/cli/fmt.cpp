@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/common.h"
+#include "cli/files.h"
+#include "cli/subcommands.h"
+#include "seqc/format.h"
+
+namespace nplc::seqc::cli {
+namespace {
+
+struct Options {
+    std::vector<std::string> programs;
+    std::string output;
+    bool in_place = false;
+    bool check = false;
+};
+
+struct Program {
+    std::string name;  ///< for messages
+    std::string before;
+    std::string after;
+    int exit_code = kOk;  ///< not kOk: why was printed
+};
+
+bool is_standard_input(const std::string& file) {
+    return file == "-";
+}
+
+Program read_and_format(const std::string& file) {
+    Program program;
+    program.name = is_standard_input(file) ? "<stdin>" : file;
+    FileText text = is_standard_input(file) ? read_standard_input() : read_file(file);
+    if (!text.error.empty()) {
+        program.exit_code = file_problem(text.error);
+        return program;
+    }
+    program.before = std::move(text.text);
+    Formatted formatted = format_program(program.before);
+    if (!formatted.fault.empty()) {
+        program.exit_code = file_problem(fmt::format("{}: internal error of the formatter: {}; left as it is",
+                                                     program.name, formatted.fault));
+    } else if (!formatted.ok) {
+        Compilation refused;
+        refused.diagnostics = std::move(formatted.diagnostics);
+        refused.more_diagnostics = formatted.more_diagnostics;
+        print_diagnostics(refused, program.before, program.name);
+        program.exit_code = kProgramHasErrors;
+    }
+    program.after = std::move(formatted.text);
+    return program;
+}
+
+int rewrite(const Program& program) {
+    if (program.before == program.after) return kOk;
+    return print_or_write(program.after, program.name);
+}
+
+int list_if_different(const Program& program) {
+    if (program.before == program.after) return kOk;
+    fmt::print("{}\n", program.name);
+    return kProgramHasErrors;
+}
+
+std::string usage_problem(const Options& options) {
+    const std::vector<std::string>& files = options.programs;
+    const bool reads_input = std::any_of(files.begin(), files.end(), is_standard_input);
+    if (options.in_place && reads_input)
+        return "standard input cannot be rewritten in place: leave out --in-place, or name the file ./-";
+    if (std::count_if(files.begin(), files.end(), is_standard_input) > 1)
+        return "standard input (-) can be read only once";
+    if (options.in_place || options.check) return {};
+    if (files.size() > 1) return "several programs need --in-place or --check";
+    if (!options.output.empty() && !reads_input && is_same_file(options.output, files.front()))
+        return fmt::format("'{}' is the program itself: use --in-place", options.output);
+    return {};
+}
+
+int format_files(const Options& options) {
+    if (const std::string problem = usage_problem(options); !problem.empty()) return file_problem(problem);
+    int exit_code = kOk;
+    for (const std::string& file : options.programs) {
+        const Program program = read_and_format(file);
+        int own = program.exit_code;
+        if (own == kOk && options.check) {
+            own = list_if_different(program);
+        } else if (own == kOk) {
+            own = options.in_place ? rewrite(program) : print_or_write(program.after, options.output);
+        }
+        exit_code = std::max(exit_code, own);
+    }
+    return exit_code;
+}
+
+}  // namespace
+
+void add_fmt(CLI::App& app, int& exit_code) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = *app.add_subcommand("fmt", "Lay a program out in the one style, comments included");
+    command.add_option("programs", options->programs, "The programs, F.seq; - is standard input")->required();
+    CLI::Option* output =
+        command.add_option("-o,--output", options->output, "Write to a file instead of standard output (-)");
+    CLI::Option* in_place =
+        command.add_flag("-i,--in-place", options->in_place,
+                         "Rewrite the files that are not formatted, leave the others alone");
+    CLI::Option* check = command.add_flag(
+        "--check", options->check, "Write nothing; list the files that are not formatted, exit code 1");
+    in_place->excludes(output)->excludes(check);
+    check->excludes(output);
+    command.callback([options, &exit_code] { exit_code = format_files(*options); });
+}
+
+}  // namespace nplc::seqc::cli
