@@ -24,6 +24,9 @@ struct FamilyBits {
     std::uint32_t auto_resync;  ///< CNTRL_BITS
     std::uint32_t man_resync;
     std::uint32_t rel_resync;
+    std::uint32_t index_home;
+    std::uint32_t home_done;       ///< HOME_MODE
+    std::int32_t counts_to_index;  ///< from one index marker to the next
 };
 
 inline constexpr FamilyBits kSmallBits{.frame_err_tx = 1U << 8,
@@ -34,7 +37,10 @@ inline constexpr FamilyBits kSmallBits{.frame_err_tx = 1U << 8,
                                        .relpos_p_fnc = 1U << 10,
                                        .auto_resync = 1U << 9,
                                        .man_resync = 1U << 10,
-                                       .rel_resync = 1U << 12};
+                                       .rel_resync = 1U << 12,
+                                       .index_home = 1U << 11,
+                                       .home_done = 0,
+                                       .counts_to_index = 2048};
 
 /// MAC800's further errors: 8 temperature, 9 undervoltage, 11 overvoltage, 12 current, 13 speed, 15 encoder,
 /// 17 24 V.
@@ -46,7 +52,10 @@ inline constexpr FamilyBits kMac800Bits{.frame_err_tx = 0,
                                         .relpos_p_fnc = 1U << 4,
                                         .auto_resync = 1U << 5,
                                         .man_resync = 1U << 6,
-                                        .rel_resync = 1U << 8};
+                                        .rel_resync = 1U << 8,
+                                        .index_home = 1U << 9,
+                                        .home_done = 1U << 16,
+                                        .counts_to_index = 8000};
 
 constexpr const FamilyBits& family_bits(registers::Model model) {
     return model == registers::Model::mac800 ? kMac800Bits : kSmallBits;
