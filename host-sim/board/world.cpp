@@ -1,6 +1,7 @@
 #include "sim/world.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace nplc::sim {
@@ -148,6 +149,8 @@ Snapshot World::take_snapshot() {
             .error = driver_->error(),
             .p_ist = mac_.p_ist(),
             .v_ist = mac_.v_ist(),
+            .shaft = mac_.plant().counts(),
+            .torque = mac_.torque(),
             .link_up = motor::delivers(driver_->link()),
             .running = gateway_->run_state() == gateway::RunState::running,
             .orders = std::exchange(orders_, {})};
@@ -184,6 +187,28 @@ void World::power_motor(bool on) {
         motor_asks_ = std::max(now_, line_.from_motor().busy_until());
     }
     motor_powered_ = on;
+}
+
+void World::stop_motor(const action::StopMotor& stop) {
+    Load& load = mac_.plant().load();
+    const std::int64_t shaft = mac_.plant().counts();
+    const std::int64_t place = stop.above ? std::max(stop.counts, shaft) : std::min(stop.counts, shaft);
+    const bool rigid = stop.torque_per_count == 0;
+    (stop.above ? load.high_stop : load.low_stop) =
+        MechanicalStop{rigid ? place : stop.counts, std::llround(1024 * stop.torque_per_count)};
+}
+
+void World::free_motor() {
+    mac_.plant().load().low_stop.reset();
+    mac_.plant().load().high_stop.reset();
+}
+
+void World::connect_sensor(const action::MotorSensor& sensor) {
+    mac_.terminals().connect({.counts = sensor.counts, .on_above = sensor.on_above});
+}
+
+void World::set_analogue(double volts) {
+    mac_.terminals().set_analogue(static_cast<std::int32_t>(std::lround(1000 * volts)));
 }
 
 void World::gateway(action::Gateway what) {

@@ -1,35 +1,25 @@
-#include <array>
+#include <string>
 
 #include "sim/mac_motor.h"
 
 namespace nplc::sim {
 namespace {
 
-constexpr std::uint16_t kLastMode = 24;
-constexpr std::array<std::string_view, kLastMode + 1> kModeNames{
-    "INIT",       "V_MODE",      "P_MODE",      "GP_MODE",    "AT_MODE",   "AV_MODE",    "AVG_MODE",
-    "MANI_MODE",  "TESTU_MODE",  "TESTA_MODE",  "BREAK_MODE", "STOP_MODE", "HOME1_MODE", "HOME2_MODE",
-    "HOME3_MODE", "SAFE_MODE",   "AVZ_MODE",    "VAT_MODE",   "AG_MODE",   "COIL_MODE",  "A2POS_MODE",
-    "APOS_MODE",  "TESTKI_MODE", "TESTTQ_MODE", "GF_MODE"};
-
-constexpr std::uint16_t number(MotorMode mode) {
-    return static_cast<std::uint16_t>(mode);
+std::string passive_note(std::uint16_t mode, std::string_view name) {
+    return "mode " + std::to_string(mode) + " (" + std::string(name) +
+           ") is not simulated yet: the motor is passive as in INIT; use modes 0 to 3, 12 to 14 or 24";
 }
 
-constexpr bool drives(std::uint16_t mode) {
-    return mode == number(MotorMode::velocity) || mode == number(MotorMode::position) ||
-           mode == number(MotorMode::stop);
-}
-
-std::string passive_note(std::uint16_t mode) {
-    return "mode " + std::to_string(mode) + " (" + std::string(kModeNames[mode]) +
-           ") is not simulated yet: the motor is passive as in INIT; use modes 0, 1 and 2";
+std::string no_pulses_note(std::uint16_t mode, std::string_view name) {
+    return "mode " + std::to_string(mode) + " (" + std::string(name) +
+           ") finds no pulses: the FastMAC line has the pins of the pulse input (CNTRL_BITS, USERINTF = 11), "
+           "V_EXT stays 0; use a MAC800";
 }
 
 }  // namespace
 
-bool MacMotor::is_driven() const {
-    return drives(mode());
+const ModeFacts& MacMotor::facts() const {
+    return *facts_of(mode());
 }
 
 bool MacMotor::error_forbids_motion() const {
@@ -41,39 +31,44 @@ void MacMotor::request_mode(std::uint16_t mode) {
         if (is_mode(MotorMode::safe)) load_parameters(mode);
         return;
     }
-    if (mode > kLastMode) return;
-    if (mode == number(MotorMode::init)) {
-        unsupported_.clear();
-        if (is_mode(MotorMode::stop)) {
-            mode_after_stop_ = mode;
-        } else if (is_driven()) {
-            begin_stop(mode, false);
-        } else {
-            set_mode(mode);
-        }
-        return;
-    }
+    const ModeFacts* wanted = facts_of(mode);
+    if (wanted == nullptr) return;
+    if (mode == number(MotorMode::init)) return request_init();
     if (error_forbids_motion()) return;
-    if (!drives(mode)) {
-        unsupported_ = passive_note(mode);
-        if (is_driven()) {
-            begin_stop(mode, false);
-        } else {
-            set_mode(mode);
-        }
-        return;
-    }
     unsupported_.clear();
+    if (!wanted->simulated) unsupported_ = passive_note(mode, wanted->name);
+    if (!wanted->driven && is_driven()) return begin_stop(mode, false);
     if (mode == number(MotorMode::stop)) return begin_stop(number(MotorMode::init), false);
-    if (mode == number(MotorMode::position) && !is_mode(MotorMode::position)) begin_position_mode();
+    enter(mode);
+}
+
+void MacMotor::request_init() {
+    unsupported_.clear();
+    if (is_mode(MotorMode::stop)) {
+        mode_after_stop_ = number(MotorMode::init);
+    } else if (is_driven()) {
+        begin_stop(number(MotorMode::init), false);
+    } else {
+        set_mode(number(MotorMode::init));
+    }
+}
+
+void MacMotor::enter(std::uint16_t mode) {
+    const ModeFacts& next = *facts_of(mode);
+    if (next.corrected && mode != this->mode()) begin_correction();
+    if (next.corrected && next.counts_pulses) {
+        if (mode != this->mode()) gear_.reset();
+        if (!pulse_input_on_) unsupported_ = no_pulses_note(mode, next.name);
+    }
     set_mode(mode);
+    if (next.homing) begin_homing();
 }
 
 // 001 §5.2.1.4, command 10h
 void MacMotor::request_home() {
     const auto mode = static_cast<std::uint16_t>((memory_.get(cell::HOME_MODE) >> 8) & 0xFF);
-    constexpr std::uint16_t kHome1 = 12, kHome3 = 14;
-    if (mode >= kHome1 && mode <= kHome3) request_mode(mode);
+    const ModeFacts* wanted = facts_of(mode);
+    if (wanted != nullptr && wanted->homing) request_mode(mode);
 }
 
 void MacMotor::begin_stop(std::uint16_t then, bool emergency) {
@@ -84,7 +79,7 @@ void MacMotor::begin_stop(std::uint16_t then, bool emergency) {
 
 // R: what the regulator gave up in a mode without correction is taken off P_FNC now: P_FNC - FLWERR stays
 // true.
-void MacMotor::begin_position_mode() {
+void MacMotor::begin_correction() {
     const std::int64_t given_up = follow_error_16_ - regulator_.lag_16();
     memory_.set(cell::P_FNC, wrap32(memory_.get(cell::P_FNC) - given_up));
     follow_error_16_ = regulator_.lag_16();

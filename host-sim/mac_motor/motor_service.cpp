@@ -11,9 +11,9 @@ constexpr std::uint16_t kStoredAgain = 258;
 constexpr int kInnerSamples = 15;  // of the current loop in one of the outer loop (001 §1.2)
 
 /// Not parameters: what the motor itself counts and shows, which no flash brings back.
-constexpr Cell kVolatile[] = {cell::P_SOLL, cell::P_FNC,    cell::P_IST,  cell::V_IST,    cell::FLWERR,
-                              cell::FNCERR, cell::FNC_OUT,  cell::VF_OUT, cell::MODE_REG, cell::I2T,
-                              cell::UIT,    cell::ERR_STAT, cell::REC_CNT};
+constexpr Cell kVolatile[] = {cell::P_SOLL, cell::P_FNC,   cell::P_IST,  cell::V_IST,    cell::FLWERR,
+                              cell::FNCERR, cell::FNC_OUT, cell::VF_OUT, cell::MODE_REG, cell::I2T,
+                              cell::UIT,    cell::V_EXT,   cell::G_FNC,  cell::REC_CNT};
 
 }  // namespace
 
@@ -47,9 +47,13 @@ bool MacMotor::reset() {
     return true;
 }
 
+void MacMotor::clear_volatile(MotorMemory& memory) {
+    for (const Cell& volatile_cell : kVolatile) memory.set(volatile_cell, 0);
+}
+
 void MacMotor::store_registers() {
     stored_ = memory_;
-    for (const Cell& volatile_cell : kVolatile) stored_.set(volatile_cell, 0);
+    clear_volatile(stored_);
     // The bits of ERR_STAT that are settings are kept (001 §3.2.35).
     constexpr std::uint32_t kSettings = err::DIS_P_LIM;
     stored_.set(cell::ERR_STAT, static_cast<std::int32_t>(error_status() & (kSettings | bits().relpos_p_soll |
@@ -70,6 +74,7 @@ void MacMotor::load_parameters(std::uint16_t command) {
     }
     if (command != kDefaults && command != kStoredAgain) return;
     for (const Cell& volatile_cell : kVolatile) wanted.set(volatile_cell, memory_.get(volatile_cell));
+    wanted.set(cell::ERR_STAT, memory_.get(cell::ERR_STAT));
     memory_ = wanted;
 }
 

@@ -32,24 +32,50 @@ void Plant::short_circuit() {
     advance(0);
 }
 
+std::int64_t Plant::inertia() const {
+    return std::max<std::int64_t>(load_.inertia_256, 1);
+}
+
+std::int64_t Plant::speed_change(std::int64_t torque) const {
+    const std::int64_t bounded = std::clamp(torque, -kTorqueBound, kTorqueBound);
+    return bounded * full_acceleration_16_ * (kCount / 16 * 256) / (kFullTorque * inertia());
+}
+
 void Plant::advance(std::int64_t torque) {
-    const std::int64_t inertia = std::max<std::int64_t>(load_.inertia_256, 1);
-    const auto speed_change = [&](std::int64_t t) {
-        const std::int64_t bounded = std::clamp(t, -kTorqueBound, kTorqueBound);
-        return bounded * full_acceleration_16_ * (kCount / 16 * 256) / (kFullTorque * inertia);
-    };
     const std::int64_t friction = speed_change(std::max(load_.friction_torque, 0));
     const std::int64_t before = velocity_;
     velocity_ =
         std::clamp(rubbed(velocity_ + speed_change(torque + load_.torque), friction), -kFastest, kFastest);
+    const std::int64_t from = position_;
     position_ += (before + velocity_) / 2;
+    if (const MechanicalStop* stop = stop_beyond()) press(*stop, from);
+}
 
-    const auto hold_at = [&](std::int64_t counts) {
-        position_ = counts * kCount;
+/// The stop that the shaft is in, if any.
+const MechanicalStop* Plant::stop_beyond() const {
+    if (load_.low_stop && position_ < load_.low_stop->counts * kCount) return &*load_.low_stop;
+    if (load_.high_stop && position_ > load_.high_stop->counts * kCount) return &*load_.high_stop;
+    return nullptr;
+}
+
+/// A spring in implicit steps, which no stiffness can set swinging: the velocity is the one that the force at
+/// the end of the sample leaves.
+void Plant::press(const MechanicalStop& stop, std::int64_t from) {
+    const std::int64_t edge = stop.counts * kCount;
+    if (stop.spring_1024 <= 0) {
+        position_ = edge;
         velocity_ = 0;
-    };
-    if (load_.low_stop && position_ < *load_.low_stop * kCount) hold_at(*load_.low_stop);
-    if (load_.high_stop && position_ > *load_.high_stop * kCount) hold_at(*load_.high_stop);
+        return;
+    }
+    constexpr std::int64_t kDeepest = std::int64_t{1} << 38;
+    constexpr std::int64_t kSteepest = std::int64_t{1} << 33;
+    const std::int64_t slope =  // what each count takes off the velocity, 1/65536/1024
+        std::min(speed_change(stop.spring_1024), kSteepest);
+    const std::int64_t start = std::clamp(from - edge, -kDeepest, kDeepest);
+    const std::int64_t push = start / 1024 * slope / kCount;
+    velocity_ = std::clamp((velocity_ - push) * 1024 / (1024 + slope / kCount), -kFastest, kFastest);
+    if ((velocity_ > 0) != (start + velocity_ > 0)) velocity_ /= 2;  // pushed out, not thrown
+    position_ = edge + start + velocity_;
 }
 
 std::int64_t Plant::counts() const {

@@ -45,6 +45,12 @@ Regulator::Output Regulator::step(const Input& input) {
     return {static_cast<std::int32_t>(limited), static_cast<std::int32_t>(correction)};
 }
 
+void Regulator::restart(std::int32_t velocity) {
+    reset();
+    lag_16_ = velocity;  // which the next step takes off again
+    last_fnc_out_ = velocity;
+}
+
 void Regulator::reset() {
     lag_16_ = 0;
     integral_ = 0;

@@ -8,11 +8,6 @@ namespace {
 constexpr std::string_view kActions =
     "an action: IN0 := 1, pulse IN0 50 ms, toggle IN0, line ..., motor ..., gateway ..., seed, log or end";
 
-template <class What>
-void add(Actions& list, Time after, What what) {
-    list.push_back({after, std::move(what)});
-}
-
 }  // namespace
 
 Actions ActionParser::actions() {
@@ -110,22 +105,6 @@ bool ActionParser::fault(action::SpoilLine& spoil) {
         return false;
     }
     return true;
-}
-
-void ActionParser::motor(Actions& list, Time after) {
-    if (reader_.take("error")) return add(list, after, action::FailMotor{});
-    if (reader_.take("load")) {
-        const double torque = reader_.number("a torque, such as motor load 500");
-        if (torque < -10'000 || torque > 10'000 || torque != static_cast<int>(torque)) {
-            throw LineMistake{"a load is a whole number -10000 to 10000, 1023 being the motor's full torque"};
-        }
-        return add(list, after, action::LoadMotor{static_cast<int>(torque)});
-    }
-    constexpr std::string_view kUse = "motor error, motor load 500, motor power off, or motor power on";
-    reader_.want("power", kUse);
-    if (reader_.take("off")) return add(list, after, action::PowerMotor{false});
-    reader_.want("on", kUse);
-    add(list, after, action::PowerMotor{true});
 }
 
 void ActionParser::gateway(Actions& list, Time after) {

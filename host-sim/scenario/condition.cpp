@@ -85,6 +85,10 @@ double Value::of(const Snapshot& s) const {
             return s.p_ist;
         case Kind::v_ist:
             return s.v_ist;
+        case Kind::shaft:
+            return static_cast<double>(s.shaft);
+        case Kind::torque:
+            return s.torque;
     }
     return 0;
 }
@@ -117,6 +121,10 @@ std::string Value::name(const Names& names) const {
             return "P_IST";
         case Kind::v_ist:
             return "V_IST";
+        case Kind::shaft:
+            return "SHAFT";
+        case Kind::torque:
+            return "TORQUE";
     }
     return "?";
 }

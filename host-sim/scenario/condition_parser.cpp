@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace nplc::sim {
@@ -20,7 +21,7 @@ constexpr std::array<std::pair<std::string_view, Relation>, 6> kRelations{{{"=",
                                                                            {">", Relation::more},
                                                                            {">=", Relation::at_least}}};
 
-constexpr std::array<std::pair<std::string_view, Value::Kind>, 12> kValues{{
+constexpr std::array<std::pair<std::string_view, Value::Kind>, 14> kValues{{
     {"INPUTS", Value::Kind::inputs},
     {"OUTPUTS", Value::Kind::outputs},
     {"STEP", Value::Kind::step},
@@ -33,6 +34,8 @@ constexpr std::array<std::pair<std::string_view, Value::Kind>, 12> kValues{{
     {"RUNNING", Value::Kind::running},
     {"P_IST", Value::Kind::p_ist},
     {"V_IST", Value::Kind::v_ist},
+    {"SHAFT", Value::Kind::shaft},
+    {"TORQUE", Value::Kind::torque},
 }};
 
 /// `IN3` with prefix IN and 6 signals: 3.
@@ -155,11 +158,21 @@ void ConditionParser::quantity(Condition& condition) {
 double ConditionParser::scaled(double number, Value::Kind kind) {
     const registers::Scale scale = registers::scale_of(names_.motor);
     if (reader_.take("counts")) return number;
-    if (kind == Value::Kind::p_ist && reader_.take("rev")) return number * scale.counts_per_rev;
+    const bool is_position = kind == Value::Kind::p_ist || kind == Value::Kind::shaft;
+    if (is_position && reader_.take("rev")) return number * scale.counts_per_rev;
     if (kind == Value::Kind::v_ist && reader_.take("rpm")) {
         return number * scale.counts_per_rev / (60 * scale.samples_per_second);
     }
     return number;
+}
+
+std::int64_t ConditionParser::place() {
+    constexpr double kFarthest = 1e9;
+    const double counts = scaled(reader_.number("a place, such as -2 rev or 500 counts"), Value::Kind::shaft);
+    if (counts < -kFarthest || counts > kFarthest) {
+        throw LineMistake{"a place is at most 1000000000 counts away; write a nearer one"};
+    }
+    return std::llround(counts);
 }
 
 double ConditionParser::step_number() {
@@ -217,7 +230,7 @@ std::string ConditionParser::known_values() const {
     append(known, names_.outputs);
     return known +
            "IN0..IN5, OUT0..OUT3, INPUTS, OUTPUTS, step, TIMER, COUNTER, INPOS, ERROR, LINK, RUNNING, P_IST, "
-           "V_IST or ordered \"...\"";
+           "V_IST, SHAFT, TORQUE or ordered \"...\"";
 }
 
 Value ConditionParser::value() {

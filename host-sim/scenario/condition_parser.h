@@ -16,6 +16,9 @@ class ConditionParser {
     bool level();
     /// An input by its own or the program's name; `use` says what it is wanted for.
     unsigned input(std::string_view use);
+    /// Where the shaft is, in counts, written as counts or revolutions.
+    std::int64_t place();
+    double counts_per_revolution() const { return registers::scale_of(names_.motor).counts_per_rev; }
     bool knows(std::string_view word) const { return lookup(word).has_value(); }
 
   private:

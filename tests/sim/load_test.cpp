@@ -56,7 +56,7 @@ TEST(Load, RandomLoadsAndLimitsEndOnTheTarget) {
 // 001 §3.2.24's example: held in place, the corrections add up while the position error stays.
 TEST(Load, BlockedMotorAccumulatesFunctionError) {
     MotorBench b;
-    b.motor.plant().load().high_stop = 1000;
+    b.motor.plant().load().high_stop = MechanicalStop{1000};
     b.set(T_SOLL, 100);
     b.set(P_SOLL, 5000);
     b.set(MODE_REG, 2);
@@ -73,10 +73,24 @@ TEST(Load, BlockedMotorAccumulatesFunctionError) {
     EXPECT_EQ(b.motor.p_ist(), 5000);
 }
 
+// What a blocked move learnt of braking does not slow the next one: 20,000 counts at 1600 / 16 = 100 counts a
+// sample take 200 samples and 10 to start.
+TEST(Load, AMoveAwayFromAnObstacleIsAsFastAsAny) {
+    MotorBench b;
+    b.motor.plant().load().high_stop = MechanicalStop{20'000};
+    b.set(T_SOLL, 300);
+    b.set(P_SOLL, 25'000);
+    b.set(MODE_REG, 2);
+    b.samples(2000);
+    EXPECT_EQ(b.motor.p_ist(), 20'000);
+    b.set(P_SOLL, 0);
+    EXPECT_LE(b.until_in_position(), 240);
+}
+
 // In velocity mode nothing is corrected: FLWERR shows what is lost, and the motor does not race to regain it.
 TEST(Load, BlockedInVelocityModeCountsFollowError) {
     MotorBench b;
-    b.motor.plant().load().high_stop = 1000;
+    b.motor.plant().load().high_stop = MechanicalStop{1000};
     b.set(T_SOLL, 100);
     b.set(V_SOLL, 800);
     b.set(MODE_REG, 1);
@@ -161,6 +175,24 @@ TEST(Load, ShaftTurnedInInitIsCounted) {
     EXPECT_GT(b.motor.p_ist(), 10);
     EXPECT_EQ(b.reg(FLWERR), 0);
     EXPECT_EQ(b.reg(MODE_REG), 0);
+}
+
+// Torque 300 against a spring of 1 of torque a count: 300 counts deep, less the friction of 5 (either way).
+// It stays there and comes out without being thrown. The hardest spring leaves 1/129 of the depth: full
+// torque, 218 counts/sample^2, over 1000 counts is 660 counts/sample, so (660 + 218) / 129 = 7 counts.
+TEST(Load, ASpringyStopGivesWay) {
+    Plant soft(3500, {.high_stop = MechanicalStop{1000, 1024}});
+    for (int i = 0; i < 2000; ++i) soft.drive(300);
+    EXPECT_NEAR(static_cast<double>(soft.counts()), 1300, 6);
+    for (int i = 0; i < 2000; ++i) soft.drive(0);
+    EXPECT_LE(soft.counts(), 1010);
+    EXPECT_GE(soft.counts(), 980);
+
+    Plant hard(3500, {.low_stop = MechanicalStop{-1000, 1'000'000'000}});
+    for (int i = 0; i < 2000; ++i) {
+        hard.drive(-1023);
+        ASSERT_GE(hard.counts(), -1007);
+    }
 }
 
 }  // namespace

@@ -138,7 +138,7 @@ TEST(Mode, FollowErrorStopsTheMotor) {
 TEST(Mode, FunctionErrorStopsTheMotor) {
     MotorBench b;
     b.set(FNCERRMAX, 5000);
-    b.motor.plant().load().high_stop = 3000;
+    b.motor.plant().load().high_stop = MechanicalStop{3000};
     b.set(T_SOLL, 200);
     b.set(P_SOLL, 10'000);
     b.set(MODE_REG, 2);
@@ -199,12 +199,12 @@ TEST(Mode, ModesNotBuiltArePassiveAndSaySo) {
     MotorBench b;
     run_at(b, 1600);
     EXPECT_TRUE(b.motor.unsupported().empty());
-    b.set(MODE_REG, 3);
+    b.set(MODE_REG, 5);
     EXPECT_EQ(b.reg(MODE_REG), 11);
     b.settle();
-    EXPECT_EQ(b.reg(MODE_REG), 3);
+    EXPECT_EQ(b.reg(MODE_REG), 5);
     EXPECT_EQ(b.motor.v_ist(), 0);
-    EXPECT_NE(b.motor.unsupported().find("GP_MODE"), std::string_view::npos);
+    EXPECT_NE(b.motor.unsupported().find("AV_MODE"), std::string_view::npos);
     b.set(MODE_REG, 2);
     EXPECT_EQ(b.reg(MODE_REG), 2);
     EXPECT_TRUE(b.motor.unsupported().empty());

@@ -51,6 +51,12 @@ TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
         at 4 s motor error
         at 4 s motor power off, after 1 s motor power on
         at 4 s motor load -500
+        at 4 s motor stop below -2 rev, after 1 s motor stop above 8192 spring 5000 per rev
+        at 4 s motor stop none
+        at 4 s motor sensor on below -1 rev
+        motor analogue 0 V
+        motor pulses 5000 per s
+        never TORQUE > 300 or SHAFT < -3 rev
         at 5 s gateway stop, after 1 s gateway run, after 1 s gateway restart
         expect at 3 s step = Idle
         at 3 s expect step = 1
@@ -71,7 +77,7 @@ TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
         end at 10 s
     )scn");
     for (const Mistake& found : parsed.mistakes) ADD_FAILURE() << found.line << ": " << found.message;
-    EXPECT_EQ(parsed.scenario.expectations.size(), 15U);
+    EXPECT_EQ(parsed.scenario.expectations.size(), 16U);
     EXPECT_EQ(parsed.scenario.when.size(), 7U);
     EXPECT_EQ(parsed.scenario.every.size(), 2U);
     EXPECT_EQ(parsed.scenario.end, Time(10s));
@@ -124,9 +130,37 @@ TEST(ScenarioParser, MistakesSayWhatIsWrongAndWhatToWrite) {
     EXPECT_EQ(mistake("log \"open"), "the text is not closed; end it with \"");
     EXPECT_EQ(mistake("every 0 s toggle IN0"), "a period must be longer than 0; write such as every 500 ms");
     EXPECT_EQ(mistake("expect P_IST > 5 +- 1"), "a tolerance (+-) goes with = only");
-    EXPECT_EQ(mistake("motor power"),
-              "the line ends too early; write motor error, motor load 500, motor power off, or "
-              "motor power on");
+    EXPECT_EQ(mistake("motor power"), "the line ends too early; write motor power off, or motor power on");
+    EXPECT_EQ(
+        mistake("motor stpo none"),
+        "\"stpo\" is out of place; write motor error, motor load, motor power, motor stop, motor sensor, "
+        "motor analogue or motor pulses");
+    EXPECT_EQ(
+        mistake("motor stop -2 rev"),
+        "\"-\" is out of place; write above or below and a place, such as motor stop below -2 rev, or motor "
+        "stop none");
+    EXPECT_EQ(mistake("motor stop below"),
+              "the line ends too early; write a place, such as -2 rev or 500 counts");
+    EXPECT_EQ(mistake("motor stop below 1e rev"),
+              "\"e\" is out of place; write one statement in a line, actions "
+              "separated by commas");
+    EXPECT_EQ(mistake("motor stop above 300000 rev"),
+              "a place is at most 1000000000 counts away; write a nearer one");
+    EXPECT_EQ(mistake("motor stop above 3 rev spring 20"),
+              "the line ends too early; write per rev, such as spring 2000 per rev");
+    EXPECT_EQ(mistake("motor stop above 3 rev spring 0 per rev"),
+              "a spring is 1 to 1000000 per rev, 1023 being the motor's full torque");
+    EXPECT_EQ(mistake("motor sensor below 3 rev"),
+              "\"below\" is out of place; write motor sensor on below -1 rev, or motor sensor off above 500 "
+              "counts");
+    EXPECT_EQ(mistake("motor analogue 12 V"), "the analogue input takes -10 V to 10 V");
+    EXPECT_EQ(mistake("motor analogue 5"),
+              "the line ends too early; write its unit, such as motor analogue 7.5 V");
+    EXPECT_EQ(mistake("motor pulses 5000"),
+              "the line ends too early; write per s, such as motor pulses 5000 per s");
+    EXPECT_EQ(mistake("motor pulses 0.5 per s"), "pulses are a whole number -1000000 to 1000000 per s");
+    EXPECT_EQ(mistake("motor load 99999999999"),
+              "a load is a whole number -10000 to 10000, 1023 being the motor's full torque");
     EXPECT_EQ(mistake("at 1 s IN0 := 1 IN1 := 1"),
               "\"IN1\" is out of place; write one statement in a line, actions separated by commas");
     EXPECT_EQ(mistake("at 1 s IN0 := 1 \x01"),

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,6 +54,16 @@ class Bench final : public Stage {
     void fail_motor() override { did("error"); }
     void load_motor(int torque) override { did("load " + std::to_string(torque)); }
     void power_motor(bool on) override { did(on ? "on" : "off"); }
+    void stop_motor(const action::StopMotor& stop) override {
+        did((stop.above ? "stop above " : "stop below ") + std::to_string(stop.counts) + " spring " +
+            std::to_string(std::lround(1000 * stop.torque_per_count)));
+    }
+    void free_motor() override { did("free"); }
+    void connect_sensor(const action::MotorSensor& sensor) override {
+        did((sensor.on_above ? "sensor above " : "sensor below ") + std::to_string(sensor.counts));
+    }
+    void set_analogue(double volts) override { did("analogue " + std::to_string(std::lround(10 * volts))); }
+    void set_pulses(int per_second) override { did("pulses " + std::to_string(per_second)); }
     void gateway(action::Gateway what) override { did("gateway " + std::to_string(static_cast<int>(what))); }
     void log(const std::string& text) override { did(text); }
 
@@ -75,6 +86,36 @@ TEST(ScenarioRunner, ActsAtItsTimes) {
         "seed 7\nat 20 ms IN1 := 1, after 5 ms IN1 := 0\nat 10 ms pulse IN0 30 ms\nat 50 ms line cut");
     bench.run_to(100ms);
     EXPECT_EQ(bench.done, (Done{"0: seed 7", "10: IN0=1", "20: IN1=1", "25: IN1=0", "40: IN0=0", "50: cut"}));
+}
+
+// 4096 counts a revolution; 2048 of torque a revolution is 0.5 a count.
+TEST(ScenarioRunner, DrivesThePlantAroundTheMotor) {
+    Bench bench(R"scn(
+        motor stop below -2 rev
+        motor stop above 500 counts spring 2048 per rev
+        motor stop none
+        motor sensor on below -1 rev
+        motor sensor off below 0.5 rev
+        motor analogue -7.5 V
+        motor pulses -5000 per s
+    )scn");
+    bench.run_to(1ms);
+    EXPECT_EQ(bench.done,
+              (Done{"0: stop below -8192 spring 0", "0: stop above 500 spring 500", "0: free",
+                    "0: sensor below -4096", "0: sensor above 2048", "0: analogue -75", "0: pulses -5000"}));
+}
+
+TEST(ScenarioRunner, LooksAtShaftAndTorque) {
+    Bench bench("expect at 5 ms SHAFT = -0.5 rev +- 1 counts and TORQUE < 300");
+    bench.s.shaft = -2049;
+    bench.s.torque = 299;
+    bench.run_to(10ms);
+    EXPECT_TRUE(bench.passes());
+    Bench other("expect at 5 ms SHAFT = 0 and TORQUE < 300");
+    other.s.torque = 300;
+    other.run_to(10ms);
+    EXPECT_FALSE(other.passes());
+    EXPECT_EQ(other.seen(), "at 5.000 ms SHAFT = 0, TORQUE = 300");
 }
 
 TEST(ScenarioRunner, EveryRepeatsFromAndUntil) {

@@ -113,6 +113,63 @@ TEST_F(WorldRun, ASequenceMovesTheMotor) {
     EXPECT_NEAR(world_.mac().p_ist(), kTarget, 2);
 }
 
+// A stop in the way, then gone: a move of two revolutions (8192 counts) gets as far as 5000.
+TEST_F(WorldRun, AStopHoldsTheShaft) {
+    world_.stop_motor({.above = true, .counts = 5000});
+    world_.set_input(0, true);
+    run_to(2s);
+    EXPECT_EQ(world_.take_snapshot().shaft, 5000);
+    EXPECT_GT(world_.take_snapshot().torque, 0);
+    world_.free_motor();
+    EXPECT_TRUE(run_until([&] { return step() == 3; }, 5s));
+}
+
+// A jam, wherever the shaft is: it is not thrown to the place named.
+TEST_F(WorldRun, AStopThatTheShaftIsBeyondHoldsItWhereItIs) {
+    world_.set_input(0, true);
+    ASSERT_TRUE(run_until([&] { return world_.mac().p_ist() > 1000; }, 2s));
+    const std::int32_t jammed_at = world_.mac().p_ist();
+    world_.stop_motor({.above = true, .counts = -500});
+    run_to(world_.now() + 1s);
+    EXPECT_NEAR(world_.mac().p_ist(), jammed_at, 1);
+}
+
+// 512 of torque a revolution of 4096 counts are 1/8 a count.
+TEST_F(WorldRun, ASpringGivesWay) {
+    world_.stop_motor({.above = true, .counts = 0, .torque_per_count = 512.0 / 4096});
+    world_.load_motor(100);
+    run_to(5s);
+    // 100 of torque, less 5 of friction, at 1/8 a count
+    EXPECT_NEAR(static_cast<double>(world_.take_snapshot().shaft), 760, 16);
+}
+
+TEST_F(WorldRun, TheAnalogueInputHasASensorOrAVoltage) {
+    const auto aninp = [&] {
+        run_to(world_.now() + 5ms);
+        return world_.mac().read(registers::ANINP);
+    };
+    world_.connect_sensor({.on_above = false, .counts = 100});
+    EXPECT_EQ(aninp(), 1023);
+    world_.connect_sensor({.on_above = true, .counts = 100});
+    EXPECT_EQ(aninp(), 0);
+    world_.set_analogue(-5);
+    EXPECT_EQ(aninp(), -511);
+}
+
+// MAC140's pins carry FastMAC; a MAC800 counts 77,000 / 770 Hz = 100 a sample.
+TEST_F(WorldRun, PulsesReachOnlyAMotorWithAnInputForThem) {
+    world_.set_pulses(77'000);
+    run_to(100ms);
+    EXPECT_EQ(world_.mac().read(registers::V_EXT), 0);
+    WorldOptions options;
+    options.motor = registers::Model::mac800;
+    World big(table(), options);
+    big.set_pulses(77'000);
+    while (big.now() < 20ms) big.step(20ms);
+    constexpr std::uint8_t kVExt = 163;
+    EXPECT_NEAR(big.mac().read(kVExt), 100, 1);
+}
+
 TEST_F(WorldRun, SnapshotsHandOverTheOrdersOnce) {
     ASSERT_TRUE(run_until([&] { return step() == 1; }, 1s));
     const Snapshot first = world_.take_snapshot();

@@ -73,6 +73,11 @@ class World final : public Stage, private gateway::Observer {
     void fail_motor() override { motor_fails_ = true; }
     void load_motor(int torque) override { mac_.plant().load().torque = torque; }
     void power_motor(bool on) override;
+    void stop_motor(const action::StopMotor& stop) override;
+    void free_motor() override;
+    void connect_sensor(const action::MotorSensor& sensor) override;
+    void set_analogue(double volts) override;
+    void set_pulses(int per_second) override { mac_.terminals().set_pulse_rate(per_second); }
     void gateway(action::Gateway what) override;
     void log(const std::string& text) override;
 

@@ -27,6 +27,9 @@ struct FamilyBits {
     std::uint32_t record;  ///< CNTRL_BITS
     std::uint32_t rewind;
     std::uint32_t record_inner;
+    std::uint32_t index_home;
+    std::uint32_t home_done;       ///< HOME_MODE
+    std::int32_t counts_to_index;  ///< from one index marker to the next
 };
 
 inline constexpr FamilyBits kSmallBits{.frame_err_tx = 1U << 8,
@@ -40,7 +43,10 @@ inline constexpr FamilyBits kSmallBits{.frame_err_tx = 1U << 8,
                                        .rel_resync = 1U << 12,
                                        .record = 1U << 6,
                                        .rewind = 1U << 7,
-                                       .record_inner = 1U << 8};
+                                       .record_inner = 1U << 8,
+                                       .index_home = 1U << 11,
+                                       .home_done = 0,
+                                       .counts_to_index = 2048};
 
 /// MAC800's further errors: 8 temperature, 9 undervoltage, 11 overvoltage, 12 current, 13 speed, 15 encoder,
 /// 17 24 V.
@@ -55,7 +61,10 @@ inline constexpr FamilyBits kMac800Bits{.frame_err_tx = 0,
                                         .rel_resync = 1U << 8,
                                         .record = 1U << 0,
                                         .rewind = 1U << 1,
-                                        .record_inner = 1U << 2};
+                                        .record_inner = 1U << 2,
+                                        .index_home = 1U << 9,
+                                        .home_done = 1U << 16,
+                                        .counts_to_index = 8000};
 
 constexpr const FamilyBits& family_bits(registers::Model model) {
     return model == registers::Model::mac800 ? kMac800Bits : kSmallBits;

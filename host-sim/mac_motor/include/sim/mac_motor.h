@@ -9,19 +9,21 @@
 
 #include "base/time.h"
 #include "registers/mac.h"
+#include "sim/analogue_input.h"
 #include "sim/error_bits.h"
 #include "sim/fastmac_slave.h"
+#include "sim/gear.h"
+#include "sim/homing.h"
 #include "sim/mactalk_slave.h"
+#include "sim/mode_table.h"
 #include "sim/motor_memory.h"
 #include "sim/plant.h"
 #include "sim/profile.h"
 #include "sim/regulator.h"
 #include "sim/sample_buffer.h"
+#include "sim/terminals.h"
 
 namespace nplc::sim {
-
-/// MODE_REG (001 §3.2.2). Those not named here are not simulated yet.
-enum class MotorMode : std::uint16_t { init = 0, velocity = 1, position = 2, stop = 11, safe = 15 };
 
 struct MacMotorOptions {
     std::uint8_t address = 1;  ///< MYADDR
@@ -67,9 +69,10 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     void write(std::uint8_t reg, std::int32_t value);
 
     std::uint16_t mode() const;  ///< MODE_REG
-    bool is_mode(MotorMode mode) const { return this->mode() == static_cast<std::uint16_t>(mode); }
+    bool is_mode(MotorMode mode) const { return this->mode() == number(mode); }
     std::int32_t p_ist() const { return memory_.get(cell::P_IST); }
     std::int32_t v_ist() const { return memory_.get(cell::V_IST); }
+    std::int32_t torque() const { return memory_.get(cell::VF_OUT); }
     double rpm() const;
     bool in_position() const { return (error_status() & err::IN_POS) != 0; }
     std::uint32_t err_stat() const { return error_status(); }
@@ -103,8 +106,13 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
 
     /// Load and mechanical stops, changeable in motion.
     Plant& plant() { return plant_; }
+    const Plant& plant() const { return plant_; }
+    /// What is wired to the analogue and the pulse input, changeable at any time.
+    Terminals& terminals() { return terminals_; }
 
   private:
+    void set_up_user_interface();
+
     // LinkTarget, and what FastMAC commands do: motor_commands.cpp
     void execute(const protocol::fastmac::Command& command) override;
     std::uint32_t read_register(std::uint8_t reg, bool longword) const override;
@@ -123,6 +131,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     void clear_in_position();
 
     // MacTalk's own: motor_service.cpp
+    static void clear_volatile(MotorMemory& memory);
     void load_parameters(std::uint16_t command);
     void run_sample_buffer();
     SampleBuffer::Sample sampled_registers() const;
@@ -131,20 +140,36 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     // Modes and monitoring: motor_modes.cpp
     void request_mode(std::uint16_t mode);
     void request_home();
+    void request_init();
+    void enter(std::uint16_t mode);
     void set_mode(std::uint16_t mode) { memory_.set(cell::MODE_REG, mode); }
     void begin_stop(std::uint16_t then, bool emergency);
     bool error_forbids_motion() const;
-    bool is_driven() const;
+    const ModeFacts& facts() const;
+    bool is_driven() const { return facts().driven; }
     bool below_300_rpm() const;
-    void begin_position_mode();
+    void begin_correction();
     void monitor();
     void fail(std::uint32_t error);
 
+    // Homing: motor_homing.cpp
+    void begin_homing();
+    void search_home();
+    void end_homing();
+    std::int32_t beyond_index() const;
+    void set_home_done(bool done);
+
     // One sample: mac_motor.cpp
     void measure();
+    void read_inputs();
     void resynchronise();
     void stay_passive();
+
+    // Profile and regulator: motor_profile.cpp
     void run_profile();
+    void run_position();
+    void run_gear();
+    std::int32_t braking(std::int64_t distance);
     void learn_braking(std::int32_t wanted, std::int32_t correction);
     void regulate(std::int32_t fnc_out);
     void show_profile(std::int32_t fnc_out, std::int32_t torque);
@@ -152,6 +177,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     bool within_window() const;
     std::int64_t distance_16() const;
     std::int32_t acceleration() const;
+    std::int32_t torque_limit() const;
     std::int32_t v_soll() const;
     void set_error_bits(std::uint32_t mask, bool on);
     const FamilyBits& bits() const { return family_bits(model()); }
@@ -161,17 +187,24 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     MotorMemory stored_;
     Plant plant_;
     Regulator regulator_;
+    Terminals terminals_;
+    AnalogueLevel analogue_level_;
+    Gear gear_;
+    Homing homing_;
     FastMacSlave link_;
     MacTalkSlave mactalk_;
     SampleBuffer samples_;
 
     std::uint32_t flash_writes_ = 0;
     bool link_on_ = true;
+    bool pulse_input_on_ = false;
+    bool pulse_input_inverted_ = false;
     std::int64_t last_counts_ = 0;
     std::int32_t torque_ = 0;
     std::int32_t v_old_ = 0;              // V_OLD, 1/16 counts/sample
     std::int64_t follow_error_16_ = 0;    // FLWERR, 1/16 counts
     std::int32_t corrected_braking_ = 0;  // what brakes in torque limit, 1/16 counts/sample^2; 0: A_SOLL does
+    std::int64_t distance_to_go_ = 0;     // as the last sample of position mode left it, 1/16 counts
     std::int32_t samples_within_ = 0;
     std::uint16_t mode_after_stop_ = 0;
     bool emergency_ = false;

@@ -29,6 +29,8 @@ class Regulator {
 
     Output step(const Input& input);
     void reset();
+    /// Profile and shaft are at the same place and run at `velocity`, 1/16 counts/sample, in the next step.
+    void restart(std::int32_t velocity);
 
     /// How far the shaft is behind the profile, corrections taken off, 1/16 counts.
     std::int64_t lag_16() const { return lag_16_; }

@@ -26,6 +26,8 @@ struct Value {
         running,
         p_ist,
         v_ist,
+        shaft,
+        torque,
     };
     Kind kind = Kind::input;
     unsigned index = 0;  ///< of an input or output

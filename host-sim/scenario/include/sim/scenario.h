@@ -44,6 +44,24 @@ struct PowerMotor {
 struct LoadMotor {
     int torque = 0;  ///< constant pull on the shaft, 1023 = the motor's full torque
 };
+/// Mechanical ends of the axis, in counts of the shaft from where it was at the beginning.
+struct StopMotor {
+    bool above = true;  ///< else below
+    std::int64_t counts = 0;
+    double torque_per_count = 0;  ///< what it gives back; 0: rigid
+};
+struct FreeMotor {};  ///< no mechanical ends
+/// A sensor on the analogue input: 10 V on one side of a place, 0 V on the other.
+struct MotorSensor {
+    bool on_above = true;  ///< else below
+    std::int64_t counts = 0;
+};
+struct MotorAnalogue {
+    double volts = 0;
+};
+struct MotorPulses {
+    int per_second = 0;
+};
 enum class Gateway : std::uint8_t { stop, run, restart };
 struct Log {
     std::string text;
@@ -55,8 +73,9 @@ struct End {};
 struct Action {
     Time after{0};  ///< since the moment that set it off
     std::variant<action::SetInput, action::ToggleInput, action::CutLine, action::SpoilLine, action::Seed,
-                 action::FailMotor, action::PowerMotor, action::LoadMotor, action::Gateway, action::Log,
-                 action::End>
+                 action::FailMotor, action::PowerMotor, action::LoadMotor, action::StopMotor,
+                 action::FreeMotor, action::MotorSensor, action::MotorAnalogue, action::MotorPulses,
+                 action::Gateway, action::Log, action::End>
         what;
 };
 using Actions = std::vector<Action>;

@@ -17,6 +17,11 @@ class Stage {
     virtual void fail_motor() = 0;
     virtual void load_motor(int torque) = 0;
     virtual void power_motor(bool on) = 0;
+    virtual void stop_motor(const action::StopMotor& stop) = 0;
+    virtual void free_motor() = 0;
+    virtual void connect_sensor(const action::MotorSensor& sensor) = 0;
+    virtual void set_analogue(double volts) = 0;
+    virtual void set_pulses(int per_second) = 0;
     virtual void gateway(action::Gateway what) = 0;
     virtual void log(const std::string& text) = 0;
 

@@ -28,8 +28,10 @@ struct Snapshot {
     std::uint8_t outputs = 0;
     bool in_position = false;
     bool error = false;
-    std::int32_t p_ist = 0;  ///< counts
-    std::int32_t v_ist = 0;  ///< counts/sample
+    std::int32_t p_ist = 0;   ///< counts
+    std::int32_t v_ist = 0;   ///< counts/sample
+    std::int64_t shaft = 0;   ///< counts from where it was at the beginning, whatever P_IST was set to
+    std::int32_t torque = 0;  ///< VF_OUT, 1023 = full
     bool link_up = false;
     bool running = false;
     std::vector<SentOrder> orders;  ///< given since the snapshot before

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+namespace nplc::sim {
+
+/// A switch at the axis: 10 V on one side of a place, 0 V on the other.
+struct PositionSensor {
+    std::int64_t counts = 0;  ///< of the shaft, as Plant counts them
+    bool on_above = true;     ///< else on below
+};
+
+/// What is wired to the motor's analogue input and, where the pins are free for it, to its pulse input.
+class Terminals {
+  public:
+    /// A voltage for good: takes a sensor off.
+    void set_analogue(std::int32_t millivolts);
+    void connect(const PositionSensor& sensor) { sensor_ = sensor; }
+    std::int32_t millivolts(std::int64_t shaft_counts) const;
+
+    /// Counts a second at the pulse input (all edges of a quadrature signal), negative backwards. At most a
+    /// million either way.
+    void set_pulse_rate(std::int32_t per_second);
+    /// The whole counts that come in the next `period`; fractions are kept.
+    std::int32_t next_pulses(std::chrono::nanoseconds period);
+
+  private:
+    std::int32_t millivolts_ = 0;
+    std::optional<PositionSensor> sensor_;
+    std::int64_t pulse_rate_ = 0;
+    std::int64_t fraction_ = 0;  // 1/1'000'000'000 of a count
+};
+
+}  // namespace nplc::sim
