@@ -11,15 +11,6 @@ using sequencer::FastStatement;
 using sequencer::FlexStatement;
 using sequencer::Term;
 
-FlexStatement write_of(const Send& send) {
-    return {
-        .reg = send.reg->number,
-        .longword = registers::is_32_bit(send.reg->format),
-        .low_word = static_cast<std::uint16_t>(send.value),
-        .high_word = static_cast<std::uint16_t>(send.value >> 16),
-    };
-}
-
 /// Index of the effect of `action` with `outputs`, made if it is new.
 int effect_for(std::vector<Effect>& list, const Action* action, std::uint8_t outputs, const StepPlan& step) {
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -36,6 +27,15 @@ int effect_for(std::vector<Effect>& list, const Action* action, std::uint8_t out
 }
 
 }  // namespace
+
+FlexStatement write_of(const Send& send) {
+    return {
+        .reg = send.reg->number,
+        .longword = registers::is_32_bit(send.reg->format),
+        .low_word = static_cast<std::uint16_t>(send.value),
+        .high_word = static_cast<std::uint16_t>(send.value >> 16),
+    };
+}
 
 Effects effects_of(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of) {
     Effects effects;

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "terms/cover.h"
 #include "terms/effects.h"
+#include "terms/half.h"
+#include "terms/shorten.h"
 #include "terms/verify.h"
 
 namespace nplc::seqc {
@@ -42,10 +45,8 @@ struct Placed {
 
 class Lowering {
   public:
-    /// With `overriding`, a branch that can be undone may also hold where a later term decides: fewer
-    /// products.
-    Lowering(const StepPlan& step, const Effects& effects, bool overriding, Report& report)
-        : step_(step), effects_(effects), overriding_(overriding), report_(report) {
+    Lowering(const StepPlan& step, Effects effects, Report& report)
+        : step_(step), effects_(std::move(effects)), report_(report) {
         owner_.fill(kNobody);
     }
 
@@ -135,10 +136,9 @@ class Lowering {
     void place_effects(std::size_t layer, bool firm) {
         const int given = static_cast<int>(effects_.list.size());
         for (int k = 0; k < given; ++k) {
-            const int i = overriding_ ? given - 1 - k : k;  // the branch written first decides last
-            if (!effect(i).is_hard() || effect(i).action == nullptr || effect(i).cannot_be_undone() != firm)
+            if (!effect(k).is_hard() || effect(k).action == nullptr || effect(k).cannot_be_undone() != firm)
                 continue;
-            for (bool error : {false, true}) place_effect(i, error, layer);
+            for (bool error : {false, true}) place_effect(k, error, layer);
         }
     }
 
@@ -148,8 +148,7 @@ class Lowering {
         for (std::size_t point = 0; point < kPoints; ++point) {
             const std::size_t c = case_of(point, error, layer);
             const int wanted = effects_.target[c];
-            const bool undone_later = overriding_ && is_hard(wanted) && owner_[c] != wanted;
-            allowed[point] = wanted == index || undone_later;
+            allowed[point] = wanted == index;
             if (wanted != index) continue;
             if (owner_[c] == index) continue;
             need.set(point);
@@ -266,27 +265,42 @@ class Lowering {
 
     const StepPlan& step_;
     Effects effects_;
-    bool overriding_;
     Report& report_;
     bool failed_ = false;
     std::vector<Placed> placed_;
     Owners owner_{};
 };
 
+/// `plain` with the terms of each half in a shorter form where there is one.
+std::vector<LoweredTerm> shortened(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of,
+                                   const std::vector<LoweredTerm>& plain) {
+    const std::size_t made = plain.size() - step.terms.size();
+    std::vector<LoweredTerm> result(plain.begin(), plain.begin() + static_cast<std::ptrdiff_t>(made));
+    for (const Half& half : halves_of(step, outputs_of)) {
+        const auto in_half = [&](const LoweredTerm& term) {
+            return ((term.bytes[1] & sequencer::kError) != 0) == half.error;
+        };
+        const auto count = std::count_if(result.begin(), result.end(), in_half);
+        const std::vector<LoweredTerm> better = shorten(half, static_cast<std::size_t>(count));
+        if (better.empty()) continue;
+        std::erase_if(result, in_half);
+        result.insert(result.end(), better.begin(), better.end());
+    }
+    result.insert(result.end(), plain.begin() + static_cast<std::ptrdiff_t>(made), plain.end());
+    return result;
+}
+
 }  // namespace
 
 std::vector<LoweredTerm> lower(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of,
                                Report& report) {
-    const Effects effects = effects_of(step, outputs_of);
     const std::size_t errors = report.error_count();
-    std::vector<LoweredTerm> plain = Lowering(step, effects, false, report).run();
+    const std::vector<LoweredTerm> plain = Lowering(step, effects_of(step, outputs_of), report).run();
     if (report.error_count() != errors) return plain;
-    Report tried;
-    std::vector<LoweredTerm> overriding = Lowering(step, effects, true, tried).run();
-    const bool shorter = !tried.has_errors() && overriding.size() < plain.size();
-    std::vector<LoweredTerm>& chosen = shorter ? overriding : plain;
-    check_terms(step, outputs_of, chosen, report);
-    return chosen;
+    std::vector<LoweredTerm> shortest = shortened(step, outputs_of, plain);
+    if (shortest.size() < plain.size() && !first_difference(step, outputs_of, shortest)) return shortest;
+    check_terms(step, outputs_of, plain, report);
+    return plain;
 }
 
 }  // namespace nplc::seqc
