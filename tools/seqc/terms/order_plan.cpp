@@ -178,7 +178,7 @@ class Planner {
     }
 
     std::optional<Way> make_way(Branches group, bool own_ends);
-    bool may_share(Branches set, const std::vector<std::size_t>& positions, bool own_ends) const;
+    bool ends_clash(Branches set, const std::vector<std::size_t>& positions) const;
 
     /// A case that wants both presets and has one FastMAC order: either may ride.
     bool needs_choice(const OrderPlan& plan) const {
@@ -235,19 +235,17 @@ class Planner {
     std::vector<Way> ways_;
 };
 
-bool Planner::may_share(Branches set, const std::vector<std::size_t>& positions, bool own_ends) const {
-    if (!own_ends || std::has_single_bit(set)) return true;
+/// Whether branches of `set` that go on differently have their last FastMAC order here, which carries the
+/// next step.
+bool Planner::ends_clash(Branches set, const std::vector<std::size_t>& positions) const {
     const Behaviour* first = nullptr;
-    bool ends = false;
-    bool same = true;
     for (std::size_t b = 0; b < branches_.size(); ++b) {
-        if (((set >> b) & 1U) == 0) continue;
+        if (((set >> b) & 1U) == 0 || positions[b] + 1 != branches_[b].last_fast) continue;
         const Behaviour& behaviour = half_.behaviours[branches_[b].behaviour];
         if (first == nullptr) first = &behaviour;
-        same = same && behaviour.next == first->next && behaviour.output_byte() == first->output_byte();
-        ends = ends || positions[b] + 1 == branches_[b].last_fast;
+        if (behaviour.next != first->next || behaviour.output_byte() != first->output_byte()) return true;
     }
-    return same || !ends;
+    return false;
 }
 
 /// Shortest path over "how many orders of each branch are sent".
@@ -293,10 +291,11 @@ std::optional<Way> Planner::make_way(Branches group, bool own_ends) {
                 }
                 stride *= branch.sends->size() + 1;
             }
-            if (!possible || !may_share(column.branches, positions, own_ends)) continue;
+            const bool clash = possible && ends_clash(column.branches, positions);
+            if (!possible || (clash && own_ends)) continue;
             const Regions& needed = regions(column.branches);
             if (!needed) continue;
-            const std::size_t cost = best[state].cost + needed->size() * 1'000 +
+            const std::size_t cost = best[state].cost + needed->size() * 10'000 + (clash ? 100 : 0) +
                                      static_cast<std::size_t>(std::popcount(column.branches)) - 1;
             if (cost < best[to].cost) best[to] = {cost, state, column};
         }
