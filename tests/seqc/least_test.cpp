@@ -126,12 +126,14 @@ class Exhaustive {
         return true;
     }
 
-    /// At the least one term for each next step, each preset and each order still missing.
+    /// A register value takes a term of its own; the others can carry a command, a next step, outputs and one
+    /// preset each.
     int missing(const State& state) const {
         std::set<int> nexts;
         std::set<int> outputs;
         std::set<int> presets;
-        std::set<std::string> orders;
+        std::set<std::string> commands;
+        std::set<std::string> values;
         for (unsigned c = 0; c < kCases; ++c) {
             const Wanted& wanted = wanted_[c];
             const CaseState& now = state[c];
@@ -139,9 +141,13 @@ class Exhaustive {
             if (!now.outputs && wanted.demands_outputs) outputs.insert(wanted.outputs);
             if (wanted.timer >= 0 && !now.timer) presets.insert(wanted.timer);
             if (wanted.counter >= 0 && !now.counter) presets.insert(-1 - wanted.counter);
-            for (std::size_t i = 0; i < now.to_send; ++i) orders.insert(wanted.sends[i]);
+            for (std::size_t i = 0; i < now.to_send; ++i) {
+                const std::string& order = wanted.sends[i];
+                (order.find('=') == std::string::npos ? commands : values).insert(order);
+            }
         }
-        return static_cast<int>(std::max({nexts.size(), outputs.size(), presets.size(), orders.size()}));
+        const std::size_t fast = std::max({nexts.size(), outputs.size(), presets.size(), commands.size()});
+        return static_cast<int>(fast + values.size());
     }
 
     bool search(const State& state, int terms) {

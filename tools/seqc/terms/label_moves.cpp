@@ -1,6 +1,6 @@
 // How LabelSearch finds the terms that may stand next, and places one.
 #include <algorithm>
-#include <bit>
+#include <numeric>
 
 #include "terms/label_search.h"
 
@@ -78,9 +78,7 @@ std::vector<LabelSearch::Candidate> LabelSearch::candidates(const State& state) 
             if (kinds_[zeros * cubes_.size() + index] != 0) add_candidates(state, index, zeros, list);
         }
     }
-    const auto better = [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; };
-    std::stable_sort(list.begin(), list.end(), better);
-    remove_dominated(state, list);
+    remove_dominated(list);
     return list;
 }
 
@@ -96,42 +94,38 @@ void LabelSearch::add_candidates(const State& state, std::size_t index, std::siz
     for (std::size_t bit = 1; bit < layers_; bit *= 2) {
         if ((zeros & bit) != 0) kinds &= ~unsigned{kinds_[(zeros & ~bit) * size + index]};
     }
+    if (kinds == 0) return;
     const Region region{cube.value, cube.care, static_cast<std::uint8_t>(zeros)};
+    const CaseSet cases = set_of(region);
     for (unsigned kind = 1; kind <= kinds; kind *= 2) {
         if ((kinds & kind) == 0) continue;
         const auto one = static_cast<Kinds>(kind);
-        list.push_back({region, one, gain_of(state, region, one)});
+        const CaseSet gains = gains_of(state, cases, one);
+        list.push_back({region, one, gains, gains.size()});
     }
 }
 
-std::size_t LabelSearch::gain_of(const State& state, const Region& region, Kinds kind) const {
-    const OpenBits cleared = cleared_by(kind);
-    std::size_t gain = 0;
-    for (std::size_t c = 0; c < state.open.size(); ++c) {
-        if (region.holds(c, inputs()))
-            gain += static_cast<std::size_t>(std::popcount(state.open[c] & cleared));
-    }
-    return gain;
+CaseSet LabelSearch::gains_of(const State& state, const CaseSet& cases, Kinds kind) const {
+    CaseSet gains = state.labels;
+    if ((kind & kAnyTimer) != 0) gains |= state.timers;
+    if ((kind & kAnyCounter) != 0) gains |= state.counters;
+    return gains &= cases;
 }
 
-bool LabelSearch::dominates(const State& state, const Candidate& wide, const Candidate& narrow) const {
-    const OpenBits by_narrow = cleared_by(narrow.kind);
-    const OpenBits by_wide = cleared_by(wide.kind);
-    for (std::size_t c = 0; c < state.open.size(); ++c) {
-        const OpenBits gained = state.open[c] & by_narrow;
-        if (gained == 0 || !narrow.region.holds(c, inputs())) continue;
-        if ((gained & ~by_wide) != 0 || !wide.region.holds(c, inputs())) return false;
-    }
-    return true;
-}
-
-void LabelSearch::remove_dominated(const State& state, std::vector<Candidate>& list) const {
+/// Leaves the candidates, those that decide most first, for which no other decides all that they do.
+void LabelSearch::remove_dominated(std::vector<Candidate>& list) const {
+    std::vector<std::uint32_t> order(list.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return list[a].gain > list[b].gain; });
     std::vector<Candidate> kept;
-    for (const Candidate& candidate : list) {
+    for (std::uint32_t i : order) {
+        const Candidate& narrow = list[i];
         const bool useless = std::any_of(kept.begin(), kept.end(), [&](const Candidate& wide) {
-            return dominates(state, wide, candidate);
+            return narrow.gains.is_within(wide.gains) &&
+                   (cleared_by(narrow.kind) & ~cleared_by(wide.kind)) == 0;
         });
-        if (!useless) kept.push_back(candidate);
+        if (!useless) kept.push_back(narrow);
     }
     list = std::move(kept);
 }
@@ -141,13 +135,17 @@ void LabelSearch::place(State& state, const Region& region, Kinds kind, const Or
     term.region = region;
     term.order = order;
     term.names_next = (kind & kAnyNamed) != 0;
-    const OpenBits cleared = order != nullptr && !order->is_fast() ? 0 : cleared_by(kind);
     term.preset = (kind & kAnyTimer) != 0     ? Preset::timer
                   : (kind & kAnyCounter) != 0 ? Preset::counter
                                               : Preset::none;
+    if (order != nullptr && !order->is_fast()) {
+        path_.push_back(term);
+        return;
+    }
+    const OpenBits cleared = cleared_by(kind);
+    const CaseSet cases = set_of(region);
     bool first = true;
-    for (std::size_t c = 0; c < state.open.size(); ++c) {
-        if (!region.holds(c, inputs())) continue;
+    cases.for_each([&](std::size_t c) {
         const Behaviour& wanted = half_.at(c);
         const OpenBits open = state.open[c];
         if (first || (open & layout_.nexts) != 0) term.next = wanted.next;
@@ -158,8 +156,11 @@ void LabelSearch::place(State& state, const Region& region, Kinds kind, const Or
             term.value = wanted.counter();
         first = false;
         state.open[c] &= ~cleared;
-    }
-    path_.push_back(std::move(term));
+    });
+    if (term.names_next) state.labels.remove(cases);
+    if (term.preset == Preset::timer) state.timers.remove(cases);
+    if (term.preset == Preset::counter) state.counters.remove(cases);
+    path_.push_back(term);
 }
 
 /// Places every order whose term may carry what its cases still want.
@@ -169,10 +170,11 @@ void LabelSearch::place_items(State& state) {
         changed = false;
         for (std::size_t i = items_.size(); i-- > 0;) {
             const Item& item = items_[i];
-            Kinds kind = 0;
-            if (state.placed[i] != 0 || !may_place(state, item, kind)) continue;
+            if (state.placed[i] != 0 || !may_place(state, item)) continue;
+            const Kinds kind = item.term->preset == Preset::timer     ? kNamedTimer
+                               : item.term->preset == Preset::counter ? kNamedCounter
+                                                                      : kNamed;
             place(state, item.term->region, kind, item.term);
-            for (std::uint16_t c : item.cases) --state.to_send[c];
             state.placed[i] = 1;
             --state.left;
             changed = true;
@@ -180,19 +182,13 @@ void LabelSearch::place_items(State& state) {
     }
 }
 
-bool LabelSearch::may_place(const State& state, const Item& item, Kinds& kind) const {
+bool LabelSearch::may_place(const State& state, const Item& item) const {
+    for (std::uint32_t later : item.after) {
+        if (state.placed[later] == 0) return false;
+    }
+    if (!item.term->is_fast()) return true;
     OpenBits open = 0;
-    for (std::size_t k = 0; k < item.cases.size(); ++k) {
-        if (state.to_send[item.cases[k]] != item.rank[k] + 1) return false;
-        open |= state.open[item.cases[k]];
-    }
-    if (!item.term->is_fast()) {
-        kind = kNamed;
-        return true;
-    }
-    kind = item.term->preset == Preset::timer     ? kNamedTimer
-           : item.term->preset == Preset::counter ? kNamedCounter
-                                                  : kNamed;
+    item.cases.for_each([&](std::size_t c) { open |= state.open[c]; });
     return at_most_one(open & layout_.outputs) && at_most_one(open & layout_.nexts);
 }
 

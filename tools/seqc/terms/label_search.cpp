@@ -8,7 +8,9 @@ namespace {
 
 constexpr std::size_t kWorkForOrders = 150'000;  // cubes looked at
 constexpr std::size_t kWorkInAll = 600'000;
-constexpr std::size_t kRemembered = 4'096;
+constexpr std::size_t kRemembered = 1'024;
+constexpr std::size_t kShallow = 2;
+constexpr std::size_t kMostClasses = 16;
 
 bool at_most_one(OpenBits bits) {
     return (bits & (bits - 1)) == 0;
@@ -19,72 +21,87 @@ bool at_most_one(OpenBits bits) {
 LabelSearch::LabelSearch(const Half& half, const OrderPlan& plan)
     : half_(half), cubes_(Ternary::of(half.inputs)), layout_(half), layers_(half.cases() >> half.inputs) {
     std::vector<std::pair<std::uint8_t, std::uint8_t>> seen;
+    std::vector<std::size_t> class_of;
     for (const Behaviour& behaviour : half.behaviours) {
         const std::pair key{behaviour.next, behaviour.output_byte()};
         const auto found = std::find(seen.begin(), seen.end(), key);
-        class_of_.push_back(static_cast<std::uint16_t>(found - seen.begin()));
-        if (found == seen.end()) seen.push_back(key);
-    }
-    classes_ = seen.size();
-    for (std::size_t a = 0; a < seen.size(); ++a) {
-        for (std::size_t b = 0; b < a; ++b) unnamed_help_ = unnamed_help_ || seen[a].second == seen[b].second;
+        class_of.push_back(static_cast<std::size_t>(found - seen.begin()));
+        if (found != seen.end()) continue;
+        for (const auto& other : seen) unnamed_help_ = unnamed_help_ || other.second == key.second;
+        seen.push_back(key);
     }
     unnamed_help_ = unnamed_help_ && !at_most_one(layout_.outputs);
 
-    start_.to_send.assign(half.cases(), 0);
-    for (std::size_t c = 0; c < half.cases(); ++c) start_.open.push_back(layout_.wanted(half.wanted[c]));
-    for (const OrderTerm& term : plan) {
-        Item item{&term, {}, {}};
-        for (std::size_t c = 0; c < half.cases(); ++c) {
-            if (!term.region.holds(c, inputs())) continue;
-            item.cases.push_back(static_cast<std::uint16_t>(c));
-            item.rank.push_back(start_.to_send[c]++);
+    const CaseSet none(half.cases());
+    classes_.assign(seen.size(), none);
+    start_.labels = start_.timers = start_.counters = none;
+    for (std::size_t c = 0; c < half.cases(); ++c) {
+        classes_[class_of[half.wanted[c]]].insert(c);
+        const OpenBits open = layout_.wanted(half.wanted[c]);
+        start_.open.push_back(open);
+        start_.labels.insert(c);
+        if ((open & layout_.timers) != 0) start_.timers.insert(c);
+        if ((open & layout_.counters) != 0) start_.counters.insert(c);
+        demanded_.push_back(layout_.demanded(half.wanted[c]));
+    }
+    for (const OrderTerm& term : plan) items_.push_back({&term, set_of(term.region), {}});
+    for (std::uint32_t i = 0; i < items_.size(); ++i) {
+        for (std::uint32_t j = i + 1; j < items_.size(); ++j) {
+            CaseSet both = items_[i].cases;
+            if (!(both &= items_[j].cases).is_empty()) items_[i].after.push_back(j);
         }
-        items_.push_back(std::move(item));
     }
     start_.placed.assign(items_.size(), 0);
     start_.left = items_.size();
-    masks_.resize(layers_ * cubes_.size());
-    kinds_.resize(masks_.size());
 }
 
 std::optional<std::vector<PlacedTerm>> LabelSearch::run(std::size_t limit) {
-    if (!fits()) return std::nullopt;
+    if (!layout_.fits()) return std::nullopt;
     best_used_ = limit + 1;
-    most_work_ = kWorkForOrders;
+    masks_.resize(layers_ * cubes_.size());
+    kinds_.resize(masks_.size());
+    most_work_ = kWorkInAll;
     State state = start_;
     place_items(state);
-    if (classes_ <= 16) try_orders(state, (1U << classes_) - 1U, 0);
-    most_work_ = kWorkInAll;
-    for (std::size_t most = bound(start_); most < best_used_; ++most) {
-        failed_.assign(kRemembered, {0, 0});
-        if (search(state, most, 0)) break;
-        if (work_ > most_work_) break;
+    const std::size_t least = bound(start_);
+    const std::size_t shallow = std::min(limit, std::max(least, kShallow));
+    if (!search_up_to(state, least, shallow) && limit > shallow) {
+        most_work_ = work_ + kWorkForOrders;
+        if (classes_.size() <= kMostClasses) try_orders(state, (1U << classes_.size()) - 1U, 0);
+        most_work_ = kWorkInAll;
+        search_up_to(state, shallow + 1, limit);
     }
     if (best_used_ > limit) return std::nullopt;
     return result();
 }
 
-bool LabelSearch::is_done(const State& state) const {
-    if (state.left != 0) return false;
-    for (std::size_t c = 0; c < state.open.size(); ++c) {
-        if ((state.open[c] & layout_.demanded(half_.wanted[c])) != 0) return false;
+/// Whether some number of terms from `first` on does; the first that does is the least.
+bool LabelSearch::search_up_to(const State& state, std::size_t first, std::size_t last) {
+    for (std::size_t most = first; most <= last && most < best_used_ && work_ <= most_work_; ++most) {
+        failed_.assign(kRemembered, {0, 0});
+        if (search(state, most, 0)) return true;
     }
-    return true;
+    return false;
+}
+
+bool LabelSearch::is_done(const State& state) const {
+    if (state.left != 0 || !state.timers.is_empty() || !state.counters.is_empty()) return false;
+    bool done = true;
+    state.labels.for_each([&](std::size_t c) { done = done && (state.open[c] & demanded_[c]) == 0; });
+    return done;
 }
 
 /// Every next step, output byte and preset that no order can bring along takes a term.
 std::size_t LabelSearch::bound(const State& state) const {
-    std::array<bool, kCases / 2> carried{};
+    CaseSet open = state.labels;
+    open |= state.timers;
+    open |= state.counters;
     for (std::size_t i = 0; i < items_.size() && state.left != 0; ++i) {
-        if (state.placed[i] != 0 || !items_[i].term->is_fast()) continue;
-        for (std::uint16_t c : items_[i].cases) carried[c] = true;
+        if (state.placed[i] == 0 && items_[i].term->is_fast()) open.remove(items_[i].cases);
     }
-    OpenBits open = 0;
-    for (std::size_t c = 0; c < state.open.size(); ++c) {
-        if (!carried[c]) open |= state.open[c] & layout_.demanded(half_.wanted[c]);
-    }
-    const auto count = [&](OpenBits group) { return static_cast<std::size_t>(std::popcount(open & group)); };
+    OpenBits bits = 0;
+    open.for_each([&](std::size_t c) { bits |= state.open[c] & demanded_[c]; });
+    const auto count = [&](OpenBits group) { return static_cast<std::size_t>(std::popcount(bits & group)); };
     return std::max({count(layout_.nexts), count(layout_.outputs), count(layout_.timers | layout_.counters)});
 }
 
@@ -99,7 +116,7 @@ void LabelSearch::try_orders(const State& state, std::uint32_t classes, std::siz
         if (used < best_used_) keep(used);
         return;
     }
-    for (std::size_t wanted = 0; wanted < classes_; ++wanted) {
+    for (std::size_t wanted = 0; wanted < classes_.size(); ++wanted) {
         if (((classes >> wanted) & 1U) == 0 || work_ > most_work_) continue;
         if (used + bound(state) >= best_used_) return;
         const std::size_t before = path_.size();
@@ -116,19 +133,14 @@ std::size_t LabelSearch::cover_class(State& state, std::size_t wanted_class, std
         const Candidate* best = nullptr;
         std::size_t most = 0;
         for (const Candidate& candidate : list) {
-            std::size_t gain = 0;
-            for (std::size_t c = 0; c < state.open.size(); ++c) {
-                if (class_of_[half_.wanted[c]] != wanted_class) continue;
-                if (!candidate.region.holds(c, inputs())) continue;
-                gain += static_cast<std::size_t>(std::popcount(state.open[c] & cleared_by(candidate.kind)));
-            }
-            if (gain > most) {
-                most = gain;
-                best = &candidate;
-            }
+            CaseSet gained = candidate.gains;
+            const std::size_t gain = (gained &= classes_[wanted_class]).size();
+            if (gain <= most) continue;
+            most = gain;
+            best = &candidate;
         }
         if (best == nullptr) return used;
-        place(state, best->region, best->kind, nullptr);
+        place(state, best->region, best->kind);
         place_items(state);
         ++used;
     }
@@ -152,7 +164,7 @@ bool LabelSearch::search(const State& state, std::size_t most, std::size_t depth
     for (const Candidate& candidate : candidates(state)) {
         const std::size_t before = path_.size();
         State next = state;
-        place(next, candidate.region, candidate.kind, nullptr);
+        place(next, candidate.region, candidate.kind);
         place_items(next);
         const bool found = search(next, most - 1, depth + 1);
         path_.resize(before);
@@ -164,11 +176,11 @@ bool LabelSearch::search(const State& state, std::size_t most, std::size_t depth
 
 /// All that is demanded lies in one region; the smallest one is the likeliest to be of one kind.
 bool LabelSearch::finish_with_one(const State& state) {
-    std::size_t all = ~std::size_t{0};
+    std::size_t all = half_.cases() - 1;
     std::size_t any = 0;
     OpenBits demanded = 0;
     for (std::size_t c = 0; c < state.open.size(); ++c) {
-        const OpenBits still = state.open[c] & layout_.demanded(half_.wanted[c]);
+        const OpenBits still = state.open[c] & demanded_[c];
         if (still == 0) continue;
         demanded |= still;
         all &= c;
@@ -178,15 +190,12 @@ bool LabelSearch::finish_with_one(const State& state) {
     const Region region{static_cast<std::uint8_t>(all & mask), static_cast<std::uint8_t>(~(all ^ any) & mask),
                         static_cast<std::uint8_t>(all >> inputs())};
     OpenBits open = 0;
-    for (std::size_t c = 0; c < state.open.size(); ++c) {
-        if (region.holds(c, inputs())) open |= state.open[c];
-    }
+    set_of(region).for_each([&](std::size_t c) { open |= state.open[c]; });
     const Kinds kinds = kinds_of(open);
-    for (unsigned k = 0; k < 8; ++k) {
-        const auto kind = static_cast<Kinds>(1U << k);
-        if ((kinds & kind) == 0 || (demanded & ~cleared_by(kind)) != 0) continue;
+    for (unsigned kind = 1; kind <= kinds; kind *= 2) {
+        if ((kinds & kind) == 0 || (demanded & ~cleared_by(static_cast<Kinds>(kind))) != 0) continue;
         State last = state;
-        place(last, region, kind, nullptr);
+        place(last, region, static_cast<Kinds>(kind));
         return true;
     }
     return false;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "terms/case_set.h"
 #include "terms/half.h"
 #include "terms/open_cases.h"
 #include "terms/order_plan.h"
@@ -32,18 +33,21 @@ class LabelSearch {
     using Kinds = std::uint8_t;
     struct Item {
         const OrderTerm* term;
-        std::vector<std::uint16_t> cases;
-        std::vector<std::uint16_t> rank;  // by `cases`: how many orders of the case come before this one
+        CaseSet cases;
+        std::vector<std::uint32_t> after;  // items with a case of this one that come later in the plan
     };
     struct State {
-        std::vector<OpenBits> open;          // by case
-        std::vector<std::uint16_t> to_send;  // by case: orders not placed yet
-        std::vector<std::uint8_t> placed;    // by item
-        std::size_t left = 0;                // items not placed yet
+        std::vector<OpenBits> open;  // by case
+        CaseSet labels;              // cases whose next step or outputs are open
+        CaseSet timers;
+        CaseSet counters;
+        std::vector<std::uint8_t> placed;  // by item
+        std::size_t left = 0;              // items not placed yet
     };
     struct Candidate {
         Region region;
         Kinds kind = 0;
+        CaseSet gains;  // cases in which it decides something
         std::size_t gain = 0;
     };
 
@@ -58,17 +62,18 @@ class LabelSearch {
     std::vector<Candidate> candidates(const State& state);
     void add_candidates(const State& state, std::size_t index, std::size_t zeros,
                         std::vector<Candidate>& list);
-    std::size_t gain_of(const State& state, const Region& region, Kinds kind) const;
-    bool dominates(const State& state, const Candidate& wide, const Candidate& narrow) const;
-    void remove_dominated(const State& state, std::vector<Candidate>& list) const;
+    CaseSet gains_of(const State& state, const CaseSet& cases, Kinds kind) const;
+    void remove_dominated(std::vector<Candidate>& list) const;
+    CaseSet set_of(const Region& region) const { return cases_in(region, half_.inputs, half_.cases()); }
 
-    void place(State& state, const Region& region, Kinds kind, const OrderTerm* order);
+    void place(State& state, const Region& region, Kinds kind, const OrderTerm* order = nullptr);
     void place_items(State& state);
-    bool may_place(const State& state, const Item& item, Kinds& kind) const;
+    bool may_place(const State& state, const Item& item) const;
 
     void try_orders(const State& state, std::uint32_t classes, std::size_t used);
     std::size_t cover_class(State& state, std::size_t wanted_class, std::size_t used);
     bool search(const State& state, std::size_t most, std::size_t depth);
+    bool search_up_to(const State& state, std::size_t first, std::size_t last);
     bool finish_with_one(const State& state);
     bool failed_before(const State& state, std::size_t most, bool remember);
     void keep(std::size_t used);
@@ -80,8 +85,8 @@ class LabelSearch {
     std::size_t layers_;
     bool unnamed_help_ = false;
     std::vector<Item> items_;
-    std::vector<std::uint16_t> class_of_;  // by behaviour: which share next step and outputs
-    std::size_t classes_ = 0;
+    std::vector<OpenBits> demanded_;  // by case
+    std::vector<CaseSet> classes_;    // cases that share next step and outputs
     State start_;
 
     std::vector<OpenBits> masks_;  // by zeros and cube: all that is open in it

@@ -30,6 +30,11 @@ class Ternary {
         return index + (one ? 1U : 2U) * steps_[variable];
     }
 
+    /// The half of the cube, in which `variable` is open, where it is `one`.
+    std::size_t half(std::size_t index, std::size_t variable, bool one) const {
+        return index - (one ? 1U : 2U) * steps_[variable];
+    }
+
     explicit Ternary(std::size_t variables);
 
   private:
