@@ -24,22 +24,22 @@ struct Prime {
 std::vector<Prime> primes_of(const Points& need, const Points& allowed, std::size_t variables) {
     enum Mark : std::uint8_t { kOutside = 1, kNeeded = 2 };
     const Ternary& cubes = Ternary::of(variables);
-    std::array<std::uint8_t, 2187> marks;
+    std::array<std::uint8_t, Ternary::kMostCubes> marks;
+    std::array<std::uint8_t, Ternary::kMostCubes> is_inside;
+    std::array<std::uint8_t, Ternary::kMostCubes> is_prime;
     std::vector<Cube> found;
-    for (std::size_t i = 0; i < cubes.size(); ++i) {
-        const Ternary::Entry& cube = cubes[i];
-        marks[i] = cube.is_point ? static_cast<std::uint8_t>((allowed[cube.value] ? 0 : kOutside) |
-                                                             (need[cube.value] ? kNeeded : 0))
-                                 : static_cast<std::uint8_t>(marks[cube.low] | marks[cube.high]);
+    for (std::size_t point = 0; point < std::size_t{1} << variables; ++point) {
+        marks[cubes.point(point)] =
+            static_cast<std::uint8_t>((allowed[point] ? 0 : kOutside) | (need[point] ? kNeeded : 0));
     }
+    cubes.unite(marks.data());
     for (std::size_t i = 0; i < cubes.size(); ++i) {
-        if (marks[i] != kNeeded) continue;
-        bool is_widest = true;
-        for (std::size_t v = 0; v < variables && is_widest; ++v) {
-            const bool tested = ((cubes[i].care >> v) & 1U) != 0;
-            is_widest = !tested || (marks[cubes.without(i, v)] & kOutside) != 0;
-        }
-        if (is_widest) found.push_back({cubes[i].value, cubes[i].care});
+        is_inside[i] = (marks[i] & kOutside) == 0 ? 1 : 0;
+        is_prime[i] = marks[i] == kNeeded ? 1 : 0;
+    }
+    cubes.remove_wider(is_inside.data(), is_prime.data());
+    for (std::size_t i = 0; i < cubes.size(); ++i) {
+        if (is_prime[i] != 0) found.push_back({cubes[i].value, cubes[i].care});
     }
     const auto rank = [](Cube c) { return std::tuple(std::popcount(c.care), c.care, c.value); };
     std::sort(found.begin(), found.end(), [&](Cube a, Cube b) { return rank(a) < rank(b); });

@@ -37,9 +37,9 @@ class Sorter {
         : step_(step), outputs_of_(outputs_of) {
         resting_.fill(step.outputs);
         for (const ConditionalOutput& conditional : step.conditional) {
-            for (std::size_t c = 0; c < kCases; ++c) {
-                if (conditional.when.test(c)) resting_[c] |= conditional.outputs;
-            }
+            const Truth& when = conditional.when;
+            for (std::size_t c = when._Find_first(); c < kCases; c = when._Find_next(c))
+                resting_[c] |= conditional.outputs;
         }
         for (std::size_t i = 0; i < step.rules.size(); ++i) {
             const Truth& when = step.rules[i].when;

@@ -24,20 +24,24 @@ bool at_most_one(OpenBits bits) {
     return (bits & (bits - 1)) == 0;
 }
 
-}  // namespace
-
-LabelSearch::Kinds LabelSearch::kinds_of(OpenBits open) const {
-    if (!at_most_one(open & layout_.outputs)) return 0;
-    const bool named = at_most_one(open & layout_.nexts);
-    if (!named && !unnamed_help_) return 0;
+/// Inlined where it is asked for every cube.
+inline std::uint8_t kinds_in(OpenBits open, const OpenLayout& layout, bool unnamed_help) {
+    if (!at_most_one(open & layout.outputs)) return 0;
+    const bool named = at_most_one(open & layout.nexts);
+    if (!named && !unnamed_help) return 0;
     const auto presets = [&](OpenBits group, OpenBits none) {
         return (open & none) == 0 && (open & group) != 0 && at_most_one(open & group);
     };
-    unsigned kinds = (open & (layout_.nexts | layout_.outputs)) != 0 ? kNamed : 0;
-    if (presets(layout_.timers, layout_.no_timer)) kinds |= kNamedTimer;
-    if (presets(layout_.counters, layout_.no_counter)) kinds |= kNamedCounter;
-    if (!named && (open & layout_.outputs) == 0) kinds &= ~static_cast<unsigned>(kNamed);
-    return static_cast<Kinds>(named ? kinds : kinds << 3U);
+    unsigned kinds = (open & (named ? layout.nexts | layout.outputs : layout.outputs)) != 0 ? kNamed : 0;
+    if (presets(layout.timers, layout.no_timer)) kinds |= kNamedTimer;
+    if (presets(layout.counters, layout.no_counter)) kinds |= kNamedCounter;
+    return static_cast<std::uint8_t>(named ? kinds : kinds << 3U);
+}
+
+}  // namespace
+
+LabelSearch::Kinds LabelSearch::kinds_of(OpenBits open) const {
+    return kinds_in(open, layout_, unnamed_help_);
 }
 
 OpenBits LabelSearch::cleared_by(Kinds kind) const {
@@ -51,13 +55,12 @@ OpenBits LabelSearch::cleared_by(Kinds kind) const {
 /// All that is open in each cube, from the points up.
 void LabelSearch::survey(const State& state) {
     const std::size_t size = cubes_.size();
+    const std::size_t points = std::size_t{1} << inputs();
     for (std::size_t zeros = 0; zeros < layers_; ++zeros) {
         OpenBits* layer = &masks_[zeros * size];
-        for (std::size_t index = 0; index < size; ++index) {
-            const Ternary::Entry& cube = cubes_[index];
-            layer[index] = cube.is_point ? state.open[zeros << inputs() | cube.value]
-                                         : layer[cube.low] | layer[cube.high];
-        }
+        for (std::size_t point = 0; point < points; ++point)
+            layer[cubes_.point(point)] = state.open[zeros * points + point];
+        cubes_.unite(layer);
     }
     for (std::size_t bit = 1; bit < layers_; bit *= 2) {
         for (std::size_t zeros = 0; zeros < layers_; ++zeros) {
@@ -66,50 +69,60 @@ void LabelSearch::survey(const State& state) {
                 masks_[zeros * size + index] |= masks_[(zeros | bit) * size + index];
         }
     }
-    for (std::size_t i = 0; i < masks_.size(); ++i) kinds_[i] = kinds_of(masks_[i]);
+    const OpenLayout layout = layout_;
+    for (std::size_t i = 0; i < masks_.size(); ++i) kinds_[i] = kinds_in(masks_[i], layout, unnamed_help_);
     work_ += masks_.size();
 }
 
+/// Only the widest regions of a kind are worth a term.
 std::vector<LabelSearch::Candidate> LabelSearch::candidates(const State& state) {
     survey(state);
+    const std::size_t size = cubes_.size();
+    std::vector<Kinds> widest = kinds_;
     std::vector<Candidate> list;
     for (std::size_t zeros = 0; zeros < layers_; ++zeros) {
-        for (std::size_t index = 0; index < cubes_.size(); ++index) {
-            if (kinds_[zeros * cubes_.size() + index] != 0) add_candidates(state, index, zeros, list);
+        Kinds* layer = &widest[zeros * size];
+        cubes_.remove_wider(&kinds_[zeros * size], layer);
+        for (std::size_t bit = 1; bit < layers_; bit *= 2) {
+            if ((zeros & bit) == 0) continue;
+            const Kinds* below = &kinds_[(zeros & ~bit) * size];
+            for (std::size_t i = 0; i < size; ++i) layer[i] = static_cast<Kinds>(layer[i] & ~below[i]);
+        }
+        for (std::size_t i = 0; i < size; ++i) {
+            if (layer[i] != 0) add_candidates(state, cubes_[i], zeros, layer[i], list);
         }
     }
     remove_dominated(list);
     return list;
 }
 
-/// Only the widest regions of a kind are worth a term.
-void LabelSearch::add_candidates(const State& state, std::size_t index, std::size_t zeros,
+void LabelSearch::add_candidates(const State& state, Ternary::Entry cube, std::size_t zeros, Kinds kinds,
                                  std::vector<Candidate>& list) {
-    const std::size_t size = cubes_.size();
-    unsigned kinds = kinds_[zeros * size + index];
-    const Ternary::Entry& cube = cubes_[index];
-    for (std::size_t v = 0; v < inputs() && kinds != 0; ++v) {
-        if (((cube.care >> v) & 1U) != 0) kinds &= ~unsigned{kinds_[zeros * size + cubes_.without(index, v)]};
-    }
-    for (std::size_t bit = 1; bit < layers_; bit *= 2) {
-        if ((zeros & bit) != 0) kinds &= ~unsigned{kinds_[(zeros & ~bit) * size + index]};
-    }
-    if (kinds == 0) return;
     const Region region{cube.value, cube.care, static_cast<std::uint8_t>(zeros)};
     const CaseSet cases = set_of(region);
     for (unsigned kind = 1; kind <= kinds; kind *= 2) {
         if ((kinds & kind) == 0) continue;
         const auto one = static_cast<Kinds>(kind);
         const CaseSet gains = gains_of(state, cases, one);
-        list.push_back({region, one, gains, gains.size()});
+        list.push_back({region, one, gains, worth(state, cases, one)});
     }
 }
 
 CaseSet LabelSearch::gains_of(const State& state, const CaseSet& cases, Kinds kind) const {
-    CaseSet gains = state.labels;
+    CaseSet gains = (kind & kAnyNamed) != 0 ? state.nexts : state.outputs;
     if ((kind & kAnyTimer) != 0) gains |= state.timers;
     if ((kind & kAnyCounter) != 0) gains |= state.counters;
     return gains &= cases;
+}
+
+/// How many things are decided in `cases`: a next step, outputs, a preset.
+std::size_t LabelSearch::worth(const State& state, const CaseSet& cases, Kinds kind) const {
+    const auto count = [&](CaseSet open) { return (open &= cases).size(); };
+    std::size_t total = count(state.outputs);
+    if ((kind & kAnyNamed) != 0) total += count(state.nexts);
+    if ((kind & kAnyTimer) != 0) total += count(state.timers);
+    if ((kind & kAnyCounter) != 0) total += count(state.counters);
+    return total;
 }
 
 /// Leaves the candidates, those that decide most first, for which no other decides all that they do.
@@ -157,7 +170,8 @@ void LabelSearch::place(State& state, const Region& region, Kinds kind, const Or
         first = false;
         state.open[c] &= ~cleared;
     });
-    if (term.names_next) state.labels.remove(cases);
+    state.outputs.remove(cases);
+    if (term.names_next) state.nexts.remove(cases);
     if (term.preset == Preset::timer) state.timers.remove(cases);
     if (term.preset == Preset::counter) state.counters.remove(cases);
     path_.push_back(term);

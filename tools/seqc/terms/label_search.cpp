@@ -6,8 +6,8 @@
 namespace nplc::seqc {
 namespace {
 
-constexpr std::size_t kWorkForOrders = 150'000;  // cubes looked at
-constexpr std::size_t kWorkInAll = 600'000;
+constexpr std::size_t kWorkForOrders = 100'000;  // cubes looked at
+constexpr std::size_t kWorkInAll = 300'000;
 constexpr std::size_t kRemembered = 1'024;
 constexpr std::size_t kShallow = 2;
 constexpr std::size_t kMostClasses = 16;
@@ -34,12 +34,13 @@ LabelSearch::LabelSearch(const Half& half, const OrderPlan& plan)
 
     const CaseSet none(half.cases());
     classes_.assign(seen.size(), none);
-    start_.labels = start_.timers = start_.counters = none;
+    start_.nexts = start_.outputs = start_.timers = start_.counters = none;
     for (std::size_t c = 0; c < half.cases(); ++c) {
         classes_[class_of[half.wanted[c]]].insert(c);
         const OpenBits open = layout_.wanted(half.wanted[c]);
         start_.open.push_back(open);
-        start_.labels.insert(c);
+        start_.nexts.insert(c);
+        start_.outputs.insert(c);
         if ((open & layout_.timers) != 0) start_.timers.insert(c);
         if ((open & layout_.counters) != 0) start_.counters.insert(c);
         demanded_.push_back(layout_.demanded(half.wanted[c]));
@@ -87,13 +88,13 @@ bool LabelSearch::search_up_to(const State& state, std::size_t first, std::size_
 bool LabelSearch::is_done(const State& state) const {
     if (state.left != 0 || !state.timers.is_empty() || !state.counters.is_empty()) return false;
     bool done = true;
-    state.labels.for_each([&](std::size_t c) { done = done && (state.open[c] & demanded_[c]) == 0; });
+    state.nexts.for_each([&](std::size_t c) { done = done && (state.open[c] & demanded_[c]) == 0; });
     return done;
 }
 
 /// Every next step, output byte and preset that no order can bring along takes a term.
 std::size_t LabelSearch::bound(const State& state) const {
-    CaseSet open = state.labels;
+    CaseSet open = state.nexts;
     open |= state.timers;
     open |= state.counters;
     for (std::size_t i = 0; i < items_.size() && state.left != 0; ++i) {
@@ -121,30 +122,40 @@ void LabelSearch::try_orders(const State& state, std::uint32_t classes, std::siz
         if (used + bound(state) >= best_used_) return;
         const std::size_t before = path_.size();
         State next = state;
-        const std::size_t now_used = cover_class(next, wanted, used);
+        const std::size_t now_used = cover_class(next, classes_[wanted], used);
         if (now_used < best_used_) try_orders(next, classes & ~(1U << wanted), now_used);
         path_.resize(before);
     }
 }
 
-std::size_t LabelSearch::cover_class(State& state, std::size_t wanted_class, std::size_t used) {
+/// Takes the region that decides most in `cases` as long as there is one. What may stand next changes only
+/// with what is decided elsewhere.
+std::size_t LabelSearch::cover_class(State& state, const CaseSet& cases, std::size_t used) {
+    std::vector<Candidate> list = candidates(state);
     while (used < best_used_ && !is_done(state)) {
-        const std::vector<Candidate> list = candidates(state);
-        const Candidate* best = nullptr;
-        std::size_t most = 0;
-        for (const Candidate& candidate : list) {
-            CaseSet gained = candidate.gains;
-            const std::size_t gain = (gained &= classes_[wanted_class]).size();
-            if (gain <= most) continue;
-            most = gain;
-            best = &candidate;
-        }
+        const Candidate* best = most_in(state, cases, list);
         if (best == nullptr) return used;
+        const std::size_t left = state.left;
         place(state, best->region, best->kind);
         place_items(state);
+        if (state.left != left) list = candidates(state);
         ++used;
     }
     return used;
+}
+
+const LabelSearch::Candidate* LabelSearch::most_in(const State& state, const CaseSet& cases,
+                                                   const std::vector<Candidate>& list) const {
+    const Candidate* best = nullptr;
+    std::size_t most = 0;
+    for (const Candidate& candidate : list) {
+        CaseSet gained = candidate.gains;
+        const std::size_t gain = worth(state, gained &= cases, candidate.kind);
+        if (gain <= most) continue;
+        most = gain;
+        best = &candidate;
+    }
+    return best;
 }
 
 /// Whether at most `most` further terms do; deeper and deeper, so the first answer is the least.

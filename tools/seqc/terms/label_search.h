@@ -38,7 +38,8 @@ class LabelSearch {
     };
     struct State {
         std::vector<OpenBits> open;  // by case
-        CaseSet labels;              // cases whose next step or outputs are open
+        CaseSet nexts;               // cases whose next step is open, and so on
+        CaseSet outputs;
         CaseSet timers;
         CaseSet counters;
         std::vector<std::uint8_t> placed;  // by item
@@ -60,9 +61,10 @@ class LabelSearch {
     OpenBits cleared_by(Kinds kind) const;
     void survey(const State& state);
     std::vector<Candidate> candidates(const State& state);
-    void add_candidates(const State& state, std::size_t index, std::size_t zeros,
+    void add_candidates(const State& state, Ternary::Entry cube, std::size_t zeros, Kinds kinds,
                         std::vector<Candidate>& list);
     CaseSet gains_of(const State& state, const CaseSet& cases, Kinds kind) const;
+    std::size_t worth(const State& state, const CaseSet& cases, Kinds kind) const;
     void remove_dominated(std::vector<Candidate>& list) const;
     CaseSet set_of(const Region& region) const { return cases_in(region, half_.inputs, half_.cases()); }
 
@@ -71,7 +73,9 @@ class LabelSearch {
     bool may_place(const State& state, const Item& item) const;
 
     void try_orders(const State& state, std::uint32_t classes, std::size_t used);
-    std::size_t cover_class(State& state, std::size_t wanted_class, std::size_t used);
+    std::size_t cover_class(State& state, const CaseSet& cases, std::size_t used);
+    const Candidate* most_in(const State& state, const CaseSet& cases,
+                             const std::vector<Candidate>& list) const;
     bool search(const State& state, std::size_t most, std::size_t depth);
     bool search_up_to(const State& state, std::size_t first, std::size_t last);
     bool finish_with_one(const State& state);

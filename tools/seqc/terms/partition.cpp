@@ -8,7 +8,7 @@
 namespace nplc::seqc {
 namespace {
 
-constexpr int kSearchBound = 2'000;
+constexpr int kSearchBound = 500;
 
 bool is_disjoint(const std::vector<Cube>& cubes) {
     Points seen;
@@ -22,8 +22,12 @@ bool is_disjoint(const std::vector<Cube>& cubes) {
 /// The smallest tree of questions whose leaves are all in or all out of `need`.
 class Tree {
   public:
-    Tree(const Points& need, std::size_t variables) : cubes_(Ternary::of(variables)), nodes_(cubes_.size()) {
-        for (std::size_t i = 0; i < cubes_.size(); ++i) solve(i, need);
+    Tree(const Points& need, std::size_t variables)
+        : cubes_(Ternary::of(variables)), nodes_(cubes_.size()), missing_(cubes_.size()) {
+        for (std::size_t point = 0; point < std::size_t{1} << variables; ++point)
+            missing_[cubes_.point(point)] = need[point] ? 0 : 1;
+        cubes_.unite(missing_.data());
+        for (std::size_t i = 0; i < cubes_.size(); ++i) solve(i);
     }
 
     std::vector<Cube> leaves() const {
@@ -37,18 +41,16 @@ class Tree {
     struct Node {
         std::uint8_t leaves = 0;
         std::uint8_t split = kLeaf;
-        bool is_full = false;
     };
 
-    void solve(std::size_t index, const Points& need) {
+    void solve(std::size_t index) {
         Node& node = nodes_[index];
         const Ternary::Entry& cube = cubes_[index];
-        node.is_full =
-            cube.is_point ? need.test(cube.value) : nodes_[cube.low].is_full && nodes_[cube.high].is_full;
-        if (node.is_full || cube.is_point) {
-            node.leaves = node.is_full ? 1 : 0;
+        if (missing_[index] == 0) {
+            node.leaves = 1;
             return;
         }
+        if (cube.care + 1U == std::size_t{1} << cubes_.variables()) return;
         node.leaves = 255;
         for (std::size_t v = 0; v < cubes_.variables(); ++v) {
             if ((cube.care >> v) & 1) continue;
@@ -73,6 +75,7 @@ class Tree {
 
     const Ternary& cubes_;
     std::vector<Node> nodes_;
+    std::vector<std::uint8_t> missing_;  // by cube: whether a point of it is not needed
 };
 
 /// Looks for fewer disjoint cubes than a first answer has, down to a number that no answer goes below.
@@ -113,13 +116,25 @@ class PartitionSearch {
 
     bool lies_in(Cube cube, const Points& set) const { return (cut(cube) & ~set).none(); }
 
+    /// All cubes inside `open` that hold the point of `cube`, widening it by `variable` and those above it.
+    void widen(Cube cube, const Points& points, unsigned variable, const Points& open,
+               std::vector<Cube>& cubes) const {
+        cubes.push_back(cube);
+        for (unsigned v = variable; 1U << v <= last_; ++v) {
+            const auto bit = static_cast<std::uint8_t>(1U << v);
+            const Points mirrored = (cube.value & bit) != 0 ? points >> bit : points << bit;
+            if ((mirrored & ~open).any()) continue;
+            const Cube wider{static_cast<std::uint8_t>(cube.value & ~bit),
+                             static_cast<std::uint8_t>(cube.care & ~bit)};
+            widen(wider, points | mirrored, v + 1, open, cubes);
+        }
+    }
+
     /// Widest first.
     std::vector<Cube> cubes_with(unsigned point, const Points& open) const {
         std::vector<Cube> cubes;
-        for (unsigned care = 0; care <= last_; ++care) {
-            const Cube cube{static_cast<std::uint8_t>(point & care), static_cast<std::uint8_t>(care)};
-            if (lies_in(cube, open)) cubes.push_back(cube);
-        }
+        const Cube alone{static_cast<std::uint8_t>(point), static_cast<std::uint8_t>(last_)};
+        widen(alone, Points().set(point), 0, open, cubes);
         std::stable_sort(cubes.begin(), cubes.end(),
                          [](Cube a, Cube b) { return std::popcount(a.care) < std::popcount(b.care); });
         return cubes;

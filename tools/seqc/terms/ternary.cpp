@@ -9,20 +9,20 @@ Ternary::Ternary(std::size_t variables) {
         size *= 3;
     }
     entries_.resize(size);
+    points_.resize(std::size_t{1} << variables);
     for (std::size_t index = 0; index < size; ++index) {
         Entry& entry = entries_[index];
-        entry.is_point = true;
         for (std::size_t v = 0; v < variables; ++v) {
             const std::size_t digit = index / steps_[v] % 3;
-            if (digit == 2) {
-                entry.is_point = false;
-                entry.low = static_cast<std::uint16_t>(index - 2 * steps_[v]);
-                entry.high = static_cast<std::uint16_t>(index - steps_[v]);
-                continue;
-            }
+            if (digit == 2) continue;
             entry.care = static_cast<std::uint8_t>(entry.care | (1U << v));
             entry.value = static_cast<std::uint8_t>(entry.value | (digit << v));
         }
+        if (entry.care + 1U == points_.size()) points_[entry.value] = index;
+    }
+    for (std::size_t v = 0; v < variables; ++v) {
+        for (std::size_t above = 0; above < points_.size(); above += std::size_t{2} << v)
+            blocks_.push_back({points_[above] + 2 * steps_[v], steps_[v]});
     }
 }
 
