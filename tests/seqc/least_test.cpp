@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
 #include <set>
 #include <unordered_map>
 
@@ -12,17 +11,17 @@
 namespace nplc::seqc {
 namespace {
 
-constexpr unsigned kOwnStep = 1;
+constexpr int kOwnStep = 1;
 constexpr unsigned kCases = 8;  // A, B, and C or the timer at zero
-const unsigned kSeeds = std::getenv("SEEDS") ? static_cast<unsigned>(std::atoi(std::getenv("SEEDS"))) : 100;
+constexpr unsigned kSeeds = 120;
 
-/// What a term may do, and what a case wants; -1: nothing.
+/// What a case wants; a preset of 0: none. Register values are orders with a "=" in them.
 struct Wanted {
     int next = kOwnStep;
     int outputs = 0;  // with the counter's two bits
     bool demands_outputs = false;
-    int timer = -1;
-    int counter = -1;
+    int timer = 0;
+    int counter = 0;
     std::vector<std::string> sends;
 };
 
@@ -30,9 +29,9 @@ struct Move {
     unsigned value = 0;
     unsigned care = 0;
     std::string order;
-    int timer = -1;
-    int counter = -1;
-    bool is_fast() const { return order.find('=') == std::string::npos; }
+    int timer = 0;
+    int counter = 0;
+    bool is_fast = true;
 };
 
 struct CaseState {
@@ -40,18 +39,33 @@ struct CaseState {
     bool outputs = false;
     bool timer = false;
     bool counter = false;
-    std::size_t to_send = 0;
+    std::uint8_t to_send = 0;
 };
 using State = std::array<CaseState, kCases>;
 
 std::uint64_t packed(const State& state) {
     std::uint64_t key = 0;
     for (const CaseState& c : state) {
-        key = key * 64 + c.to_send * 16 + (c.next ? 8U : 0U) + (c.outputs ? 4U : 0U) + (c.timer ? 2U : 0U) +
+        key = key * 64 + c.to_send * 16U + (c.next ? 8U : 0U) + (c.outputs ? 4U : 0U) + (c.timer ? 2U : 0U) +
               (c.counter ? 1U : 0U);
     }
     return key;
 }
+
+/// How many different values there are, of a few.
+template <class T>
+class Few {
+  public:
+    void insert(const T& value) {
+        if (std::find(values_.begin(), values_.begin() + used_, value) == values_.begin() + used_)
+            values_.at(static_cast<std::size_t>(used_++)) = value;
+    }
+    int size() const { return static_cast<int>(used_); }
+
+  private:
+    std::array<T, 2 * kCases> values_{};
+    std::ptrdiff_t used_ = 0;
+};
 
 class Exhaustive {
   public:
@@ -61,26 +75,29 @@ class Exhaustive {
 
     bool exists_with(int terms) {
         State state;
-        for (unsigned c = 0; c < kCases; ++c) state[c].to_send = wanted_[c].sends.size();
+        for (unsigned c = 0; c < kCases; ++c)
+            state[c].to_send = static_cast<std::uint8_t>(wanted_[c].sends.size());
         return search(state, terms);
     }
 
   private:
     void list_moves(bool with_timer) {
-        std::set<std::pair<int, int>> presets = {{-1, -1}};
+        std::set<std::pair<int, int>> presets = {{0, 0}};
         std::set<std::string> orders = {""};
         for (const Wanted& w : wanted_) {
-            presets.insert({w.timer, -1});
-            presets.insert({-1, w.counter});
+            presets.insert({w.timer, 0});
+            presets.insert({0, w.counter});
             orders.insert(w.sends.begin(), w.sends.end());
         }
         for (unsigned care = 0; care < kCases; ++care) {
             for (unsigned value = 0; value < kCases; ++value) {
-                if ((value & ~care) != 0 || (with_timer && (care & 4U) != 0 && (value & 4U) == 0)) continue;
+                const bool runs = with_timer && (care & 4U) != 0 && (value & 4U) == 0;
+                if ((value & ~care) != 0 || runs) continue;
                 for (const std::string& order : orders) {
+                    const bool is_fast = order.find('=') == std::string::npos;
                     for (auto [timer, counter] : presets) {
-                        const Move move{value, care, order, timer, counter};
-                        if (move.is_fast() || (timer < 0 && counter < 0)) moves_.push_back(move);
+                        if (is_fast || (timer == 0 && counter == 0))
+                            moves_.push_back({value, care, order, timer, counter, is_fast});
                     }
                 }
             }
@@ -91,15 +108,15 @@ class Exhaustive {
     /// next step if all want the same one (deciding more never costs a term). False if it does something
     /// wrong, or nothing at all.
     bool apply(const Move& move, State& state) const {
-        std::set<int> nexts;
-        std::set<int> outputs;
+        Few<int> nexts;
+        Few<int> outputs;
         bool helps = !move.order.empty();
         for (unsigned c = 0; c < kCases; ++c) {
             if ((c & move.care) != move.value) continue;
             const Wanted& wanted = wanted_[c];
             CaseState& now = state[c];
             if (!move.order.empty()) {
-                if (now.to_send == 0 || wanted.sends[now.to_send - 1] != move.order) return false;
+                if (now.to_send == 0 || wanted.sends[now.to_send - 1U] != move.order) return false;
                 --now.to_send;
             }
             if (!now.next) nexts.insert(wanted.next);
@@ -107,7 +124,7 @@ class Exhaustive {
             if (!preset(move.timer, wanted.timer, now.timer, helps)) return false;
             if (!preset(move.counter, wanted.counter, now.counter, helps)) return false;
         }
-        if (!move.is_fast()) return true;
+        if (!move.is_fast) return true;
         if (outputs.size() > 1) return false;
         for (unsigned c = 0; c < kCases; ++c) {
             if ((c & move.care) != move.value) continue;
@@ -119,8 +136,8 @@ class Exhaustive {
     }
 
     static bool preset(int given, int wanted, bool& decided, bool& helps) {
-        if (given < 0) return true;
-        if (wanted < 0 || (!decided && given != wanted)) return false;
+        if (given == 0) return true;
+        if (wanted == 0 || (!decided && given != wanted)) return false;
         helps = helps || !decided;
         decided = true;
         return true;
@@ -129,25 +146,24 @@ class Exhaustive {
     /// A register value takes a term of its own; the others can carry a command, a next step, outputs and one
     /// preset each.
     int missing(const State& state) const {
-        std::set<int> nexts;
-        std::set<int> outputs;
-        std::set<int> presets;
-        std::set<std::string> commands;
-        std::set<std::string> values;
+        Few<int> nexts;
+        Few<int> outputs;
+        Few<int> presets;
+        Few<std::string_view> commands;
+        Few<std::string_view> values;
         for (unsigned c = 0; c < kCases; ++c) {
             const Wanted& wanted = wanted_[c];
             const CaseState& now = state[c];
             if (!now.next && wanted.next != kOwnStep) nexts.insert(wanted.next);
             if (!now.outputs && wanted.demands_outputs) outputs.insert(wanted.outputs);
-            if (wanted.timer >= 0 && !now.timer) presets.insert(wanted.timer);
-            if (wanted.counter >= 0 && !now.counter) presets.insert(-1 - wanted.counter);
+            if (wanted.timer != 0 && !now.timer) presets.insert(wanted.timer);
+            if (wanted.counter != 0 && !now.counter) presets.insert(-wanted.counter);
             for (std::size_t i = 0; i < now.to_send; ++i) {
-                const std::string& order = wanted.sends[i];
-                (order.find('=') == std::string::npos ? commands : values).insert(order);
+                const std::string_view order = wanted.sends[i];
+                (order.find('=') == order.npos ? commands : values).insert(order);
             }
         }
-        const std::size_t fast = std::max({nexts.size(), outputs.size(), presets.size(), commands.size()});
-        return static_cast<int>(fast + values.size());
+        return std::max({nexts.size(), outputs.size(), presets.size(), commands.size()}) + values.size();
     }
 
     bool search(const State& state, int terms) {
@@ -157,11 +173,9 @@ class Exhaustive {
         const auto [known, is_new] = failed_.try_emplace(packed(state), terms);
         if (!is_new && known->second >= terms) return false;
         known->second = terms;
-        std::set<std::uint64_t> seen;
         for (const Move& move : moves_) {
             State next = state;
-            if (!apply(move, next) || !seen.insert(packed(next)).second) continue;
-            if (search(next, terms - 1)) return true;
+            if (apply(move, next) && search(next, terms - 1)) return true;
         }
         return false;
     }
@@ -236,8 +250,8 @@ std::array<Wanted, kCases> wanted_of(const Compilation& result, const RandomStep
         w.next = scan.next.value_or(kOwnStep);
         w.outputs = scan.outputs.value_or(1) + (scan.clears ? 0x40 : 0) + (scan.counts ? 0x80 : 0);
         w.demands_outputs = w.next != kOwnStep || step.shows || scan.clears || scan.counts;
-        w.timer = scan.timer.value_or(-1);
-        w.counter = scan.counter.value_or(-1);
+        w.timer = scan.timer.value_or(0);
+        w.counter = scan.counter.value_or(0);
         w.sends = scan.sends;
     }
     return wanted;
