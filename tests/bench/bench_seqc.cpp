@@ -1,4 +1,5 @@
-// How long compile() takes. --check only looks at the programs that are compiled, and is a test.
+// How long compile() takes. --check only looks at the programs that are compiled, and is a
+// test; --print writes the full program.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
@@ -46,6 +47,10 @@ void compile(benchmark::State& state, const std::string& source) {
 
 int run_all(int argc, char** argv) {
     if (argc == 2 && std::strcmp(argv[1], "--check") == 0) return check() ? 0 : 1;
+    if (argc == 2 && std::strcmp(argv[1], "--print") == 0) {
+        std::fputs(full_program().c_str(), stdout);
+        return 0;
+    }
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
     for (auto [name, source] : {std::pair{"compile/pick_and_place", example("pick_and_place.seq")},
