@@ -117,5 +117,41 @@ TEST(MinimalCover, LeastForEveryFunctionOfThreeVariables) {
     }
 }
 
+std::vector<unsigned> products_of_four() {
+    std::vector<unsigned> products;  // as sets of the sixteen points
+    for (unsigned care = 0; care < 16; ++care) {
+        for (unsigned value = 0; value < 16; ++value) {
+            if ((value & ~care) != 0) continue;
+            unsigned set = 0;
+            for (unsigned p = 0; p < 16; ++p) set |= (p & care) == value ? 1U << p : 0U;
+            products.push_back(set);
+        }
+    }
+    return products;
+}
+
+// Every thirteenth function of four variables, the least number from the smaller functions inside it: a
+// function is one product and, apart from it, what is left.
+TEST(DisjointCover, LeastForFunctionsOfFourVariables) {
+    const std::vector<unsigned> products = products_of_four();
+    std::vector<unsigned> least(1U << 16U, 0);
+    for (unsigned f = 1; f < least.size(); ++f) {
+        least[f] = 99;
+        for (unsigned product : products) {
+            if ((product & ~f) == 0) least[f] = std::min(least[f], least[f & ~product] + 1);
+        }
+    }
+    for (unsigned f = 0; f < least.size(); f += 13) {
+        const Points set = points([&](unsigned p) { return ((f >> (p & 15U)) & 1U) != 0; });
+        ASSERT_EQ(disjoint_cover(set).size(), least[f]) << f;
+    }
+}
+
+// d, and where d is not: ab' + bc' + ca', which no question leaves whole. A tree has 1 + 4 leaves.
+TEST(DisjointCover, FewerThanATreeOfQuestions) {
+    const auto ring = points([](unsigned p) { return bit(p, 3) || ((p & 7U) != 0 && (p & 7U) != 7); });
+    EXPECT_EQ(disjoint_cover(ring).size(), 4U);
+}
+
 }  // namespace
 }  // namespace nplc::seqc

@@ -3,73 +3,64 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <tuple>
 #include <utility>
+
+#include "terms/ternary.h"
+#include "terms/variables.h"
 
 namespace nplc::seqc {
 namespace {
 
-constexpr std::size_t kVariables = 7;
 constexpr int kSearchBound = 2'000;
 
-std::vector<Points> make_cubes() {
-    std::vector<Points> cubes(kPoints * kPoints);
-    for (std::size_t care = 0; care < kPoints; ++care) {
-        for (std::size_t value = 0; value < kPoints; ++value) {
-            if ((value & ~care) != 0) continue;
-            for (std::size_t point = 0; point < kPoints; ++point) {
-                if ((point & care) == value) cubes[care * kPoints + value].set(point);
-            }
-        }
+struct Prime {
+    Cube cube;
+    Points useful;  // the points that it takes of those needed
+};
+
+/// Cubes inside `allowed` that are worth taking, wide ones first: none holds a smaller part of `need` than
+/// one before it.
+std::vector<Prime> primes_of(const Points& need, const Points& allowed, std::size_t variables) {
+    enum Mark : std::uint8_t { kOutside = 1, kNeeded = 2 };
+    const Ternary& cubes = Ternary::of(variables);
+    std::array<std::uint8_t, Ternary::kMostCubes> marks;
+    std::array<std::uint8_t, Ternary::kMostCubes> is_inside;
+    std::array<std::uint8_t, Ternary::kMostCubes> is_prime;
+    std::vector<Cube> found;
+    for (std::size_t point = 0; point < std::size_t{1} << variables; ++point) {
+        marks[cubes.point(point)] =
+            static_cast<std::uint8_t>((allowed[point] ? 0 : kOutside) | (need[point] ? kNeeded : 0));
     }
-    return cubes;
-}
-
-/// All cubes, wide ones first.
-std::vector<Cube> make_order() {
-    std::vector<Cube> order;
-    for (int literals = 0; literals <= static_cast<int>(kVariables); ++literals) {
-        for (unsigned care = 0; care < kPoints; ++care) {
-            if (std::popcount(care) != literals) continue;
-            for (unsigned value = 0; value < kPoints; ++value) {
-                if ((value & ~care) == 0) {
-                    order.push_back({static_cast<std::uint8_t>(value), static_cast<std::uint8_t>(care)});
-                }
-            }
-        }
+    cubes.unite(marks.data());
+    for (std::size_t i = 0; i < cubes.size(); ++i) {
+        is_inside[i] = (marks[i] & kOutside) == 0 ? 1 : 0;
+        is_prime[i] = marks[i] == kNeeded ? 1 : 0;
     }
-    return order;
-}
-
-const std::vector<Cube>& cubes_in_order() {
-    static const std::vector<Cube> order = make_order();
-    return order;
-}
-
-bool contains(const Points& outer, const Points& inner) {
-    return (inner & ~outer).none();
-}
-
-/// Cubes inside `allowed` that are worth taking: none holds a smaller part of `need` than another.
-std::vector<Cube> primes_of(const Points& need, const Points& allowed) {
-    std::vector<Cube> primes;
-    for (Cube cube : cubes_in_order()) {
-        const Points useful = points_of(cube) & need;
-        if (useful.none() || !contains(allowed, points_of(cube))) continue;
-        const bool dominated = std::any_of(primes.begin(), primes.end(),
-                                           [&](Cube wider) { return contains(points_of(wider), useful); });
-        if (!dominated) primes.push_back(cube);
+    cubes.remove_wider(is_inside.data(), is_prime.data());
+    for (std::size_t i = 0; i < cubes.size(); ++i) {
+        if (is_prime[i] != 0) found.push_back({cubes[i].value, cubes[i].care});
+    }
+    const auto rank = [](Cube c) { return std::tuple(std::popcount(c.care), c.care, c.value); };
+    std::sort(found.begin(), found.end(), [&](Cube a, Cube b) { return rank(a) < rank(b); });
+    std::vector<Prime> primes;
+    for (Cube cube : found) {
+        const Prime prime{cube, points_of(cube) & need};
+        const bool dominated = std::any_of(primes.begin(), primes.end(), [&](const Prime& wider) {
+            return (prime.useful & ~wider.useful).none();
+        });
+        if (!dominated) primes.push_back(prime);
     }
     return primes;
 }
 
 class CoverSearch {
   public:
-    CoverSearch(const Points& need, std::vector<Cube> primes) : need_(need), primes_(std::move(primes)) {
-        for (Cube prime : primes_) useful_.push_back(points_of(prime) & need);
+    CoverSearch(const Points& need, std::vector<Prime> primes) : need_(need), primes_(std::move(primes)) {
         for (std::size_t point = 0; point < kPoints; ++point) {
             if (!need.test(point)) continue;
             for (std::size_t i = 0; i < primes_.size(); ++i) {
-                if (useful_[i].test(point)) choices_[point].push_back(i);
+                if (primes_[i].useful.test(point)) choices_[point].push_back(i);
             }
         }
     }
@@ -79,7 +70,7 @@ class CoverSearch {
         std::vector<std::size_t> chosen;
         search(need_, chosen);
         std::vector<Cube> cubes;
-        for (std::size_t i : best_) cubes.push_back(primes_[i]);
+        for (std::size_t i : best_) cubes.push_back(primes_[i].cube);
         return cubes;
     }
 
@@ -87,8 +78,8 @@ class CoverSearch {
     /// The prime that holds most open points, and how many.
     std::pair<std::size_t, std::size_t> widest(const Points& open) const {
         std::pair<std::size_t, std::size_t> best = {0, 0};
-        for (std::size_t i = 0; i < useful_.size(); ++i) {
-            const std::size_t count = (useful_[i] & open).count();
+        for (std::size_t i = 0; i < primes_.size(); ++i) {
+            const std::size_t count = (primes_[i].useful & open).count();
             if (count > best.second) best = {i, count};
         }
         return best;
@@ -96,7 +87,7 @@ class CoverSearch {
 
     std::vector<std::size_t> greedy() const {
         std::vector<std::size_t> chosen;
-        for (Points open = need_; open.any(); open &= ~useful_[chosen.back()])
+        for (Points open = need_; open.any(); open &= ~primes_[chosen.back()].useful)
             chosen.push_back(widest(open).first);
         return chosen;
     }
@@ -121,106 +112,28 @@ class CoverSearch {
         if (chosen.size() + (open.count() + most - 1) / most >= best_.size()) return;
         for (std::size_t choice : choices_[hardest_point(open)]) {
             chosen.push_back(choice);
-            search(open & ~useful_[choice], chosen);
+            search(open & ~primes_[choice].useful, chosen);
             chosen.pop_back();
         }
     }
 
     Points need_;
-    std::vector<Cube> primes_;
-    std::vector<Points> useful_;
+    std::vector<Prime> primes_;
     std::array<std::vector<std::size_t>, kPoints> choices_;
     std::vector<std::size_t> best_;
     int steps_ = 0;
 };
 
-bool is_disjoint(const std::vector<Cube>& cubes) {
-    Points seen;
-    for (Cube cube : cubes) {
-        if ((seen & points_of(cube)).any()) return false;
-        seen |= points_of(cube);
-    }
-    return true;
-}
-
-/// The smallest tree of questions whose leaves are all in or all out of `need`.
-class Partition {
-  public:
-    explicit Partition(const Points& need) : need_(need) {}
-
-    std::vector<Cube> run() {
-        const std::vector<Cube>& order = cubes_in_order();
-        for (auto cube = order.rbegin(); cube != order.rend(); ++cube) solve(*cube);
-        std::vector<Cube> leaves;
-        collect({0, 0}, leaves);
-        return leaves;
-    }
-
-  private:
-    static constexpr std::uint8_t kLeaf = kVariables;
-    struct Node {
-        std::uint8_t leaves = 0;
-        std::uint8_t split = kLeaf;
-    };
-
-    static std::size_t index(Cube cube) { return cube.care * kPoints + cube.value; }
-    static Cube with(Cube cube, std::size_t variable, bool value) {
-        const auto bit = static_cast<std::uint8_t>(1U << variable);
-        return {static_cast<std::uint8_t>(cube.value | (value ? bit : 0)),
-                static_cast<std::uint8_t>(cube.care | bit)};
-    }
-
-    void solve(Cube cube) {
-        Node& node = nodes_[index(cube)];
-        const Points inside = points_of(cube) & need_;
-        if (inside.none()) return;
-        if (inside == points_of(cube)) {
-            node.leaves = 1;
-            return;
-        }
-        node.leaves = 255;
-        for (std::size_t variable = 0; variable < kVariables; ++variable) {
-            if ((cube.care >> variable) & 1) continue;
-            const int leaves = nodes_[index(with(cube, variable, false))].leaves +
-                               nodes_[index(with(cube, variable, true))].leaves;
-            if (leaves < node.leaves) {
-                node = {static_cast<std::uint8_t>(leaves), static_cast<std::uint8_t>(variable)};
-            }
-        }
-    }
-
-    void collect(Cube cube, std::vector<Cube>& leaves) const {
-        const Node& node = nodes_[index(cube)];
-        if (node.leaves == 0) return;
-        if (node.split == kLeaf) {
-            leaves.push_back(cube);
-            return;
-        }
-        collect(with(cube, node.split, true), leaves);
-        collect(with(cube, node.split, false), leaves);
-    }
-
-    Points need_;
-    std::vector<Node> nodes_ = std::vector<Node>(kPoints * kPoints);
-};
-
 }  // namespace
-
-const Points& points_of(Cube cube) {
-    static const std::vector<Points> cubes = make_cubes();
-    return cubes[cube.care * kPoints + cube.value];
-}
 
 std::vector<Cube> minimal_cover(const Points& need, const Points& allowed) {
     if (need.none()) return {};
-    return CoverSearch(need, primes_of(need, allowed)).run();
-}
-
-std::vector<Cube> disjoint_cover(const Points& need) {
-    if (need.none()) return {};
-    std::vector<Cube> overlapping = minimal_cover(need, need);
-    if (is_disjoint(overlapping)) return overlapping;
-    return Partition(need).run();
+    const Variables variables({&need, &allowed});
+    const Points narrow = variables.narrowed(need);
+    std::vector<Cube> cubes =
+        CoverSearch(narrow, primes_of(narrow, variables.narrowed(allowed), variables.count())).run();
+    for (Cube& cube : cubes) cube = variables.widened(cube);
+    return cubes;
 }
 
 }  // namespace nplc::seqc

@@ -17,13 +17,14 @@ struct Cube {
     bool operator==(const Cube&) const = default;
 };
 
-const Points& points_of(Cube cube);
+Points points_of(Cube cube);
 
 /// Fewest cubes that together hold all of `need` and nothing outside `allowed` (which contains `need`).
-/// They may overlap. Exact up to a bound on the search; beyond it as few as a greedy choice finds.
+/// They may overlap. Exact up to a bound on the search; beyond it the fewest that were found.
 std::vector<Cube> minimal_cover(const Points& need, const Points& allowed);
 
-/// Cubes that hold exactly `need`, no point twice: for what must not be sent twice.
+/// Fewest cubes that hold exactly `need`, no point twice: for what must not be sent twice. Exact up to a
+/// bound on the search; beyond it the fewest that were found.
 std::vector<Cube> disjoint_cover(const Points& need);
 
 }  // namespace nplc::seqc

@@ -11,15 +11,6 @@ using sequencer::FastStatement;
 using sequencer::FlexStatement;
 using sequencer::Term;
 
-FlexStatement write_of(const Send& send) {
-    return {
-        .reg = send.reg->number,
-        .longword = registers::is_32_bit(send.reg->format),
-        .low_word = static_cast<std::uint16_t>(send.value),
-        .high_word = static_cast<std::uint16_t>(send.value >> 16),
-    };
-}
-
 /// Index of the effect of `action` with `outputs`, made if it is new.
 int effect_for(std::vector<Effect>& list, const Action* action, std::uint8_t outputs, const StepPlan& step) {
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -37,21 +28,29 @@ int effect_for(std::vector<Effect>& list, const Action* action, std::uint8_t out
 
 }  // namespace
 
+FlexStatement write_of(const Send& send) {
+    return {
+        .reg = send.reg->number,
+        .longword = registers::is_32_bit(send.reg->format),
+        .low_word = static_cast<std::uint16_t>(send.value),
+        .high_word = static_cast<std::uint16_t>(send.value >> 16),
+    };
+}
+
 Effects effects_of(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of) {
     Effects effects;
     effects.target.fill(-1);
-    for (std::size_t c = 0; c < kCases; ++c) {
-        effects.resting[c] = step.outputs;
-        for (const ConditionalOutput& conditional : step.conditional) {
-            if (conditional.when.test(c)) effects.resting[c] |= conditional.outputs;
-        }
+    effects.resting.fill(step.outputs);
+    for (const ConditionalOutput& conditional : step.conditional) {
+        const Truth& when = conditional.when;
+        for (std::size_t c = when._Find_first(); c < kCases; c = when._Find_next(c))
+            effects.resting[c] |= conditional.outputs;
     }
     for (const Rule& rule : step.rules) {
-        for (std::size_t c = 0; c < kCases; ++c) {
-            if (!rule.when.test(c)) continue;
-            const bool leaves = rule.action.next && *rule.action.next != step.number;
-            const std::size_t next = rule.action.next.value_or(step.number);
-            const std::uint8_t entered = next < outputs_of.size() ? outputs_of[next] : std::uint8_t{0};
+        const bool leaves = rule.action.next && *rule.action.next != step.number;
+        const std::size_t next = rule.action.next.value_or(step.number);
+        const std::uint8_t entered = next < outputs_of.size() ? outputs_of[next] : std::uint8_t{0};
+        for (std::size_t c = rule.when._Find_first(); c < kCases; c = rule.when._Find_next(c)) {
             effects.target[c] =
                 effect_for(effects.list, &rule.action, leaves ? entered : effects.resting[c], step);
         }

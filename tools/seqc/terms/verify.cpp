@@ -14,7 +14,7 @@ using sequencer::Term;
 
 /// What a scan did in one case.
 struct Done {
-    std::uint8_t next = sequencer::kNoSwitch;
+    std::uint8_t next = 0;  ///< the step that is active afterwards
     std::uint8_t outputs = 0;
     bool writes_outputs = false;
     bool clears = false;
@@ -46,10 +46,16 @@ class Comparison {
   public:
     Comparison(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of)
         : step_(step), outputs_of_(outputs_of) {
+        static const Action kNothing{};
+        Done start;
+        start.next = step.number;
+        done_.fill(start);
+        wanted_.push_back(wanted_of(kNothing));
         for (const Rule& rule : step.rules) {
-            for (std::size_t c = 0; c < kCases; ++c) {
-                if (rule.when.test(c)) action_[c] = &rule.action;
-            }
+            const auto index = static_cast<std::uint16_t>(wanted_.size());
+            wanted_.push_back(wanted_of(rule.action));
+            for (std::size_t c = rule.when._Find_first(); c < kCases; c = rule.when._Find_next(c))
+                rule_[c] = index;
         }
     }
 
@@ -59,33 +65,58 @@ class Comparison {
                                    (condition.needs_timer_zero ? std::size_t{1} << kTimerZero : 0) |
                                    (condition.needs_counter_zero ? std::size_t{1} << kCounterZero : 0);
         const std::size_t compared = wanted | condition.care | sequencer::kError;
-        for (std::size_t c = 0; c < kCases; ++c) {
-            if ((c & compared) == wanted) apply_in(term, c);
-        }
+        const std::size_t open = (kCases - 1) & ~compared;
+        std::size_t free = 0;
+        do {
+            apply_in(term, wanted | free);
+            free = (free - open) & open;
+        } while (free != 0);
     }
 
     bool differs(std::size_t c) const {
-        static const Action kNothing{};
-        const Action& action = action_[c] != nullptr ? *action_[c] : kNothing;
+        const Wanted& wanted = wanted_[rule_[c]];
         const Done& done = done_[c];
-        const std::uint8_t next = action.next.value_or(step_.number);
-        const bool leaves = next != step_.number;
-        const std::uint8_t gone = done.next == sequencer::kNoSwitch ? step_.number : done.next;
-        const std::uint8_t outputs = leaves ? entered(next) : resting(c);
-        const bool must_write = leaves || !step_.conditional.empty();
-        return gone != next || done.wrong_order || done.sent != action.sends.size() ||
-               done.timer != action.timer.value_or(0) || done.counter != action.counter.value_or(0) ||
-               done.clears != action.clears_counter || done.counts != action.counts_down ||
-               (done.writes_outputs ? done.outputs != outputs : must_write);
+        const std::uint8_t outputs = wanted.leaves ? wanted.outputs : resting(c);
+        const bool must_write = wanted.leaves || !step_.conditional.empty();
+        return done.next != wanted.next || done.wrong_order || done.sent != wanted.sends ||
+               done.timer != wanted.timer || done.counter != wanted.counter || done.clears != wanted.clears ||
+               done.counts != wanted.counts || (done.writes_outputs ? done.outputs != outputs : must_write);
     }
 
   private:
+    /// What a rule, or none, wants in every case in which it holds.
+    struct Wanted {
+        const Action* action = nullptr;
+        std::uint8_t next = 0;
+        std::uint8_t outputs = 0;
+        bool leaves = false;
+        bool clears = false;
+        bool counts = false;
+        std::uint16_t timer = 0;
+        std::uint16_t counter = 0;
+        std::size_t sends = 0;
+    };
+
+    Wanted wanted_of(const Action& action) const {
+        Wanted wanted;
+        wanted.action = &action;
+        wanted.next = action.next.value_or(step_.number);
+        wanted.leaves = wanted.next != step_.number;
+        wanted.outputs = wanted.leaves ? entered(wanted.next) : std::uint8_t{0};
+        wanted.clears = action.clears_counter;
+        wanted.counts = action.counts_down;
+        wanted.timer = action.timer.value_or(0);
+        wanted.counter = action.counter.value_or(0);
+        wanted.sends = action.sends.size();
+        return wanted;
+    }
+
     void apply_in(const Term& term, std::size_t c) {
         Done& done = done_[c];
         if (term.is_flex || term.fast.sends) {
-            const Action* action = action_[c];
-            const bool expected = action != nullptr && done.sent < action->sends.size() &&
-                                  is_order_of(term, action->sends[done.sent]);
+            const Wanted& wanted = wanted_[rule_[c]];
+            const bool expected =
+                done.sent < wanted.sends && is_order_of(term, wanted.action->sends[done.sent]);
             done.wrong_order = done.wrong_order || !expected;
             ++done.sent;
         }
@@ -106,8 +137,9 @@ class Comparison {
 
     const StepPlan& step_;
     const std::vector<std::uint8_t>& outputs_of_;
-    std::array<const Action*, kCases> action_{};
-    std::array<Done, kCases> done_{};
+    std::vector<Wanted> wanted_;
+    std::array<std::uint16_t, kCases> rule_{};  // index into `wanted_`
+    std::array<Done, kCases> done_;
 };
 
 }  // namespace
