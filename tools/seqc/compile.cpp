@@ -17,8 +17,8 @@ constexpr std::size_t kTermsEverywhere = 1024;  // what every gateway holds at t
 constexpr std::size_t kLongestSource = 16U << 20;
 
 std::vector<std::uint8_t> outputs_of_steps(const Plan& plan) {
-    std::vector<std::uint8_t> outputs;
-    for (const StepPlan& step : plan.steps) outputs.push_back(step.outputs);
+    std::vector<std::uint8_t> outputs(sequencer::kLastStep + 1U);
+    for (const StepPlan& step : plan.steps) outputs[step.number] = step.outputs;
     return outputs;
 }
 
@@ -58,7 +58,8 @@ Compilation compile(std::string_view source) {
     Report checks;
     Scope scope(program, source, checks, result);
     const Plan plan = check(program, scope, checks);
-    if (!plan.steps.empty()) result.symbols.steps[0] = plan.steps.front().name;
+    if (!plan.steps.empty() && plan.steps.front().number == 0)
+        result.symbols.steps[0] = plan.steps.front().name;
     if (syntax_sound && !checks.has_errors()) check_motor_state(plan, checks);
     std::vector<LoweredTerm> terms;
     if (syntax_sound && !checks.has_errors()) {

@@ -50,6 +50,7 @@ class Parser {
     void parse_power_up(ast::Program& program);
     void parse_step_body(ast::Step& step, std::string_view end_word);
     void parse_out(ast::Step& step);
+    bool parse_outputs(std::vector<ast::Name>& outputs);
 
     // parse_statements.cpp
     bool parse_if(ast::Choice& choice);
@@ -63,6 +64,11 @@ class Parser {
     void parse_unit(ast::Value& value);
     bool parse_integer(const Token& t, double& number);
     bool parse_raw_term(std::vector<ast::RawTerm>& terms);
+
+    // parse_terms.cpp
+    bool at_symbolic_term() const;
+    bool parse_symbolic_term(const Token& first, std::vector<ast::RawTerm>& terms);
+    void parse_symbolic_body(ast::SymbolicTerm& term);
 
     // parse_expressions.cpp
     bool parse_expression(ast::Expression& result);

@@ -8,17 +8,7 @@ namespace nplc::seqc {
 namespace {
 
 using sequencer::FastStatement;
-using sequencer::FlexStatement;
 using sequencer::Term;
-
-FlexStatement write_of(const Send& send) {
-    return {
-        .reg = send.reg->number,
-        .longword = registers::is_32_bit(send.reg->format),
-        .low_word = static_cast<std::uint16_t>(send.value),
-        .high_word = static_cast<std::uint16_t>(send.value >> 16),
-    };
-}
 
 /// Index of the effect of `action` with `outputs`, made if it is new.
 int effect_for(std::vector<Effect>& list, const Action* action, std::uint8_t outputs, const StepPlan& step) {
