@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
     int exit_code = kOk;
     add_build(app, exit_code);
     add_check(app, exit_code);
+    add_decompile(app, exit_code);
     add_disasm(app, exit_code);
     try {
         app.parse(argc, argv);

@@ -52,6 +52,15 @@ bool is_reserved(std::string_view word) {
     return contains(kReserved, word);
 }
 
+bool is_name(std::string_view text) {
+    constexpr std::size_t kLongest = 60;
+    if (text.empty() || text.size() > kLongest || (text[0] >= '0' && text[0] <= '9') || is_reserved(text))
+        return false;
+    return std::all_of(text.begin(), text.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    });
+}
+
 const Token& Parser::token(std::size_t ahead) const {
     return tokens_[std::min(at_ + ahead, tokens_.size() - 1)];
 }

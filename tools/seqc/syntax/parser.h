@@ -92,4 +92,7 @@ bool parse_time(std::string_view text, double& milliseconds);
 /// Words that cannot be names.
 bool is_reserved(std::string_view word);
 
+/// Whether a text can be a name: letters, digits and underscores, and no word of the language.
+bool is_name(std::string_view text);
+
 }  // namespace nplc::seqc

@@ -10,22 +10,8 @@ namespace {
 
 using sequencer::kTermBytes;
 
-bool is_identifier(std::string_view name) {
-    if (name.empty() || name.size() > 60 || (name[0] >= '0' && name[0] <= '9') || is_reserved(name))
-        return false;
-    for (char c : name) {
-        const bool word =
-            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-        if (!word) return false;
-    }
-    return true;
-}
-
 std::string term_line(sequencer::TermView bytes) {
-    std::string text = "TERM ";
-    for (std::size_t i = 0; i < kTermBytes; ++i)
-        text += fmt::format("{}16#{:02X}", i == 0 ? "" : ", ", bytes[i]);
-    return text + fmt::format(";  // {}\n", describe(bytes, nullptr));
+    return fmt::format("{}  // {}\n", byte_line(bytes), describe(bytes, nullptr));
 }
 
 }  // namespace
@@ -48,7 +34,7 @@ Disassembly disassemble(std::span<const std::uint8_t> table, std::string_view pr
         return result;
     }
     result.trailing_bytes = table.size() - at;
-    const std::string name(is_identifier(program_name) ? program_name : "Table");
+    const std::string name(is_name(program_name) ? program_name : "Table");
     result.text = fmt::format(
         "// {} terms, the end included, one a line: STATE, INPUT, CARE and five bytes of command.\n",
         at / kTermBytes);
