@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "meaning/commands.h"
+
 namespace nplc::seqc {
 namespace {
 
 using sequencer::TermBytes;
 
-constexpr std::size_t kEnoughForOnError = 2;
+constexpr std::ptrdiff_t kEnoughForOnError = 2;  // steps
 const Action kNoAction{};
 
 bool switches(const TermBytes& term) {
@@ -30,6 +32,18 @@ Action common_tail(const std::vector<const Action*>& actions) {
         tail.counts_down = tail.counts_down && action->counts_down;
     }
     return tail;
+}
+
+bool starts_a_move(const Send& send) {
+    const auto select = send.reg == nullptr ? select_command(send.command) : std::nullopt;
+    return select && select->mode != protocol::fastmac::Mode::init;
+}
+
+Action moves_at_the_end(const Action& action) {
+    Action moves;
+    const auto first = std::find_if_not(action.sends.rbegin(), action.sends.rend(), starts_a_move).base();
+    moves.sends.assign(first, action.sends.end());
+    return moves;
 }
 
 }  // namespace
@@ -72,7 +86,7 @@ std::vector<std::uint8_t> Drafter::voted_outputs() const {
 
 /// What most steps do on ERROR. Step 0 does not count: POWER_UP writes its values there as well.
 std::optional<Action> Drafter::voted_fault(const Surroundings& around) const {
-    std::vector<std::pair<const Action*, std::size_t>> votes;
+    std::vector<std::pair<const Action*, std::ptrdiff_t>> votes;
     for (std::size_t i = 0; i < layout_.steps.size(); ++i) {
         if (layout_.steps[i].number == 0) continue;
         const Action* exit = error_exit(layout_.steps[i], groups_[i], around);
@@ -96,10 +110,10 @@ Draft Drafter::draft(const Bans& bans) const {
     draft.around.outputs = voted_outputs();
     if (!bans.on_error) draft.around.fault = voted_fault(draft.around);
     find_shapes(bans, draft);
-    const auto uses_on_error = [](const std::optional<Shape>& shape) {
-        return shape && !shape->plan.own_error;
-    };
-    if (std::none_of(draft.shapes.begin(), draft.shapes.end(), uses_on_error) && draft.around.fault) {
+    const auto users =
+        std::count_if(draft.shapes.begin(), draft.shapes.end(),
+                      [](const std::optional<Shape>& shape) { return shape && !shape->plan.own_error; });
+    if (draft.around.fault && users < kEnoughForOnError) {
         Bans more = bans;
         more.on_error = true;
         return this->draft(more);
@@ -112,10 +126,12 @@ Draft Drafter::draft(const Bans& bans) const {
 void Drafter::find_shapes(const Bans& bans, Draft& draft) const {
     draft.shapes.assign(layout_.steps.size(), std::nullopt);
     std::size_t zero = layout_.steps.size();
+    const bool zero_outside = std::any_of(layout_.outside.begin(), layout_.outside.end(),
+                                          [](const TermBytes& t) { return sequencer::step_of(t) == 0; });
     for (std::size_t i = 0; i < layout_.steps.size(); ++i) {
         const Part& part = layout_.steps[i];
         if (part.number == 0) zero = i;
-        if (i == 0 && part.number == 0 && !bans.power_up) {
+        if (i == 0 && part.number == 0 && !bans.power_up && !zero_outside) {
             draft.power_up = find_power_up(part, groups_[i], draft.around);
             if (draft.power_up) continue;
         }
@@ -158,8 +174,8 @@ std::vector<const Action*> Drafter::ways_into(std::uint8_t step, const Draft& dr
     return ways;
 }
 
-/// ENTRY: what all ways into a step end with, if there are several. That of the fault step is what ON ERROR
-/// does.
+/// ENTRY: what all ways into a step end with; of a single way only the move, since the step is about it. That
+/// of the fault step is what ON ERROR does.
 void Drafter::find_entries(const Bans& bans, Draft& draft) const {
     for (std::size_t i = 0; i < layout_.steps.size(); ++i) {
         const std::uint8_t step = layout_.steps[i].number;
@@ -173,7 +189,8 @@ void Drafter::find_entries(const Bans& bans, Draft& draft) const {
                            std::any_of(draft.shapes[i]->plan.rules.begin(), draft.shapes[i]->plan.rules.end(),
                                        [&](const Rule& r) { return r.action.next == step; });
         const std::vector<const Action*> ways = ways_into(step, draft);
-        if (!stays && ways.size() > 1) draft.entries[step] = common_tail(ways);
+        if (stays || ways.empty()) continue;
+        draft.entries[step] = ways.size() > 1 ? common_tail(ways) : moves_at_the_end(*ways.front());
     }
 }
 

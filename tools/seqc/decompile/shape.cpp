@@ -99,8 +99,8 @@ class ShapeSearch {
         const std::size_t peaceful = std::min(peaceful_groups(groups_), kMostGroups);
         for (std::size_t tries = 0; tries < kMostTries && tries < peaceful; ++tries) {
             const std::size_t count = peaceful - tries;
-            if (count < groups_.size() && !can_stand_before_the_rest(count)) continue;
-            if (auto plan = plan_of(count)) return Shape{std::move(*plan), terms_in(count)};
+            if (auto plan = plan_of(count); plan && can_stand_before_the_rest(*plan, count))
+                return Shape{std::move(*plan), terms_in(count)};
         }
         return std::nullopt;
     }
@@ -110,11 +110,19 @@ class ShapeSearch {
         return count == groups_.size() ? part_.terms.size() : groups_[count].first;
     }
 
-    bool can_stand_before_the_rest(std::size_t count) const {
-        Truth taken;
+    /// The TERMs left over are about other cases; or they are few, and no branch stays to act together with
+    /// them.
+    bool can_stand_before_the_rest(const StepPlan& plan, std::size_t count) const {
         Truth left;
-        for (std::size_t i = 0; i < groups_.size(); ++i) (i < count ? taken : left) |= groups_[i].when;
-        return (taken & left).none() || 3 * terms_in(count) >= 2 * part_.terms.size();
+        Truth taken;
+        Truth staying;
+        for (std::size_t i = count; i < groups_.size(); ++i) left |= groups_[i].when;
+        for (std::size_t i = 0; i < count; ++i) taken |= groups_[i].when;
+        for (const Rule& rule : plan.rules) {
+            if (!rule.action.next || *rule.action.next == part_.number) staying |= rule.when;
+        }
+        const bool are_few = 3 * terms_in(count) >= 2 * part_.terms.size();
+        return (left & taken).none() || (are_few && (left & staying).none());
     }
 
     std::optional<StepPlan> plan_of(std::size_t count) {

@@ -57,6 +57,13 @@ SelectedText selection_at(const std::vector<Send>& sends, std::size_t at) {
     return result;
 }
 
+std::string time_text(std::uint16_t milliseconds) {
+    const int seconds = milliseconds / 1000;
+    const int rest = milliseconds % 1000;
+    if (seconds == 0) return fmt::format("T#{}ms", rest);
+    return rest == 0 ? fmt::format("T#{}s", seconds) : fmt::format("T#{}s{}ms", seconds, rest);
+}
+
 Line write_line(const Send& send, const Speech& speech) {
     const ValueText value = value_text(*send.reg, send.value, speech.motor);
     return {fmt::format("{} := {};", register_text(*send.reg, speech), value.text), value.comment};
@@ -87,7 +94,7 @@ std::vector<Line> statements_of(const Action& action, const Speech& speech) {
         lines.push_back({selection.text + ";", {}});
         i += selection.count;
     }
-    if (action.timer) lines.push_back({fmt::format("TIMER := T#{}ms;", *action.timer), {}});
+    if (action.timer) lines.push_back({fmt::format("TIMER := {};", time_text(*action.timer)), {}});
     if (action.counter) lines.push_back({fmt::format("COUNTER := {};", *action.counter), {}});
     if (action.clears_counter) lines.push_back({"CLEAR_COUNTER;", {}});
     if (action.counts_down) lines.push_back({"COUNT_DOWN;", {}});

@@ -155,8 +155,8 @@ class Writer {
         line(0, fmt::format("STEP {}{}:{}", names().steps[part.number],
                             numbered ? fmt::format(" AT {}", part.number) : "",
                             part.terms.empty() ? "  // the table only names it" : ""));
-        if (!shape || shape->plan.own_error) line(1, "OWN ERROR;");
         write_outputs(part, shape);
+        if (!shape || shape->plan.own_error) line(1, "OWN ERROR;");
         end_passage(Kind::step, part.number);
         for (const Line& statement : statements_of(draft_.entries[part.number], speech_))
             line(1, "ENTRY " + commented(statement));
