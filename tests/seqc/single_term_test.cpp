@@ -49,8 +49,9 @@ TEST(SingleTerm, Statements) {
     EXPECT_EQ(inside("TERM IF TRUE THEN END_IF;"), "C1 00 00 3E 80 00 00 00");
     EXPECT_EQ(inside("TERM IF TRUE THEN POSITION(P2); TIMER := T#500ms; NEXT := T; END_IF"),
               "C1 00 00 02 41 00 F4 01");
-    EXPECT_EQ(inside("TERM IF TRUE THEN COUNTER := 258; COUNT_DOWN; CLEAR_COUNTER; NEXT := POWER_UP; END_IF;"),
-              "C1 00 00 40 80 C0 02 01");
+    EXPECT_EQ(
+        inside("TERM IF TRUE THEN COUNTER := 258; COUNT_DOWN; CLEAR_COUNTER; NEXT := POWER_UP; END_IF;"),
+        "C1 00 00 40 80 C0 02 01");
     EXPECT_EQ(inside("TERM IF TRUE THEN COUNTER := 0; END_IF;"), "C1 00 00 3E 80 40 00 00");
     EXPECT_EQ(inside("TERM IF TRUE THEN NOP; END_IF;"), "C1 00 00 3E 60 00 00 00");
     // CMD_FORMAT 80h in CARE; register 65 = 41h, 16 bits; register 51 = 33h with LONGWORD 80h.
@@ -189,8 +190,9 @@ TEST(StepNumbers, WhatIsWrongWithThem) {
 
 TEST(StepNumbers, NothingOfPowerUpGoesWithAStepZero) {
     const auto with = [](const std::string& head, const std::string& body) {
-        const std::string source = "PROGRAM P MOTOR MAC140; " + head + " STEP A AT 0: OWN ERROR; NEXT := B; " +
-                                   "END_STEP STEP B: OWN ERROR; " + body + " END_STEP END_PROGRAM";
+        const std::string source = "PROGRAM P MOTOR MAC140; " + head +
+                                   " STEP A AT 0: OWN ERROR; NEXT := B; " + "END_STEP STEP B: OWN ERROR; " +
+                                   body + " END_STEP END_PROGRAM";
         return test::codes(compile(source));
     };
     EXPECT_EQ(with("", "NEXT := A;"), "");

@@ -50,7 +50,6 @@ Action moves_at_the_end(const Action& action) {
 
 Drafter::Drafter(const Layout& layout, registers::Model motor) : layout_(layout) {
     for (const Part& part : layout.steps) groups_.push_back(groups_of(part.terms, motor));
-    outside_ = groups_of(layout.outside, motor);
 }
 
 /// OUT of a step: what most terms that enter it write; if none does, what it writes itself in all terms.
@@ -150,12 +149,10 @@ void Drafter::find_shapes(const Bans& bans, Draft& draft) const {
 std::vector<const Action*> Drafter::ways_into(std::uint8_t step, const Draft& draft) const {
     std::vector<const Action*> ways;
     if (draft.power_up && draft.power_up->action.next == step) ways.push_back(&draft.power_up->action);
-    const auto add_groups = [&](const std::vector<Group>& groups, std::size_t first, const Terms& terms) {
-        for (const Group& group : groups) {
-            if (group.first < first) continue;
-            if (group.sound && group.action.next == step) ways.push_back(&group.action);
-            const TermBytes& term = terms[group.first];
-            if (!group.sound && switches(term) && (term[3] & 0x3F) == step) ways.push_back(&kNoAction);
+    // A TERM says all that it does.
+    const auto add_terms = [&](const Terms& terms, std::size_t first) {
+        for (std::size_t i = first; i < terms.size(); ++i) {
+            if (switches(terms[i]) && (terms[i][3] & 0x3F) == step) ways.push_back(&kNoAction);
         }
     };
     for (std::size_t i = 0; i < layout_.steps.size(); ++i) {
@@ -168,9 +165,9 @@ std::vector<const Action*> Drafter::ways_into(std::uint8_t step, const Draft& dr
                 ways.push_back(&*draft.around.fault);
         }
         const bool is_power_up = i == 0 && draft.power_up;
-        if (!is_power_up) add_groups(groups_[i], shape ? shape->terms : 0, layout_.steps[i].terms);
+        if (!is_power_up) add_terms(layout_.steps[i].terms, shape ? shape->terms : 0);
     }
-    add_groups(outside_, 0, layout_.outside);
+    add_terms(layout_.outside, 0);
     return ways;
 }
 

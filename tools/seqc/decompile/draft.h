@@ -46,7 +46,6 @@ class Drafter {
 
     const Layout& layout_;
     std::vector<std::vector<Group>> groups_;  ///< as in Layout::steps
-    std::vector<Group> outside_;
 };
 
 }  // namespace nplc::seqc

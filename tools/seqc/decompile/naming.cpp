@@ -98,11 +98,11 @@ Naming naming_of(const Symbols* given, const std::string& program, registers::Mo
     return naming;
 }
 
-std::string Naming::value_name(const registers::Register& reg) const {
+std::string Naming::value_name(std::string_view reg) const {
     Names signals;
     for (const std::string& name : symbols.inputs) signals.take(name);
     for (const std::string& name : symbols.outputs) signals.take(name);
-    return signals.take(fmt::format("{}_Value", reg.name));
+    return signals.take(fmt::format("{}_Value", reg));
 }
 
 }  // namespace nplc::seqc

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 
 #include "decompile/formula.h"
 #include "registers/mac.h"
@@ -19,7 +20,7 @@ struct Naming {
     bool made_up = false;  ///< steps, inputs and outputs have no given names
 
     /// A name for a variable that holds the start value of a register.
-    std::string value_name(const registers::Register& reg) const;
+    std::string value_name(std::string_view reg) const;
 };
 
 /// `given` may be null, or hold names that are none.

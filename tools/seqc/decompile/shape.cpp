@@ -12,7 +12,7 @@ namespace nplc::seqc {
 namespace {
 
 constexpr std::size_t kMostGroups = 64;  // beyond it nobody reads a chain of branches
-constexpr std::size_t kMostTries = 8;    // with fewer and fewer groups
+constexpr std::size_t kMostLeft = 16;    // groups taken off its end in search of a shape: 0, 1, 2, 4 ..
 constexpr std::size_t kMostSwaps = 40;
 constexpr std::array kStayings = {Staying::undoes, Staying::mixed, Staying::is_said};
 
@@ -97,10 +97,9 @@ class ShapeSearch {
 
     std::optional<Shape> run() {
         const std::size_t peaceful = std::min(peaceful_groups(groups_), kMostGroups);
-        for (std::size_t tries = 0; tries < kMostTries && tries < peaceful; ++tries) {
-            const std::size_t count = peaceful - tries;
-            if (auto plan = plan_of(count); plan && can_stand_before_the_rest(*plan, count))
-                return Shape{std::move(*plan), terms_in(count)};
+        for (std::size_t left = 0; left < peaceful && left <= kMostLeft; left = left == 0 ? 1 : 2 * left) {
+            if (auto plan = plan_of(peaceful - left))
+                return Shape{std::move(*plan), terms_in(peaceful - left)};
         }
         return std::nullopt;
     }
@@ -121,6 +120,7 @@ class ShapeSearch {
         for (const Rule& rule : plan.rules) {
             if (!rule.action.next || *rule.action.next == part_.number) staying |= rule.when;
         }
+        if (!plan.conditional.empty()) return false;  // written in every scan, so beside all of them
         const bool are_few = 3 * terms_in(count) >= 2 * part_.terms.size();
         return (left & taken).none() || (are_few && (left & staying).none());
     }
@@ -134,6 +134,7 @@ class ShapeSearch {
             for (const Staying staying : kStayings) {
                 std::optional<StepPlan> plan = reading.run(staying, on_error);
                 if (!plan || (last && same(*plan, *last))) continue;
+                if (count < groups_.size() && !can_stand_before_the_rest(*plan, count)) continue;
                 last = plan;
                 auto found = OrderSearch(part_, terms_in(count), around_).run(std::move(*plan), groups_);
                 if (found) return found;

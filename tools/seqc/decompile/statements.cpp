@@ -76,11 +76,16 @@ std::string condition_text(const sequencer::TermBytes& bytes, const Speech& spee
 
 }  // namespace
 
+/// Up to 88 the names that commands know too: V1, not the MAC800's VEL0.
 std::string register_text(const registers::Register& reg, const Speech& speech) {
-    const bool shared = speech.motor_is_sure || reg.number <= kLastCommonRegister;
-    const registers::Register* named = registers::find(speech.motor, reg.name);
-    const bool usable = shared && is_name(reg.name) && named != nullptr && named->number == reg.number;
-    return usable ? std::string(reg.name) : fmt::format("REG({})", reg.number);
+    const bool shared = reg.number <= kLastCommonRegister;
+    const registers::Register* common =
+        shared ? registers::find(registers::Model::mac140, reg.number) : nullptr;
+    const std::string_view name = common != nullptr ? common->name : reg.name;
+    const registers::Register* named = registers::find(speech.motor, name);
+    const bool usable =
+        (shared || speech.motor_is_sure) && is_name(name) && named != nullptr && named->number == reg.number;
+    return usable ? std::string(name) : fmt::format("REG({})", reg.number);
 }
 
 std::vector<Line> statements_of(const Action& action, const Speech& speech) {
@@ -94,10 +99,10 @@ std::vector<Line> statements_of(const Action& action, const Speech& speech) {
         lines.push_back({selection.text + ";", {}});
         i += selection.count;
     }
-    if (action.timer) lines.push_back({fmt::format("TIMER := {};", time_text(*action.timer)), {}});
-    if (action.counter) lines.push_back({fmt::format("COUNTER := {};", *action.counter), {}});
     if (action.clears_counter) lines.push_back({"CLEAR_COUNTER;", {}});
     if (action.counts_down) lines.push_back({"COUNT_DOWN;", {}});
+    if (action.timer) lines.push_back({fmt::format("TIMER := {};", time_text(*action.timer)), {}});
+    if (action.counter) lines.push_back({fmt::format("COUNTER := {};", *action.counter), {}});
     return lines;
 }
 

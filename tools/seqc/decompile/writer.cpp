@@ -120,10 +120,12 @@ class Writer {
         std::vector<std::string> lines;
         for (std::size_t i = 0; i < draft_.power_up->values; ++i) {
             const Send& send = draft_.power_up->action.sends[i];
+            const std::string reg = register_text(*send.reg, speech_);
+            const std::string name = reg.starts_with("REG(") ? fmt::format("R{}", send.reg->number) : reg;
             const ValueText value = value_text(*send.reg, send.value, speech_.motor);
-            lines.push_back(commented({fmt::format("{} AT {} := {};", speech_.naming.value_name(*send.reg),
-                                                   register_text(*send.reg, speech_), value.text),
-                                       value.comment}));
+            lines.push_back(
+                commented({fmt::format("{} AT {} := {};", speech_.naming.value_name(name), reg, value.text),
+                           value.comment}));
         }
         write_variables("VAR_MOTOR", lines);
         end_passage(Kind::values);
