@@ -79,6 +79,35 @@ TEST_F(Cli, MinusIsStandardOutputForDisasmOnly) {
     EXPECT_FALSE(exists("-"));
 }
 
+TEST_F(Cli, DecompilesAndCompilesToTheSame) {
+    write("a.seq", kGood);
+    EXPECT_EQ(run("build a.seq"), 0) << read("err");
+    EXPECT_EQ(run("decompile a.bin -o b.seq"), 0) << read("err");
+    EXPECT_TRUE(read("b.seq").starts_with("// Decompiled from a.bin: 1 terms")) << read("b.seq");
+    EXPECT_EQ(run("build b.seq"), 0) << read("err");
+    EXPECT_EQ(read("b.bin"), read("a.bin"));
+    EXPECT_EQ(run("decompile a.bin --motor mac800"), 0);
+    EXPECT_NE(read("out").find("STEP S1:"), std::string::npos) << read("out");
+    EXPECT_EQ(run("decompile a.seq"), 0);
+    EXPECT_NE(read("out").find("STEP S:"), std::string::npos) << "a program's own names";
+}
+
+TEST_F(Cli, DecompileRefusesWhatItCannotDo) {
+    write("a.seq", kGood);
+    EXPECT_EQ(run("build a.seq"), 0);
+    const std::string table = read("a.bin");
+    write("short.bin", "\x3F");
+    for (const char* arguments :
+         {"decompile missing.bin", "decompile short.bin", "decompile a.bin --motor MAC1",
+          "decompile a.bin -o ./a.bin", "decompile", "decompile a.bin -o no/such/b.seq"}) {
+        EXPECT_EQ(run(arguments), 2) << arguments;
+        const std::string err = read("err");
+        EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+        EXPECT_EQ(read("out"), "") << arguments;
+    }
+    EXPECT_EQ(read("a.bin"), table);
+}
+
 TEST_F(Cli, ALinksTargetIsWritten) {
     write("a.seq", kGood);
     fs::create_directory(folder_ / "sub");

@@ -16,8 +16,8 @@ namespace {
 constexpr std::size_t kTermsEverywhere = 1024;  // what every gateway holds at the least
 
 std::vector<std::uint8_t> outputs_of_steps(const Plan& plan) {
-    std::vector<std::uint8_t> outputs;
-    for (const StepPlan& step : plan.steps) outputs.push_back(step.outputs);
+    std::vector<std::uint8_t> outputs(sequencer::kLastStep + 1U);
+    for (const StepPlan& step : plan.steps) outputs[step.number] = step.outputs;
     return outputs;
 }
 
@@ -31,6 +31,22 @@ void emit_all(const std::vector<LoweredTerm>& terms, const Plan& plan, Compilati
     for (const RawTerm& raw : plan.terms) emit({raw.bytes, raw.span}, result);
     if (plan.terms.empty() || !sequencer::is_end(plan.terms.back().bytes)) {
         emit({{sequencer::kEndOfTable}, {}}, result);
+    }
+}
+
+/// The end term counts too. TERMs alone may be as many as one likes: such a table exists already.
+void check_length(std::size_t in_steps, const Plan& plan, Span span, Report& report) {
+    const bool has_end = !plan.terms.empty() && sequencer::is_end(plan.terms.back().bytes);
+    const std::size_t count = in_steps + plan.terms.size() + (has_end ? 0 : 1);
+    if (count <= kTermsEverywhere) return;
+    std::size_t written = 0;
+    for (const StepPlan& step : plan.steps) written += step.terms.size();
+    const std::string message =
+        fmt::format("{} terms: a gateway need not hold more than {}", count, kTermsEverywhere);
+    if (written == in_steps) {
+        report.warning("W010", span, message, "make sure that yours does");
+    } else {
+        report.error("E086", span, message, "simplify conditions or join steps");
     }
 }
 
@@ -58,7 +74,8 @@ Compilation compile(std::string_view source) {
     Report checks;
     Scope scope(program, source, checks, result);
     const Plan plan = check(program, scope, checks);
-    if (!plan.steps.empty()) result.symbols.steps[0] = plan.steps.front().name;
+    if (!plan.steps.empty() && plan.steps.front().number == 0)
+        result.symbols.steps[0] = plan.steps.front().name;
     for (const StepPlan& step : plan.steps) result.steps.push_back({step.number, step.span, step.outputs});
     if (syntax_sound && !checks.has_errors()) {
         check_motor_state(plan, result.symbols.motor, checks);
@@ -72,15 +89,7 @@ Compilation compile(std::string_view source) {
             terms.insert(terms.end(), own.begin(), own.end());
         }
     }
-    if (!checks.has_errors() && terms.size() + plan.terms.size() >= kTermsEverywhere) {
-        const std::string message = fmt::format("{} terms: a gateway need not hold more than {}",
-                                                terms.size() + plan.terms.size() + 1, kTermsEverywhere);
-        if (plan.steps.empty()) {
-            checks.warning("W010", program.name.span, message, "make sure that yours does");
-        } else {
-            checks.error("E086", program.name.span, message, "simplify conditions or join steps");
-        }
-    }
+    if (!checks.has_errors()) check_length(terms.size(), plan, program.name.span, checks);
     merge(report, checks, syntax_sound);
     result.ok = !report.has_errors();
     if (result.ok) emit_all(terms, plan, result);

@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
     int exit_code = kOk;
     add_build(app, exit_code);
     add_check(app, exit_code);
+    add_decompile(app, exit_code);
     add_disasm(app, exit_code);
     add_explain(app, exit_code);
     add_fmt(app, exit_code);

@@ -101,6 +101,13 @@ void ActionBuilder::add_next(const Statement& statement) {
                               "leave it out");
     }
     const bool to_power_up = same_name(statement.name.text, "POWER_UP");
+    if (const ast::Step* zero = scope_.step_numbered(0); to_power_up && zero != nullptr) {
+        scope_.report()
+            .error("E096", statement.name.span,
+                   fmt::format("there is no POWER_UP: '{}' is what power-up starts in", zero->name.text),
+                   fmt::format("write NEXT := {};", zero->name.text))
+            .notes.push_back({zero->name.span, "it has the number 0"});
+    }
     const auto number = to_power_up ? std::optional<std::uint8_t>(0) : scope_.step(statement.name);
     if (!once(action_.next.has_value(), statement, "NEXT is set", action_.next_span)) return;
     // A step that does not exist was reported; 62 keeps the branch one that leaves its step.

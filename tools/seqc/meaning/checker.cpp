@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 
 #include "meaning/actions.h"
+#include "meaning/single_term.h"
 #include "sequencer/term.h"
 #include "syntax/names.h"
 
@@ -13,7 +15,7 @@ namespace nplc::seqc {
 namespace {
 
 constexpr std::uint8_t kPowerUp = 0;
-constexpr std::size_t kMostStepsWithPowerUp = 62;
+constexpr std::uint8_t kLastNamed = sequencer::kLastStep - 1;
 
 Truth error_cases() {
     return truth_of_bit(kErrorBit);
@@ -56,14 +58,19 @@ class Checker {
         find_fault_step();
         Plan plan;
         if (!raw_only) {
-            plan.steps.push_back(power_up());
-            for (std::size_t i = 0; i < scope_.steps().size() && i + 1 < kMostStepsWithPowerUp; ++i) {
-                plan.steps.push_back(step(*scope_.steps()[i], static_cast<std::uint8_t>(i + 1)));
+            if (const ast::Step* zero = scope_.step_numbered(kPowerUp)) {
+                refuse_power_up_beside(*zero);
+            } else {
+                plan.steps.push_back(power_up());
             }
-            warn_unreachable(plan);
+            for (std::size_t i = 0; i < scope_.steps().size(); ++i) {
+                if (scope_.number_of(i) > kLastNamed) continue;
+                plan.steps.push_back(step(*scope_.steps()[i], scope_.number_of(i)));
+            }
         }
-        for (const ast::RawTerm& term : program_.terms) plan.terms.push_back(raw_term(term));
+        for (const ast::RawTerm& term : program_.terms) plan.terms.push_back(raw_term(term, {}));
         check_raw_terms(plan);
+        warn_unreachable(plan);
         return plan;
     }
 
@@ -74,16 +81,17 @@ class Checker {
     };
 
     void build_entries() {
-        for (const ast::Step* step : scope_.steps()) {
+        for (std::size_t i = 0; i < scope_.steps().size(); ++i) {
             ActionBuilder builder(scope_);
-            entries_.push_back(builder.build(step->entry));
+            Action& entry = entries_[scope_.number_of(i)];
+            entry = builder.build(scope_.steps()[i]->entry);
             if (const auto marked = builder.marked()) {
                 report_.warning("W006", *marked, "ENTRY happens once by itself", "leave EVERY_SCAN out");
             }
-            if (entries_.back().next) {
-                report_.error("E064", entries_.back().span, "ENTRY cannot hold NEXT",
+            if (entry.next) {
+                report_.error("E064", entry.span, "ENTRY cannot hold NEXT",
                               "name the step where the sequence really goes");
-                entries_.back().next.reset();
+                entry.next.reset();
             }
         }
     }
@@ -91,20 +99,18 @@ class Checker {
     void find_fault_step() {
         if (!program_.on_error) return;
         fault_ = scope_.step(*program_.on_error);
-        if (!fault_ || *fault_ > scope_.steps().size()) return;
-        const ast::Step& step = *scope_.steps()[*fault_ - 1U];
-        if (step.own_error) return;
+        const ast::Step* step = fault_ ? scope_.step_numbered(*fault_) : nullptr;
+        if (step == nullptr || step->own_error) return;
         report_
-            .error("E081", step.name.span,
-                   fmt::format("'{}' is the fault step, so it must deal with ERROR itself", step.name.text),
+            .error("E081", step->name.span,
+                   fmt::format("'{}' is the fault step, so it must deal with ERROR itself", step->name.text),
                    "write OWN ERROR; in it")
             .notes.push_back({program_.on_error->span, "it is made the fault step here"});
     }
 
     void enter(Action& action, std::uint8_t number) {
         action.next = number;
-        if (number != kPowerUp && number <= entries_.size())
-            append_entry(action, entries_[number - 1U], report_);
+        append_entry(action, entries_[number], report_);
     }
 
     Rule fault_rule(const std::vector<Send>& before) {
@@ -139,7 +145,7 @@ class Checker {
                 return plan;
             }
         } else {
-            action.next = 1;
+            action.next = scope_.number_of(0);
         }
         const std::vector<Send>& values = scope_.initial_values();
         action.sends.insert(action.sends.begin(), values.begin(), values.end());
@@ -166,6 +172,19 @@ class Checker {
         }
     }
 
+    void refuse_power_up_beside(const ast::Step& zero) {
+        const auto refuse = [&](Span span, const char* what) {
+            report_
+                .error("E096", span, fmt::format("{} cannot stand beside a step with the number 0", what),
+                       fmt::format("'{}' is what power-up starts in: send it from there, or leave its AT out",
+                                   zero.name.text))
+                .notes.push_back({zero.name.span, "it has the number 0"});
+        };
+        if (program_.power_up) refuse(program_.power_up->name.span, "POWER_UP");
+        if (!scope_.initial_values().empty())
+            refuse(scope_.initial_values().front().span, "a value in VAR_MOTOR");
+    }
+
     StepPlan step(const ast::Step& written, std::uint8_t number) {
         StepPlan plan;
         plan.name = written.name.text;
@@ -186,16 +205,17 @@ class Checker {
             }
         }
         for (const ast::RawTerm& term : written.terms) {
-            plan.terms.push_back(raw_term(term));
-            if ((term.bytes[0] & 0x3F) == number) continue;
+            plan.terms.push_back(raw_term(term, number));
+            const int step = sequencer::step_of(plan.terms.back().bytes);
+            if (step == number) continue;
             Diagnostic& d = report_.error(
                 "E092", term.span,
-                fmt::format("this term is for step {}, and '{}' is step {}", term.bytes[0] & 0x3F, plan.name,
-                            number),
-                fmt::format(
-                    "bits 5..0 of its first byte must be 16#{:02X}, or write the TERM outside of the step",
-                    number));
-            d.notes.push_back({plan.span, "steps are numbered in the order they stand, from 1"});
+                fmt::format("this term is for step {}, and '{}' is step {}", step, plan.name, number),
+                term.symbols ? "leave its name out, or write the TERM outside of the step"
+                             : fmt::format("bits 5..0 of its first byte must be 16#{:02X}, or write the TERM "
+                                           "outside of the step",
+                                           number));
+            d.notes.push_back({plan.span, "steps are numbered in the order they stand, from 1, or by AT"});
         }
         return plan;
     }
@@ -225,6 +245,9 @@ class Checker {
             }
             plan.conditional.push_back(output);
         }
+        // Nothing enters it at power-up, so a term of its own must write them.
+        if (plan.number == kPowerUp && plan.outputs != 0)
+            plan.conditional.push_back({plan.outputs, always()});
     }
 
     void add_choice(const ast::Choice& choice, std::size_t index, StepPlan& plan, std::vector<Seen>& seen) {
@@ -280,7 +303,7 @@ class Checker {
             }
             return action;
         }
-        const bool repeats_entry = action.next && !entries_[number - 1U].is_empty();
+        const bool repeats_entry = action.next && !entries_[number].is_empty();
         if (builder.unmarked()) {
             Diagnostic& d = report_.error(
                 "E060", *builder.unmarked(),
@@ -289,14 +312,14 @@ class Checker {
                 "go on to another step with NEXT, or write EVERY_SCAN in front if that is what you want");
             if (action.next) d.notes.push_back({action.next_span, "this names the step it is in already"});
             if (repeats_entry)
-                d.notes.push_back({entries_[number - 1U].span, "the step's ENTRY would be repeated too"});
+                d.notes.push_back({entries_[number].span, "the step's ENTRY would be repeated too"});
         } else if (repeats_entry) {
             report_
                 .error("E060", action.next_span,
                        "this would enter the same step in every scan, and its ENTRY would happen again each "
                        "time",
                        "to stay in the step leave NEXT out, or go on to another one")
-                .notes.push_back({entries_[number - 1U].span, "the ENTRY is here"});
+                .notes.push_back({entries_[number].span, "the ENTRY is here"});
         }
         return action;
     }
@@ -336,9 +359,14 @@ class Checker {
         plan.rules.push_back(std::move(rule));
     }
 
-    RawTerm raw_term(const ast::RawTerm& term) {
+    /// `inside`: the step it stands in, if any.
+    RawTerm raw_term(const ast::RawTerm& term, std::optional<std::uint8_t> inside) {
         RawTerm raw{{}, term.span};
-        std::copy(term.bytes.begin(), term.bytes.end(), raw.bytes.begin());
+        if (term.symbols) {
+            raw.bytes = encode_term(*term.symbols, term.span, inside, scope_);
+        } else {
+            std::copy(term.bytes.begin(), term.bytes.end(), raw.bytes.begin());
+        }
         return raw;
     }
 
@@ -372,26 +400,36 @@ class Checker {
         }
     }
 
+    using StepSet = std::bitset<sequencer::kEndOfTable + 1U>;
+
+    static void add_target(const RawTerm& raw, std::array<StepSet, 64>& targets) {
+        if (sequencer::is_flex(raw.bytes)) return;
+        targets[sequencer::step_of(raw.bytes)].set(raw.bytes[3] & 0x3F);
+    }
+
     void warn_unreachable(const Plan& plan) {
-        if (!program_.terms.empty() || report_.has_errors()) return;
-        std::vector<bool> reached(sequencer::kEndOfTable + 1U, false);
-        std::vector<std::size_t> open = {0};
-        reached[0] = true;
+        if (plan.steps.empty() || report_.has_errors()) return;
+        std::array<StepSet, 64> targets;
+        for (const StepPlan& step : plan.steps) {
+            for (const Rule& rule : step.rules) {
+                if (rule.action.next) targets[step.number].set(*rule.action.next);
+            }
+            for (const RawTerm& raw : step.terms) add_target(raw, targets);
+        }
+        for (const RawTerm& raw : plan.terms) add_target(raw, targets);
+        StepSet reached;
+        std::vector<std::size_t> open = {kPowerUp};
         while (!open.empty()) {
             const std::size_t from = open.back();
             open.pop_back();
-            if (from >= plan.steps.size() || !plan.steps[from].terms.empty()) {
-                if (from < plan.steps.size()) return;
-                continue;
-            }
-            for (const Rule& rule : plan.steps[from].rules) {
-                if (!rule.action.next || reached[*rule.action.next]) continue;
-                reached[*rule.action.next] = true;
-                open.push_back(*rule.action.next);
+            if (reached.test(from)) continue;
+            reached.set(from);
+            for (std::size_t to = 0; to < targets.size(); ++to) {
+                if (targets[from].test(to)) open.push_back(to);
             }
         }
         for (const StepPlan& step : plan.steps) {
-            if (reached[step.number]) continue;
+            if (reached.test(step.number)) continue;
             report_.warning("W005", step.span, fmt::format("no step leads to '{}'", step.name),
                             "name it in a NEXT, or take it out");
         }
@@ -401,7 +439,7 @@ class Checker {
     Scope& scope_;
     Report& report_;
     const Symbols& symbols_;
-    std::vector<Action> entries_;
+    std::array<Action, 64> entries_;  ///< by step number
     std::optional<std::uint8_t> fault_;
 };
 

@@ -48,8 +48,18 @@ struct Action {
 struct Rule {
     Truth when;
     Action action;
-    Span condition;  ///< empty where the program wrote none
+    Span condition = {};  ///< empty where the program wrote none
 };
+
+/// The register write of a Send that has one.
+inline sequencer::FlexStatement write_of(const Send& send) {
+    return {
+        .reg = send.reg->number,
+        .longword = registers::is_32_bit(send.reg->format),
+        .low_word = static_cast<std::uint16_t>(send.value),
+        .high_word = static_cast<std::uint16_t>(send.value >> 16),
+    };
+}
 
 struct ConditionalOutput {
     std::uint8_t outputs = 0;

@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::size_t kInputs = 6;
 constexpr std::size_t kOutputs = 4;
-constexpr std::size_t kMostSteps = 61;
 
 /// IN0, %IX0.0 and the like: the number behind the address, or nothing if it is no address at all.
 std::optional<std::size_t> address_number(std::string_view text, char direction) {
@@ -105,13 +104,8 @@ void Scope::declare_steps(const ast::Program& program) {
             continue;
         }
         steps_.push_back(&step);
-        if (steps_.size() == kMostSteps + 1) {
-            report_.error("E083", step.name.span,
-                          fmt::format("a table holds at most {} named steps", kMostSteps),
-                          "join steps, or use the counter for repetitions");
-        }
-        if (steps_.size() <= kMostSteps) result_.symbols.steps[steps_.size()] = step.name.text;
     }
+    number_steps();
 }
 
 bool Scope::is_new_name(const ast::Name& name) {
@@ -206,8 +200,7 @@ bool Scope::is_faulty(std::string_view name) {
 std::optional<std::uint8_t> Scope::step(const ast::Name& name) {
     std::vector<std::string_view> names;
     for (std::size_t i = 0; i < steps_.size(); ++i) {
-        if (same_name(steps_[i]->name.text, name.text))
-            return static_cast<std::uint8_t>(std::min<std::size_t>(i + 1, 62));
+        if (same_name(steps_[i]->name.text, name.text)) return numbers_[i];
         names.push_back(steps_[i]->name.text);
     }
     if (steps_missing_) return std::nullopt;

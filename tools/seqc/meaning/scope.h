@@ -19,9 +19,14 @@ class Scope {
 
     Report& report() { return report_; }
     const Symbols& symbols() const { return result_.symbols; }
+    /// In order of declaration.
     const std::vector<const ast::Step*>& steps() const { return steps_; }
+    /// The number of `steps()[index]`; 62, which is no step's, if there are too many.
+    std::uint8_t number_of(std::size_t index) const { return numbers_[index]; }
+    /// Null if no named step has this number.
+    const ast::Step* step_numbered(std::uint8_t number) const;
 
-    /// Number of a step by name; reports an unknown one. Steps count from 1.
+    /// Number of a step by name; reports an unknown one.
     std::optional<std::uint8_t> step(const ast::Name& name);
     /// Bit number of an input 0..5 or an output 0..3, by its name or address.
     std::optional<std::size_t> input(const ast::Name& name);
@@ -61,6 +66,8 @@ class Scope {
     void declare_motor(const ast::Program& program);
     void declare_scale(const ast::Program& program);
     void declare_steps(const ast::Program& program);
+    void number_steps();
+    std::optional<std::uint8_t> written_number(const ast::Step& step);
     void declare_io(const std::vector<ast::Variable>& declared, std::vector<Variable>& variables,
                     char direction, std::size_t count);
     void declare_motor_variables(const ast::Program& program);
@@ -88,6 +95,7 @@ class Scope {
     std::optional<LengthUnit> length_;
     Span scale_span_;
     std::vector<const ast::Step*> steps_;
+    std::vector<std::uint8_t> numbers_;
     bool steps_missing_ = false;
     std::vector<Variable> inputs_;
     std::vector<Variable> outputs_;

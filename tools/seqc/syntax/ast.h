@@ -78,9 +78,18 @@ struct Choice {
     bool bare = false;
 };
 
+/// TERM IF condition THEN statements END_IF;
+struct SymbolicTerm {
+    Name step;  ///< empty text: that of the step it stands in
+    Expression condition;
+    std::vector<Statement> statements;
+    std::vector<Name> outputs;
+};
+
 struct RawTerm {
     Span span;
-    std::vector<std::uint8_t> bytes;
+    std::vector<std::uint8_t> bytes;      ///< empty with symbols
+    std::optional<SymbolicTerm> symbols;  ///< written in symbols, not bytes
 };
 
 struct ConditionalOutput {
@@ -91,6 +100,7 @@ struct ConditionalOutput {
 
 struct Step {
     Name name;
+    std::optional<Value> number;  ///< AT 5
     std::vector<Name> outputs;
     std::vector<ConditionalOutput> conditional;
     std::vector<Statement> entry;

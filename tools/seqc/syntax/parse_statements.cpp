@@ -266,6 +266,7 @@ void Parser::parse_unit(ast::Value& value) {
 bool Parser::parse_raw_term(std::vector<ast::RawTerm>& terms) {
     const Token first = token();
     ++at_;
+    if (at_symbolic_term()) return parse_symbolic_term(first, terms);
     ast::RawTerm term;
     bool sound = true;
     do {

@@ -53,6 +53,11 @@ bool is_reserved(std::string_view word) {
     return contains(kReserved, word);
 }
 
+bool is_name(std::string_view text) {
+    constexpr std::size_t kLongest = 60;
+    return text.size() <= kLongest && is_identifier(text) && !is_reserved(text);
+}
+
 const Token& Parser::token(std::size_t ahead) const {
     return tokens_[std::min(at_ + ahead, tokens_.size() - 1)];
 }

@@ -161,6 +161,10 @@ void Parser::parse_step(ast::Program& program) {
         program.steps_missing = true;
         if (!at_boundary()) ++at_;
     }
+    if (take("AT")) {
+        step.number.emplace();
+        if (!parse_value(*step.number)) step.number.reset();
+    }
     if (!take_symbol(":")) error_here("':' after the step's name");
     parse_step_body(step, "END_STEP");
     end_block("END_STEP", opened);
@@ -212,10 +216,7 @@ void Parser::parse_step_body(ast::Step& step, std::string_view end_word) {
     }
 }
 
-void Parser::parse_out(ast::Step& step) {
-    const Token first = token();
-    ++at_;
-    std::vector<ast::Name> outputs;
+bool Parser::parse_outputs(std::vector<ast::Name>& outputs) {
     do {
         if (token().kind == TokenKind::direct) {
             outputs.push_back(name_of(token()));
@@ -223,9 +224,17 @@ void Parser::parse_out(ast::Step& step) {
             continue;
         }
         ast::Name name;
-        if (!expect_name(name, "the name of an output")) return recover();
+        if (!expect_name(name, "the name of an output")) return false;
         outputs.push_back(name);
     } while (take_symbol(","));
+    return true;
+}
+
+void Parser::parse_out(ast::Step& step) {
+    const Token first = token();
+    ++at_;
+    std::vector<ast::Name> outputs;
+    if (!parse_outputs(outputs)) return recover();
     if (!at("WHEN")) mend({"WHEN"}, "';' or WHEN");
     if (take("WHEN")) {
         ast::ConditionalOutput conditional;

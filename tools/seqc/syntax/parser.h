@@ -61,6 +61,7 @@ class Parser {
     void parse_power_up(ast::Program& program);
     void parse_step_body(ast::Step& step, std::string_view end_word);
     void parse_out(ast::Step& step);
+    bool parse_outputs(std::vector<ast::Name>& outputs);
 
     // parse_statements.cpp
     bool parse_if(ast::Choice& choice);
@@ -74,6 +75,11 @@ class Parser {
     bool parse_value(ast::Value& value);
     void parse_unit(ast::Value& value);
     bool parse_raw_term(std::vector<ast::RawTerm>& terms);
+
+    // parse_terms.cpp
+    bool at_symbolic_term() const;
+    bool parse_symbolic_term(const Token& first, std::vector<ast::RawTerm>& terms);
+    void parse_symbolic_body(ast::SymbolicTerm& term);
 
     // parse_expressions.cpp
     bool parse_expression(ast::Expression& result);
@@ -100,5 +106,8 @@ std::string shown(const Token& t);
 
 /// Words that cannot be names.
 bool is_reserved(std::string_view word);
+
+/// Whether a text can be a name: letters, digits and underscores, and no word of the language.
+bool is_name(std::string_view text);
 
 }  // namespace nplc::seqc

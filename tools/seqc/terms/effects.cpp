@@ -8,7 +8,6 @@ namespace nplc::seqc {
 namespace {
 
 using sequencer::FastStatement;
-using sequencer::FlexStatement;
 using sequencer::Term;
 
 /// Index of the effect of `action` with `outputs`, made if it is new.
@@ -27,15 +26,6 @@ int effect_for(std::vector<Effect>& list, const Action* action, std::uint8_t out
 }
 
 }  // namespace
-
-FlexStatement write_of(const Send& send) {
-    return {
-        .reg = send.reg->number,
-        .longword = registers::is_32_bit(send.reg->format),
-        .low_word = static_cast<std::uint16_t>(send.value),
-        .high_word = static_cast<std::uint16_t>(send.value >> 16),
-    };
-}
 
 Effects effects_of(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of) {
     Effects effects;

@@ -98,4 +98,11 @@ std::string describe(sequencer::TermView bytes, const Symbols* symbols) {
                        term.is_flex ? flex_text(term.flex, symbols) : fast_text(term.fast, symbols));
 }
 
+std::string byte_line(sequencer::TermView bytes) {
+    std::string text = "TERM ";
+    for (std::size_t i = 0; i < sequencer::kTermBytes; ++i)
+        text += fmt::format("{}16#{:02X}", i == 0 ? "" : ", ", bytes[i]);
+    return text + ";";
+}
+
 }  // namespace nplc::seqc

@@ -11,4 +11,7 @@ namespace nplc::seqc {
 /// Travel". Without symbols steps and signals go by number.
 std::string describe(sequencer::TermView bytes, const Symbols* symbols);
 
+/// "TERM 16#C0, 16#01, ...;"
+std::string byte_line(sequencer::TermView bytes);
+
 }  // namespace nplc::seqc

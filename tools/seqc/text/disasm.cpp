@@ -11,15 +11,8 @@ namespace {
 
 using sequencer::kTermBytes;
 
-bool can_name_a_program(std::string_view name) {
-    return name.size() <= 60 && is_identifier(name) && !is_reserved(name);
-}
-
 std::string term_line(sequencer::TermView bytes, const Symbols* symbols) {
-    std::string text = "TERM ";
-    for (std::size_t i = 0; i < kTermBytes; ++i)
-        text += fmt::format("{}16#{:02X}", i == 0 ? "" : ", ", bytes[i]);
-    return text + fmt::format(";  // {}\n", describe(bytes, symbols));
+    return fmt::format("{}  // {}\n", byte_line(bytes), describe(bytes, symbols));
 }
 
 }  // namespace
@@ -43,7 +36,7 @@ Disassembly disassemble(std::span<const std::uint8_t> table, std::string_view pr
         return result;
     }
     result.trailing_bytes = table.size() - at;
-    const std::string name(can_name_a_program(program_name) ? program_name : "Table");
+    const std::string name(is_name(program_name) ? program_name : "Table");
     result.text = fmt::format(
         "// {} terms, the end included, one a line: STATE, INPUT, CARE and five bytes of command.\n",
         at / kTermBytes);

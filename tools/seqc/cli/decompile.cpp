@@ -1,0 +1,53 @@
+#include "seqc/decompile.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "cli/input.h"
+#include "cli/subcommands.h"
+
+namespace nplc::seqc::cli {
+namespace {
+
+struct Options {
+    std::string table;
+    std::string output;
+    std::string motor;
+};
+
+int decompile(const Options& options) {
+    DecompileOptions wanted;
+    wanted.origin = std::filesystem::path(options.table).filename().string();
+    if (!options.motor.empty()) {
+        wanted.motor = registers::model_of(options.motor);
+        if (!wanted.motor) {
+            return file_problem(fmt::format(
+                "there is no motor '{}': they are MAC50, MAC95, MAC140, MAC141 and MAC800", options.motor));
+        }
+    }
+    const Input input = read_input(options.table);
+    if (input.exit_code != kOk) return input.exit_code;
+    if (!options.output.empty() && is_same_file(options.output, options.table))
+        return file_problem(fmt::format("'{}' is the table itself: name another output", options.output));
+    if (input.symbols) wanted.symbols = &*input.symbols;
+    const Decompilation result = seqc::decompile(input.table, wanted);
+    return result.error.empty() ? print_or_write(result.text, options.output) : file_problem(result.error);
+}
+
+}  // namespace
+
+void add_decompile(CLI::App& app, int& exit_code) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = *app.add_subcommand(
+        "decompile", "Turn a table into a readable program that compiles to the same bytes");
+    command.add_option("table", options->table, "The raw table, F.bin: terms of 8 bytes up to STATE 63")
+        ->required();
+    command.add_option("-o,--output", options->output, "Write to a file instead of standard output (-)");
+    command.add_option("--motor", options->motor, "The motor the table is for, such as MAC140");
+    command.callback([options, &exit_code] { exit_code = decompile(*options); });
+}
+
+}  // namespace nplc::seqc::cli

@@ -1,0 +1,221 @@
+#include "seqc/decompile.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "decompile/draft.h"
+#include "decompile/layout.h"
+#include "decompile/naming.h"
+#include "decompile/vocabulary.h"
+#include "decompile/writer.h"
+#include "sequencer/term.h"
+
+namespace nplc::seqc {
+namespace {
+
+using registers::Model;
+
+constexpr std::size_t kMostDrafts = 12;
+constexpr std::size_t kTermsEverywhere = 1024;  // beyond it only TERMs compile
+
+/// Nothing that a file may be called can end the comment it stands in.
+std::string printable(const std::string& name) {
+    std::string text;
+    for (char c : name) text += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '?' : c;
+    return text;
+}
+
+class Decompiler {
+  public:
+    Decompiler(std::span<const std::uint8_t> table, const DecompileOptions& options)
+        : table_(table),
+          options_(options),
+          layout_(layout_of(table)),
+          motor_(choose_motor()),
+          drafter_(layout_, motor_) {}
+
+    Decompilation run() {
+        Bans bans;
+        if (table_.size() / sequencer::kTermBytes > kTermsEverywhere) bans = only_terms();
+        for (std::size_t i = 0; i < kMostDrafts; ++i) {
+            if (attempt(bans)) return result_;
+            const Bans before = bans;
+            learn(bans);
+            if (bans == before) break;
+        }
+        if (attempt(only_terms())) return result_;
+        return bytes_alone();
+    }
+
+  private:
+    Model choose_motor() const {
+        if (options_.motor) return *options_.motor;
+        return options_.symbols != nullptr ? options_.symbols->motor : fitting_motor(layout_);
+    }
+    bool motor_is_sure() const { return options_.motor || options_.symbols != nullptr; }
+
+    static Bans only_terms() {
+        Bans bans;
+        bans.shape.set();
+        bans.on_error = true;
+        bans.power_up = true;
+        bans.entry.set();
+        bans.given_names = true;
+        return bans;
+    }
+
+    bool attempt(const Bans& bans) {
+        draft_ = drafter_.draft(bans);
+        const Naming naming = naming_of(bans.given_names ? nullptr : options_.symbols, stem(), motor_);
+        const Speech speech{naming, motor_, motor_is_sure(), draft_.power_up.has_value()};
+        count();
+        manuscript_ = write_program(layout_, draft_, speech, head(naming));
+        compilation_ = compile(manuscript_.text);
+        result_.text = manuscript_.text;
+        return compilation_.ok &&
+               std::equal(compilation_.table.begin(), compilation_.table.end(), table_.begin(), table_.end());
+    }
+
+    /// What the compiler refused, or made other bytes of, is written in a plainer way next time.
+    void learn(Bans& bans) const {
+        if (compilation_.ok) return learn_from_bytes(bans);
+        for (const Diagnostic& d : compilation_.diagnostics) {
+            if (d.severity == Severity::error) ban(passage_at(d.span.offset), bans);
+        }
+    }
+
+    const Passage& passage_at(std::size_t offset) const {
+        const auto found = std::find_if(manuscript_.passages.begin(), manuscript_.passages.end(),
+                                        [&](const Passage& p) { return offset < p.end; });
+        return found == manuscript_.passages.end() ? manuscript_.passages.back() : *found;
+    }
+
+    void ban(const Passage& passage, Bans& bans) const {
+        switch (passage.kind) {
+            case Passage::Kind::names:
+                bans.given_names = true;
+                return;
+            case Passage::Kind::values:
+            case Passage::Kind::power_up:
+                bans.power_up = true;
+                return;
+            case Passage::Kind::on_error:
+                bans.on_error = true;
+                return;
+            case Passage::Kind::entry:
+                bans.entry.set(passage.step);
+                if (draft_.around.fault && draft_.around.fault->next == passage.step) bans.on_error = true;
+                return;
+            case Passage::Kind::step:
+                bans.shape.set(passage.step);
+                return;
+            case Passage::Kind::rest:
+                bans = only_terms();
+                return;
+        }
+    }
+
+    void learn_from_bytes(Bans& bans) const {
+        const auto different =
+            std::mismatch(compilation_.table.begin(), compilation_.table.end(), table_.begin(), table_.end());
+        const auto at = static_cast<std::size_t>(different.second - table_.begin());
+        const std::size_t term =
+            std::min(at, table_.size() - 1) / sequencer::kTermBytes * sequencer::kTermBytes;
+        const std::uint8_t step = table_[term] & 0x3F;
+        if (step == 0) bans.power_up = true;
+        if (step == 0 && !draft_.power_up) bans.shape.set(0);
+        if (step != 0) bans.shape.set(step);
+    }
+
+    Decompilation bytes_alone() {
+        const Disassembly plain = disassemble(table_, stem());
+        result_ = {};
+        result_.text = plain.text;
+        result_.error = plain.error;
+        result_.byte_terms = table_.size() / sequencer::kTermBytes - 1;
+        return result_;
+    }
+
+    std::string stem() const { return std::filesystem::path(options_.origin).stem().string(); }
+
+    void count() {
+        result_ = {};
+        const auto add = [&](const Terms& terms, std::size_t first) {
+            for (std::size_t i = first; i < terms.size(); ++i)
+                ++(obstacle(terms[i], motor_).empty() ? result_.symbolic_terms : result_.byte_terms);
+        };
+        for (std::size_t i = 0; i < layout_.steps.size(); ++i) {
+            const Part& part = layout_.steps[i];
+            const bool whole = (i == 0 && draft_.power_up) || part.terms.empty();
+            const std::size_t shaped = whole              ? part.terms.size()
+                                       : draft_.shapes[i] ? draft_.shapes[i]->terms
+                                                          : 0;
+            add(part.terms, shaped);
+            if (part.terms.empty()) continue;
+            ++(shaped == part.terms.size() ? result_.structured_steps
+               : shaped != 0               ? result_.mixed_steps
+                                           : result_.term_steps);
+        }
+        add(layout_.outside, 0);
+    }
+
+    std::string head(const Naming& naming) const {
+        const Decompilation& r = result_;
+        std::string text = fmt::format("// Decompiled from {}: {} terms and the end of the table.\n",
+                                       options_.origin.empty() ? "a table" : printable(options_.origin),
+                                       table_.size() / sequencer::kTermBytes - 1);
+        text += fmt::format("// Steps: {} as branches, {} as branches and TERMs, {} as TERMs.",
+                            r.structured_steps, r.mixed_steps, r.term_steps);
+        text += fmt::format(" TERMs: {} in symbols, {} as bytes.\n", r.symbolic_terms, r.byte_terms);
+        text += "// It compiles to the same bytes.";
+        if (naming.made_up)
+            text += " A table holds no names: those of steps, inputs and outputs are made up.";
+        text += "\n";
+        if (!motor_is_sure()) {
+            text += fmt::format("// A table does not say for which motor it is: {} is assumed.\n",
+                                registers::name_of(motor_));
+        }
+        if (r.symbolic_terms + r.byte_terms > 0)
+            text +=
+                "// A TERM is one term of the table: all that hold act in their order, and the last "
+                "decides.\n";
+        return text;
+    }
+
+    std::span<const std::uint8_t> table_;
+    const DecompileOptions& options_;
+    Layout layout_;
+    Model motor_;
+    Drafter drafter_;
+    Draft draft_;
+    Manuscript manuscript_;
+    Compilation compilation_;
+    Decompilation result_;
+};
+
+/// Up to and with the end term; 0: there is none.
+std::size_t length_of(std::span<const std::uint8_t> bytes) {
+    for (std::size_t at = 0; at + sequencer::kTermBytes <= bytes.size(); at += sequencer::kTermBytes) {
+        if (sequencer::is_end(bytes.subspan(at).first<sequencer::kTermBytes>()))
+            return at + sequencer::kTermBytes;
+    }
+    return 0;
+}
+
+}  // namespace
+
+Decompilation decompile(std::span<const std::uint8_t> bytes, const DecompileOptions& options) {
+    const std::size_t length = length_of(bytes);
+    if (length == 0) {
+        Decompilation result;
+        result.error = disassemble(bytes, options.origin).error;
+        return result;
+    }
+    Decompilation result = Decompiler(bytes.first(length), options).run();
+    result.trailing_bytes = bytes.size() - length;
+    return result;
+}
+
+}  // namespace nplc::seqc

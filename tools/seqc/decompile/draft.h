@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <optional>
+#include <vector>
+
+#include "decompile/layout.h"
+#include "decompile/shape.h"
+#include "registers/mac.h"
+
+namespace nplc::seqc {
+
+/// What an earlier draft showed not to work.
+struct Bans {
+    std::bitset<64> shape;  ///< the step must be TERMs
+    std::bitset<64> entry;  ///< the step must have no ENTRY
+    bool on_error = false;
+    bool power_up = false;
+    bool given_names = false;
+    bool operator==(const Bans&) const = default;
+};
+
+/// How a table is to be written.
+struct Draft {
+    Surroundings around;
+    std::optional<PowerUp> power_up;           ///< nothing: step 0 is a step with AT 0
+    std::vector<std::optional<Shape>> shapes;  ///< as in Layout::steps
+    std::array<Action, 64> entries;            ///< by step number
+    std::bitset<64> says_outputs;              ///< the steps whose OUT is worth writing
+};
+
+/// Makes drafts of one table; with more bans a plainer one.
+class Drafter {
+  public:
+    Drafter(const Layout& layout, registers::Model motor);
+    Draft draft(const Bans& bans) const;
+
+  private:
+    std::vector<std::uint8_t> voted_outputs() const;
+    std::optional<Action> voted_fault(const Surroundings& around) const;
+    void find_shapes(const Bans& bans, Draft& draft) const;
+    void find_entries(const Bans& bans, Draft& draft) const;
+    std::vector<const Action*> ways_into(std::uint8_t step, const Draft& draft) const;
+    void note_outputs(Draft& draft) const;
+
+    const Layout& layout_;
+    std::vector<std::vector<Group>> groups_;  ///< as in Layout::steps
+};
+
+}  // namespace nplc::seqc

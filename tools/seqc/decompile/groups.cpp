@@ -1,0 +1,87 @@
+#include "decompile/groups.h"
+
+#include <algorithm>
+#include <span>
+
+#include "decompile/vocabulary.h"
+#include "terms/effects.h"
+
+namespace nplc::seqc {
+namespace {
+
+using sequencer::FastStatement;
+using sequencer::Term;
+using sequencer::TermBytes;
+
+bool same_condition(const TermBytes& a, const TermBytes& b) {
+    return a[0] == b[0] && a[1] == b[1] && ((a[2] ^ b[2]) & 0x7F) == 0;
+}
+
+void add_fast(const FastStatement& fast, Group& group) {
+    Action& action = group.action;
+    if (fast.next_step != sequencer::kNoSwitch) action.next = fast.next_step;
+    group.outputs = fast.outputs;
+    group.writes_outputs = true;
+    action.clears_counter = fast.clears_counter;
+    action.counts_down = fast.counts_down;
+    if (fast.preset != 0) (fast.presets_counter ? action.counter : action.timer) = fast.preset;
+}
+
+/// The terms as one action, if the compiler would make just these of it.
+Group group_of(std::span<const TermBytes> terms, registers::Model model) {
+    Group group;
+    group.count = terms.size();
+    group.when = cases_of(terms.front());
+    for (const TermBytes& bytes : terms) {
+        const Term term = sequencer::decode(bytes);
+        if (term.is_flex || term.fast.sends) group.action.sends.push_back(send_of(term, model));
+        if (!term.is_flex) add_fast(term.fast, group);
+    }
+    Effect effect;
+    effect.action = &group.action;
+    effect.outputs = group.outputs;
+    effect.writes_outputs = group.writes_outputs;
+    std::vector<LoweredTerm> made;
+    append_terms(effect, sequencer::decode(terms.front()).condition, made);
+    group.sound = std::equal(made.begin(), made.end(), terms.begin(), terms.end(),
+                             [](const LoweredTerm& a, const TermBytes& b) { return a.bytes == b; });
+    return group;
+}
+
+}  // namespace
+
+Truth cases_of(sequencer::TermView bytes) {
+    const sequencer::Condition condition = sequencer::decode(bytes).condition;
+    Truth cases = always();
+    for (std::size_t bit = kInput0; bit <= kErrorBit; ++bit) {
+        if (bit != kErrorBit && ((condition.care >> bit) & 1) == 0) continue;
+        cases &= ((condition.input >> bit) & 1) != 0 ? truth_of_bit(bit) : ~truth_of_bit(bit);
+    }
+    if (condition.needs_timer_zero) cases &= truth_of_bit(kTimerZero);
+    if (condition.needs_counter_zero) cases &= truth_of_bit(kCounterZero);
+    return cases;
+}
+
+std::vector<Group> groups_of(const Terms& terms, registers::Model model) {
+    std::vector<Group> groups;
+    std::size_t at = 0;
+    while (at < terms.size()) {
+        Group group;
+        group.count = 1;
+        group.when = cases_of(terms[at]);
+        // What the compiler makes of an action begins with what it makes of the action's beginning.
+        for (std::size_t count = 1; at + count <= terms.size(); ++count) {
+            const TermBytes& last = terms[at + count - 1];
+            if (!same_condition(terms[at], last) || !obstacle(last, model).empty()) break;
+            Group longer = group_of(std::span(terms).subspan(at, count), model);
+            if (!longer.sound) break;
+            group = std::move(longer);
+        }
+        group.first = at;
+        at += group.count;
+        groups.push_back(std::move(group));
+    }
+    return groups;
+}
+
+}  // namespace nplc::seqc

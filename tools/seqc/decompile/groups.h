@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "decompile/layout.h"
+#include "meaning/model.h"
+#include "registers/mac.h"
+
+namespace nplc::seqc {
+
+/// Neighbouring terms with one condition that are exactly what the compiler makes of one action.
+struct Group {
+    std::size_t first = 0;  ///< of the step's terms
+    std::size_t count = 0;
+    Truth when;
+    Action action;
+    std::uint8_t outputs = 0;
+    bool writes_outputs = false;  ///< has a term in FastMAC format
+    bool sound = false;           ///< not: a term that is no such action
+
+    bool cannot_be_undone() const { return !action.sends.empty() || action.presets(); }
+    bool leaves(std::uint8_t step) const { return action.next && *action.next != step; }
+};
+
+std::vector<Group> groups_of(const Terms& terms, registers::Model model);
+
+/// The cases in which a term holds.
+Truth cases_of(sequencer::TermView term);
+
+}  // namespace nplc::seqc

@@ -1,0 +1,87 @@
+#include "decompile/layout.h"
+
+#include <algorithm>
+#include <array>
+#include <bitset>
+
+#include "decompile/vocabulary.h"
+
+namespace nplc::seqc {
+namespace {
+
+using sequencer::kLastStep;
+using sequencer::kTermBytes;
+using sequencer::TermBytes;
+
+using StepSet = std::bitset<64>;
+
+std::vector<TermBytes> terms_of(std::span<const std::uint8_t> table) {
+    std::vector<TermBytes> terms;
+    for (std::size_t at = 0; at + kTermBytes <= table.size(); at += kTermBytes) {
+        TermBytes& term = terms.emplace_back();
+        std::copy_n(table.begin() + static_cast<std::ptrdiff_t>(at), kTermBytes, term.begin());
+    }
+    return terms;
+}
+
+StepSet named_steps(const Terms& terms) {
+    StepSet named;
+    for (const TermBytes& term : terms) {
+        named.set(sequencer::step_of(term));
+        if (!sequencer::is_flex(term)) named.set(term[3] & 0x3F);
+    }
+    named.reset(kLastStep);
+    named.reset(sequencer::kEndOfTable);
+    if (named.any()) named.set(0);
+    return named;
+}
+
+/// Before the first that has a higher number, so that the numbers ascend where the table lets them.
+void insert_empty(std::vector<Part>& steps, std::uint8_t number) {
+    const auto behind =
+        std::find_if(steps.begin(), steps.end(), [&](const Part& p) { return p.number > number; });
+    steps.insert(behind, Part{number, {}});
+}
+
+}  // namespace
+
+Layout layout_of(std::span<const std::uint8_t> table) {
+    Layout layout;
+    Terms terms = terms_of(table);
+    layout.end = terms.back();
+    terms.pop_back();
+    StepSet missing = named_steps(terms);
+    for (const TermBytes& term : terms) {
+        const std::uint8_t number = sequencer::step_of(term);
+        const bool goes_on = !layout.steps.empty() && layout.steps.back().number == number;
+        const bool begins = number != kLastStep && missing.test(number);
+        if (!layout.outside.empty() || (!goes_on && !begins)) {
+            layout.outside.push_back(term);
+            continue;
+        }
+        if (!goes_on) layout.steps.push_back({number, {}});
+        missing.reset(number);
+        layout.steps.back().terms.push_back(term);
+    }
+    for (std::uint8_t number = 0; number < kLastStep; ++number) {
+        if (missing.test(number)) insert_empty(layout.steps, number);
+    }
+    return layout;
+}
+
+registers::Model fitting_motor(const Layout& layout) {
+    using registers::Model;
+    const auto fits = [&](Model model) {
+        std::size_t count = 0;
+        const auto add = [&](const Terms& terms) {
+            for (const TermBytes& term : terms)
+                count += sequencer::is_flex(term) && obstacle(term, model).empty() ? 1U : 0U;
+        };
+        for (const Part& part : layout.steps) add(part.terms);
+        add(layout.outside);
+        return count;
+    };
+    return fits(Model::mac800) > fits(Model::mac140) ? Model::mac800 : Model::mac140;
+}
+
+}  // namespace nplc::seqc

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "decompile/formula.h"
+#include "registers/mac.h"
+#include "seqc/seqc.h"
+#include "sequencer/term.h"
+
+namespace nplc::seqc {
+
+/// What things are called in the program to be written. No name stands twice, none has a meaning already.
+struct Naming {
+    Symbols symbols;
+    BitNames bits;                          ///< the inputs as in `symbols`, INPOS and so on
+    std::array<bool, 6> declared_inputs{};  ///< a name of its own, so it must be declared if it is used
+    std::array<bool, 4> declared_outputs{};
+    bool made_up = false;  ///< steps, inputs and outputs have no given names
+
+    /// A name for a variable that holds the start value of a register.
+    std::string value_name(std::string_view reg) const;
+};
+
+/// `given` may be null, or hold names that are none.
+Naming naming_of(const Symbols* given, const std::string& program, registers::Model motor);
+
+}  // namespace nplc::seqc

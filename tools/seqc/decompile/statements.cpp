@@ -1,0 +1,144 @@
+#include "decompile/statements.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "decompile/groups.h"
+#include "decompile/vocabulary.h"
+#include "meaning/commands.h"
+#include "syntax/parser.h"
+#include "text/describe.h"
+
+namespace nplc::seqc {
+namespace {
+
+using protocol::fastmac::Mode;
+using RegisterGroup = protocol::fastmac::Group;
+
+constexpr std::uint8_t kLastCommonRegister = 88;  // the same on all motors up to here
+
+/// INIT, VELOCITY or POSITION with several registers, which the compiler sends in an order of its own.
+struct SelectedText {
+    std::string text;
+    std::size_t count = 0;
+};
+
+int rank(const SelectCommand& select) {
+    if (select.selection.group == RegisterGroup::p) return 2;
+    return select.selection.group == RegisterGroup::v && select.mode == Mode::velocity ? 0 : 1;
+}
+
+/// "V1" of "INIT(V1)".
+std::string argument(std::uint8_t command) {
+    const std::string text = describe_command(command);
+    const std::size_t open = text.find('(');
+    return text.substr(open + 1, text.size() - open - 2);
+}
+
+SelectedText selection_at(const std::vector<Send>& sends, std::size_t at) {
+    SelectedText result{describe_command(sends[at].command), 1};
+    const auto first = select_command(sends[at].command);
+    if (!first) return result;
+    std::vector<SelectCommand> taken = {*first};
+    result.text.pop_back();
+    for (std::size_t i = at + 1; i < sends.size() && sends[i].reg == nullptr; ++i) {
+        const auto next = select_command(sends[i].command);
+        if (!next || next->mode != first->mode || rank(*next) < rank(taken.back())) break;
+        const bool again = std::any_of(taken.begin(), taken.end(), [&](const SelectCommand& s) {
+            return s.selection.group == next->selection.group;
+        });
+        if (again) break;
+        taken.push_back(*next);
+        result.text += ", " + argument(sends[i].command);
+        ++result.count;
+    }
+    result.text += ")";
+    return result;
+}
+
+std::string time_text(std::uint16_t milliseconds) {
+    const int seconds = milliseconds / 1000;
+    const int rest = milliseconds % 1000;
+    if (seconds == 0) return fmt::format("T#{}ms", rest);
+    return rest == 0 ? fmt::format("T#{}s", seconds) : fmt::format("T#{}s{}ms", seconds, rest);
+}
+
+Line write_line(const Send& send, const Speech& speech) {
+    const ValueText value = value_text(*send.reg, send.value, speech.motor);
+    return {fmt::format("{} := {};", register_text(*send.reg, speech), value.text), value.comment};
+}
+
+std::string condition_text(const sequencer::TermBytes& bytes, const Speech& speech) {
+    const Truth cases = cases_of(bytes);
+    return formula_of(cases, cases, speech.naming.bits).text;
+}
+
+}  // namespace
+
+/// Up to 88 the names that commands know too: V1, not the MAC800's VEL0.
+std::string register_text(const registers::Register& reg, const Speech& speech) {
+    const bool shared = reg.number <= kLastCommonRegister;
+    const registers::Register* common =
+        shared ? registers::find(registers::Model::mac140, reg.number) : nullptr;
+    const std::string_view name = common != nullptr ? common->name : reg.name;
+    const registers::Register* named = registers::find(speech.motor, name);
+    const bool usable =
+        (shared || speech.motor_is_sure) && is_name(name) && named != nullptr && named->number == reg.number;
+    return usable ? std::string(name) : fmt::format("REG({})", reg.number);
+}
+
+std::vector<Line> statements_of(const Action& action, const Speech& speech) {
+    std::vector<Line> lines;
+    for (std::size_t i = 0; i < action.sends.size();) {
+        if (action.sends[i].reg != nullptr) {
+            lines.push_back(write_line(action.sends[i++], speech));
+            continue;
+        }
+        const SelectedText selection = selection_at(action.sends, i);
+        lines.push_back({selection.text + ";", {}});
+        i += selection.count;
+    }
+    if (action.clears_counter) lines.push_back({"CLEAR_COUNTER;", {}});
+    if (action.counts_down) lines.push_back({"COUNT_DOWN;", {}});
+    if (action.timer) lines.push_back({fmt::format("TIMER := {};", time_text(*action.timer)), {}});
+    if (action.counter) lines.push_back({fmt::format("COUNTER := {};", *action.counter), {}});
+    return lines;
+}
+
+std::string next_text(std::uint8_t step, const Speech& speech) {
+    const bool power_up = step == 0 && speech.has_power_up;
+    return fmt::format("NEXT := {};", power_up ? "POWER_UP" : speech.naming.symbols.steps[step]);
+}
+
+std::string outputs_text(std::uint8_t outputs, const Naming& naming) {
+    std::string text;
+    for (std::size_t bit = 0; bit < naming.symbols.outputs.size(); ++bit) {
+        if (((outputs >> bit) & 1) == 0) continue;
+        text += (text.empty() ? "OUT " : ", ") + naming.symbols.outputs[bit];
+    }
+    return text + ";";
+}
+
+Line term_line(sequencer::TermView view, bool inside, const Speech& speech) {
+    sequencer::TermBytes bytes{};
+    std::copy(view.begin(), view.end(), bytes.begin());
+    if (sequencer::is_end(bytes)) return {byte_line(bytes), describe(bytes, nullptr)};
+    const std::string_view why = obstacle(bytes, speech.motor);
+    if (!why.empty())
+        return {byte_line(bytes), fmt::format("{}: {}", why, describe(bytes, &speech.naming.symbols))};
+    const std::vector<Group> groups = groups_of({bytes}, speech.motor);
+    const Action& action = groups.front().action;
+    const std::string name = inside ? "" : speech.naming.symbols.steps[sequencer::step_of(bytes)] + ": ";
+    Line line{fmt::format("TERM {}IF {} THEN ", name, condition_text(bytes, speech)), {}};
+    for (const Line& statement : statements_of(action, speech)) {
+        line.text += statement.text + " ";
+        line.comment += statement.comment;
+    }
+    if (groups.front().outputs != 0) line.text += outputs_text(groups.front().outputs, speech.naming) + " ";
+    if (action.next) line.text += next_text(*action.next, speech) + " ";
+    line.text += "END_IF;";
+    return line;
+}
+
+}  // namespace nplc::seqc

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "decompile/naming.h"
+#include "meaning/model.h"
+#include "sequencer/term.h"
+
+namespace nplc::seqc {
+
+/// How the program to be written speaks.
+struct Speech {
+    const Naming& naming;
+    registers::Model motor;
+    bool motor_is_sure = true;  ///< not: registers that motors do not share go by number
+    bool has_power_up = true;   ///< step 0 is POWER_UP
+};
+
+/// A statement without what may stand before and behind it.
+struct Line {
+    std::string text;     ///< with its semicolon
+    std::string comment;  ///< without the slashes; may be empty
+};
+
+/// What an action does beside its NEXT, in the order of a program.
+std::vector<Line> statements_of(const Action& action, const Speech& speech);
+
+std::string next_text(std::uint8_t step, const Speech& speech);
+
+/// "OUT Grip, Lamp;"; `outputs` is not 0.
+std::string outputs_text(std::uint8_t outputs, const Naming& naming);
+
+std::string register_text(const registers::Register& reg, const Speech& speech);
+
+/// The line of one term: in symbols, or as bytes with the reason and the meaning in a comment. `inside`: in
+/// its step, so that it needs no name.
+Line term_line(sequencer::TermView bytes, bool inside, const Speech& speech);
+
+}  // namespace nplc::seqc

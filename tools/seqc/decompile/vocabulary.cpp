@@ -1,0 +1,112 @@
+#include "decompile/vocabulary.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "meaning/commands.h"
+#include "meaning/units.h"
+#include "registers/scale.h"
+
+namespace nplc::seqc {
+namespace {
+
+using registers::Format;
+using registers::Model;
+using registers::Register;
+using registers::Unit;
+using sequencer::FastStatement;
+using sequencer::FlexStatement;
+using sequencer::Term;
+
+constexpr std::uint8_t kFirstNameless = 0x77;  // 17h - 1Ch are further NOPs (001 §5.2.1.4)
+constexpr std::uint8_t kLastNameless = 0x7C;
+constexpr std::size_t kLongestDecimal = 10;
+
+/// The number that a register's bits stand for, in raw steps.
+std::int64_t number_of(const Register& reg, std::uint32_t bits) {
+    if (registers::is_32_bit(reg.format)) return static_cast<std::int32_t>(bits);
+    if (reg.format == Format::word) return bits & 0xFFFFU;
+    return static_cast<std::int16_t>(bits);
+}
+
+std::uint32_t bits_of(const FlexStatement& flex) {
+    return flex.low_word | (flex.longword ? static_cast<std::uint32_t>(flex.high_word) << 16 : 0U);
+}
+
+bool is_link_command(std::uint8_t command) {
+    if (select_command(command)) return false;
+    const NamedCommand* named = find_command(describe_command(command));
+    return named != nullptr && !named->refusal.empty();
+}
+
+std::string_view fast_obstacle(const FastStatement& fast) {
+    if (fast.next_step == sequencer::kEndOfTable) return "NEXT 63 is no step";
+    if (fast.available_next_bit7 || fast.available_outputs != 0) return "unused bits are set";
+    if (!fast.sends && fast.command != 0) return "it holds a command that is not sent";
+    if (fast.presets_counter && fast.preset == 0) return "CNT_TIME is set and nothing is preset";
+    if (!fast.sends) return {};
+    if (fast.command >= kFirstNameless && fast.command <= kLastNameless) return "the command has no name";
+    return is_link_command(fast.command) ? "the command changes how gateway and motor talk" : "";
+}
+
+std::string_view flex_obstacle(const FlexStatement& flex, Model model) {
+    if (flex.reg == 0) return "register 0 cannot be written";
+    const Register* reg = registers::find(model, flex.reg);
+    if (reg == nullptr) return "the motor has no register of this number";
+    if (flex.longword != registers::is_32_bit(reg->format))
+        return flex.longword ? "32 bits for a register of 16" : "16 bits for a register of 32";
+    if (!flex.longword && flex.high_word != 0) return "the upper word is not sent";
+    const std::int64_t number = number_of(*reg, bits_of(flex));
+    return number < reg->min || number > reg->max ? "the value is out of the register's range" : "";
+}
+
+/// The unit to show a register's value in; empty: none says more than the number.
+std::string_view shown_unit(Unit unit) {
+    if (unit == Unit::counts || unit == Unit::counts_16) return "rev";
+    if (unit == Unit::samples) return "ms";
+    const auto usual = registers::units_of(unit);
+    return usual.empty() ? std::string_view() : usual.front();
+}
+
+std::string short_number(double value) {
+    return std::fabs(value) >= 10'000 ? fmt::format("{:.0f}", value) : fmt::format("{:.5g}", value);
+}
+
+std::string bits_text(const Register& reg, std::uint32_t bits) {
+    return registers::is_32_bit(reg.format) ? fmt::format("16#{:08X}", bits) : fmt::format("16#{:04X}", bits);
+}
+
+}  // namespace
+
+std::string_view obstacle(sequencer::TermView bytes, Model model) {
+    const Term term = sequencer::decode(bytes);
+    if (term.condition.step >= sequencer::kLastStep) return "the step cannot have a name";
+    if ((term.condition.input & ~term.condition.care & 0x7F) != 0)
+        return "it wants inputs it does not care for";
+    return term.is_flex ? flex_obstacle(term.flex, model) : fast_obstacle(term.fast);
+}
+
+Send send_of(const Term& term, Model model) {
+    if (!term.is_flex) return {nullptr, term.fast.command, 0, {}};
+    return {registers::find(model, term.flex.reg), 0, bits_of(term.flex), {}};
+}
+
+ValueText value_text(const Register& reg, std::uint32_t bits, Model model) {
+    const std::int64_t number = number_of(reg, bits);
+    const double steps_in_one = raw_per_unit(reg, model, std::nullopt, {}).value_or(1);
+    if (steps_in_one != 1) {
+        const double value = static_cast<double>(number) / steps_in_one;
+        const std::string decimal = fmt::format("{}", value);
+        const bool is_short = decimal.size() <= kLongestDecimal && decimal.find('e') == std::string::npos;
+        return is_short ? ValueText{decimal, {}} : ValueText{bits_text(reg, bits), short_number(value)};
+    }
+    const std::string_view unit = shown_unit(reg.unit);
+    const auto steps = unit.empty() ? std::nullopt : raw_per_unit(reg, model, std::nullopt, unit);
+    if (!steps || number == 0) return {std::to_string(number), {}};
+    return {std::to_string(number),
+            fmt::format("{} {}", short_number(static_cast<double>(number) / *steps), unit)};
+}
+
+}  // namespace nplc::seqc
