@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::size_t kInputs = 6;
 constexpr std::size_t kOutputs = 4;
-constexpr std::size_t kMostSteps = 61;
 
 /// IN0, %IX0.0 and the like: the number behind the address, or nothing if it is no address at all.
 std::optional<std::size_t> address_number(std::string_view text, char direction) {

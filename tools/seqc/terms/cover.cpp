@@ -1,15 +1,15 @@
 #include "terms/cover.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <utility>
+
+#include "terms/cover_search.h"
 
 namespace nplc::seqc {
 namespace {
 
 constexpr std::size_t kVariables = 7;
-constexpr int kSearchBound = 2'000;
 
 std::vector<Points> make_cubes() {
     std::vector<Points> cubes(kPoints * kPoints);
@@ -61,78 +61,6 @@ std::vector<Cube> primes_of(const Points& need, const Points& allowed) {
     }
     return primes;
 }
-
-class CoverSearch {
-  public:
-    CoverSearch(const Points& need, std::vector<Cube> primes) : need_(need), primes_(std::move(primes)) {
-        for (Cube prime : primes_) useful_.push_back(points_of(prime) & need);
-        for (std::size_t point = 0; point < kPoints; ++point) {
-            if (!need.test(point)) continue;
-            for (std::size_t i = 0; i < primes_.size(); ++i) {
-                if (useful_[i].test(point)) choices_[point].push_back(i);
-            }
-        }
-    }
-
-    std::vector<Cube> run() {
-        best_ = greedy();
-        std::vector<std::size_t> chosen;
-        search(need_, chosen);
-        std::vector<Cube> cubes;
-        for (std::size_t i : best_) cubes.push_back(primes_[i]);
-        return cubes;
-    }
-
-  private:
-    /// The prime that holds most open points, and how many.
-    std::pair<std::size_t, std::size_t> widest(const Points& open) const {
-        std::pair<std::size_t, std::size_t> best = {0, 0};
-        for (std::size_t i = 0; i < useful_.size(); ++i) {
-            const std::size_t count = (useful_[i] & open).count();
-            if (count > best.second) best = {i, count};
-        }
-        return best;
-    }
-
-    std::vector<std::size_t> greedy() const {
-        std::vector<std::size_t> chosen;
-        for (Points open = need_; open.any(); open &= ~useful_[chosen.back()])
-            chosen.push_back(widest(open).first);
-        return chosen;
-    }
-
-    /// The open point with the fewest primes to choose from.
-    std::size_t hardest_point(const Points& open) const {
-        std::size_t hardest = kPoints;
-        for (std::size_t point = 0; point < kPoints; ++point) {
-            if (!open.test(point)) continue;
-            if (hardest == kPoints || choices_[point].size() < choices_[hardest].size()) hardest = point;
-        }
-        return hardest;
-    }
-
-    void search(const Points& open, std::vector<std::size_t>& chosen) {
-        if (open.none()) {
-            if (chosen.size() < best_.size()) best_ = chosen;
-            return;
-        }
-        if (++steps_ > kSearchBound) return;
-        const std::size_t most = widest(open).second;
-        if (chosen.size() + (open.count() + most - 1) / most >= best_.size()) return;
-        for (std::size_t choice : choices_[hardest_point(open)]) {
-            chosen.push_back(choice);
-            search(open & ~useful_[choice], chosen);
-            chosen.pop_back();
-        }
-    }
-
-    Points need_;
-    std::vector<Cube> primes_;
-    std::vector<Points> useful_;
-    std::array<std::vector<std::size_t>, kPoints> choices_;
-    std::vector<std::size_t> best_;
-    int steps_ = 0;
-};
 
 bool is_disjoint(const std::vector<Cube>& cubes) {
     Points seen;
@@ -213,7 +141,12 @@ const Points& points_of(Cube cube) {
 
 std::vector<Cube> minimal_cover(const Points& need, const Points& allowed) {
     if (need.none()) return {};
-    return CoverSearch(need, primes_of(need, allowed)).run();
+    const std::vector<Cube> primes = primes_of(need, allowed);
+    std::vector<Points> useful;
+    for (Cube prime : primes) useful.push_back(points_of(prime) & need);
+    std::vector<Cube> cover;
+    for (std::size_t i : CoverSearch<kPoints>(need, std::move(useful)).run()) cover.push_back(primes[i]);
+    return cover;
 }
 
 std::vector<Cube> disjoint_cover(const Points& need) {

@@ -4,94 +4,60 @@
 
 #include <array>
 
+#include "terms/scan.h"
+
 namespace nplc::seqc {
 namespace {
 
-using sequencer::Condition;
-using sequencer::FastStatement;
-using sequencer::FlexStatement;
-using sequencer::Term;
+using sequencer::MotorOrder;
 
-/// What a scan did in one case.
-struct Done {
-    std::uint8_t next = sequencer::kNoSwitch;
-    std::uint8_t outputs = 0;
-    bool writes_outputs = false;
-    bool clears = false;
-    bool counts = false;
-    bool wrong_order = false;
-    std::uint16_t timer = 0;
-    std::uint16_t counter = 0;
-    std::size_t sent = 0;
-};
-
-bool is_order_of(const Term& term, const Send& send) {
-    if (!term.is_flex) return send.reg == nullptr && term.fast.command == (send.command & 0x7F);
-    if (send.reg == nullptr) return false;
-    const FlexStatement& flex = term.flex;
-    return flex.reg == send.reg->number && flex.longword == registers::is_32_bit(send.reg->format) &&
-           flex.low_word == (send.value & 0xFFFF) && (!flex.longword || flex.high_word == send.value >> 16);
+MotorOrder order_of(const Send& send) {
+    if (send.reg == nullptr) return {.command = static_cast<std::uint8_t>(send.command & 0x7F)};
+    const bool longword = registers::is_32_bit(send.reg->format);
+    return {.is_flex = true,
+            .reg = send.reg->number,
+            .longword = longword,
+            .value = longword ? send.value : send.value & 0xFFFF};
 }
 
-void apply_fast(const FastStatement& fast, Done& done) {
-    if (fast.next_step != sequencer::kNoSwitch) done.next = fast.next_step;
-    done.outputs = fast.outputs;
-    done.writes_outputs = true;
-    done.clears = fast.clears_counter;
-    done.counts = fast.counts_down;
-    if (fast.preset != 0) (fast.presets_counter ? done.counter : done.timer) = fast.preset;
+/// What the rules want of a scan, but for the outputs.
+Outcome wanted_by(const Action& action, std::uint8_t own_step) {
+    Outcome outcome;
+    outcome.next = action.next.value_or(own_step);
+    outcome.timer = action.timer.value_or(0);
+    outcome.counter_preset = action.counter.value_or(0);
+    outcome.counter = action.clears_counter         ? CounterChange::clear
+                      : outcome.counter_preset != 0 ? CounterChange::preset
+                      : action.counts_down          ? CounterChange::count_down
+                                                    : CounterChange::none;
+    for (const Send& send : action.sends) outcome.orders.push_back(order_of(send));
+    return outcome;
 }
 
 class Comparison {
   public:
     Comparison(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of)
         : step_(step), outputs_of_(outputs_of) {
+        wanted_.push_back(wanted_by({}, step.number));
         for (const Rule& rule : step.rules) {
             for (std::size_t c = 0; c < kCases; ++c) {
-                if (rule.when.test(c)) action_[c] = &rule.action;
+                if (rule.when.test(c)) rule_of_[c] = wanted_.size();
             }
+            wanted_.push_back(wanted_by(rule.action, step.number));
         }
     }
 
-    void apply(const Term& term) {
-        const Condition& condition = term.condition;
-        const std::size_t wanted = (condition.input & (condition.care | sequencer::kError)) |
-                                   (condition.needs_timer_zero ? std::size_t{1} << kTimerZero : 0) |
-                                   (condition.needs_counter_zero ? std::size_t{1} << kCounterZero : 0);
-        const std::size_t compared = wanted | condition.care | sequencer::kError;
-        for (std::size_t c = 0; c < kCases; ++c) {
-            if ((c & compared) == wanted) apply_in(term, c);
-        }
-    }
-
-    bool differs(std::size_t c) const {
-        static const Action kNothing{};
-        const Action& action = action_[c] != nullptr ? *action_[c] : kNothing;
-        const Done& done = done_[c];
-        const std::uint8_t next = action.next.value_or(step_.number);
-        const bool leaves = next != step_.number;
-        const std::uint8_t gone = done.next == sequencer::kNoSwitch ? step_.number : done.next;
-        const std::uint8_t outputs = leaves ? entered(next) : resting(c);
+    bool differs(const StepBehaviour& behaviour, std::size_t c) const {
+        Outcome wanted = wanted_[rule_of_[c]];
+        const bool leaves = wanted.next != step_.number;
+        const std::uint8_t outputs = leaves ? entered(wanted.next) : resting(c);
         const bool must_write = leaves || !step_.conditional.empty();
-        return gone != next || done.wrong_order || done.sent != action.sends.size() ||
-               done.timer != action.timer.value_or(0) || done.counter != action.counter.value_or(0) ||
-               done.clears != action.clears_counter || done.counts != action.counts_down ||
-               (done.writes_outputs ? done.outputs != outputs : must_write);
+        const Outcome& done = behaviour.in(c);
+        if (must_write || done.outputs) wanted.outputs = outputs;
+        return done != wanted;
     }
 
   private:
-    void apply_in(const Term& term, std::size_t c) {
-        Done& done = done_[c];
-        if (term.is_flex || term.fast.sends) {
-            const Action* action = action_[c];
-            const bool expected = action != nullptr && done.sent < action->sends.size() &&
-                                  is_order_of(term, action->sends[done.sent]);
-            done.wrong_order = done.wrong_order || !expected;
-            ++done.sent;
-        }
-        if (!term.is_flex) apply_fast(term.fast, done);
-    }
-
     std::uint8_t entered(std::uint8_t next) const {
         return next < outputs_of_.size() ? outputs_of_[next] : std::uint8_t{0};
     }
@@ -106,22 +72,23 @@ class Comparison {
 
     const StepPlan& step_;
     const std::vector<std::uint8_t>& outputs_of_;
-    std::array<const Action*, kCases> action_{};
-    std::array<Done, kCases> done_{};
+    std::vector<Outcome> wanted_;  ///< of no rule, then of each rule
+    std::array<std::size_t, kCases> rule_of_{};
 };
 
 }  // namespace
 
 std::optional<std::size_t> first_difference(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of,
                                             const std::vector<LoweredTerm>& terms) {
-    Comparison comparison(step, outputs_of);
+    std::vector<sequencer::TermView> own;
     for (std::size_t i = 0; i + step.terms.size() < terms.size(); ++i) {
-        const Term term = sequencer::decode(terms[i].bytes);
-        if (term.condition.step != step.number) return 0;
-        comparison.apply(term);
+        if (sequencer::step_of(terms[i].bytes) != step.number) return 0;
+        own.emplace_back(terms[i].bytes);
     }
+    const Comparison comparison(step, outputs_of);
+    const StepBehaviour behaviour = behaviour_of(step.number, own);
     for (std::size_t c = 0; c < kCases; ++c) {
-        if (comparison.differs(c)) return c;
+        if (comparison.differs(behaviour, c)) return c;
     }
     return std::nullopt;
 }
