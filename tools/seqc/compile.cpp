@@ -13,8 +13,6 @@
 namespace nplc::seqc {
 namespace {
 
-constexpr std::size_t kTermsEverywhere = 1024;  // what every gateway holds at the least
-
 std::vector<std::uint8_t> outputs_of_steps(const Plan& plan) {
     std::vector<std::uint8_t> outputs(sequencer::kLastStep + 1U);
     for (const StepPlan& step : plan.steps) outputs[step.number] = step.outputs;

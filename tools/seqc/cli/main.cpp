@@ -46,9 +46,12 @@ int main(int argc, char** argv) {
     add_build(app, exit_code);
     add_check(app, exit_code);
     add_decompile(app, exit_code);
+    add_diff(app, exit_code);
     add_disasm(app, exit_code);
     add_explain(app, exit_code);
     add_fmt(app, exit_code);
+    add_graph(app, exit_code);
+    add_report(app, exit_code);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -14,6 +14,10 @@
 /// The program with every name resolved and every value worked out.
 namespace nplc::seqc {
 
+inline constexpr std::size_t kTermsEverywhere =
+    1024;                                      ///< a gateway holds so many at the least, the end included
+inline constexpr std::size_t kMostSteps = 61;  ///< with names; POWER_UP comes on top
+
 /// What goes to the motor: a FastMAC command or a register value.
 struct Send {
     const registers::Register* reg = nullptr;  ///< none: a FastMAC command

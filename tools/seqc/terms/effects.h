@@ -38,8 +38,6 @@ struct Effects {
 
 Effects effects_of(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of);
 
-/// The register write of `send`, which is one.
-sequencer::FlexStatement write_of(const Send& send);
 
 /// The terms that carry one effect under one condition: commands in order, each FastMAC-format one with the
 /// same next step and outputs, since the last of them wins.

@@ -3,6 +3,7 @@
 #include "seqc/seqc.h"
 #include "sequencer/term.h"
 #include "text/describe.h"
+#include "views/table_report.h"
 
 namespace nplc::seqc {
 namespace {
@@ -40,7 +41,7 @@ std::string listing(const Compilation& compilation, std::string_view source, std
                             fmt::format("line {}", position_of(source, rounding.span.offset).line),
                             rounding.text);
     }
-    return text;
+    return text + "\n" + summary_of(report_of(compilation.table, &symbols, {}));
 }
 
 }  // namespace nplc::seqc

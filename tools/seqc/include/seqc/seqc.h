@@ -79,7 +79,7 @@ Compilation compile(std::string_view source);
 std::string render_all(const Compilation& compilation, std::string_view source, std::string_view file_name,
                        Colour colour = Colour::off);
 
-/// Every term with its bytes, what it does and its source line, then the rounded constants.
+/// Every term with its bytes, what it does and its source line, then the rounded constants, room and time.
 std::string listing(const Compilation& compilation, std::string_view source, std::string_view file_name);
 
 struct Disassembly {

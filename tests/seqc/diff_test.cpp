@@ -1,0 +1,199 @@
+// What one table does otherwise than another, in words.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "random_table.h"
+#include "support.h"
+#include "views/table_diff.h"
+
+namespace nplc::seqc {
+namespace {
+
+/// A small machine to change: words of it are replaced.
+std::string machine(const std::vector<std::pair<std::string, std::string>>& changes = {}) {
+    std::string text =
+        "PROGRAM P MOTOR MAC140; VAR_INPUT Start AT IN0; Guard AT IN1; END_VAR\n"
+        "VAR_OUTPUT Lamp AT OUT0; Grip AT OUT1; END_VAR VAR_MOTOR Fast AT V1 := 1500 rpm; END_VAR\n"
+        "ON ERROR NEXT := Fault; POWER_UP INIT(Fast); NEXT := Idle; END_POWER_UP\n"
+        "STEP Idle: OUT Lamp; IF Start AND NOT Guard THEN VELOCITY(Fast); NEXT := Travel; END_IF END_STEP\n"
+        "STEP Travel: OUT Grip; IF Guard THEN NEXT := Fault; ELSIF INPOS THEN TIMER := T#500ms; NEXT := "
+        "Hold; "
+        "END_IF END_STEP\n"
+        "STEP Hold: IF TIMER.Q THEN NEXT := Idle; END_IF END_STEP\n"
+        "STEP Fault: OWN ERROR; ENTRY STOP; IF ANY ERROR AND Start THEN RESET_ERROR; NEXT := POWER_UP; "
+        "END_IF "
+        "END_STEP END_PROGRAM";
+    for (const auto& [from, to] : changes) {
+        const std::size_t at = text.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        text.replace(at, from.size(), to);
+    }
+    return text;
+}
+
+Compilation compiled(const std::string& source) {
+    Compilation result = compile(source);
+    EXPECT_TRUE(result.ok) << test::shown(result, source);
+    return result;
+}
+
+TableDiff diff(const std::string& before, const std::string& now) {
+    const Compilation a = compiled(before);
+    const Compilation b = compiled(now);
+    return diff_of({a.table, &a.symbols}, {b.table, &b.symbols});
+}
+
+std::string text(const std::vector<std::pair<std::string, std::string>>& changes) {
+    return text_of(diff(machine(), machine(changes)));
+}
+
+TEST(TableDiff, TheSameBytes) {
+    EXPECT_EQ(text({}), "the same bytes\n");
+}
+
+// Travel's first two terms exclude each other (Guard, NOT Guard): their order means nothing.
+TEST(TableDiff, OtherBytesThatDoTheSame) {
+    const Compilation before = compiled(machine());
+    auto table = before.table;
+    std::size_t at = 0;
+    while ((table[at] & 0x3F) != 2) at += 8;
+    std::swap_ranges(table.begin() + static_cast<std::ptrdiff_t>(at),
+                     table.begin() + static_cast<std::ptrdiff_t>(at + 8),
+                     table.begin() + static_cast<std::ptrdiff_t>(at + 8));
+    const TableDiff result = diff_of({before.table, &before.symbols}, {table, nullptr});
+    EXPECT_FALSE(result.same_bytes);
+    EXPECT_EQ(text_of(result), "other bytes, but every step does the same\n");
+    EXPECT_TRUE(result.same_behaviour());
+}
+
+// A term that switches Grip on in one case: Fault, which goes on from there, no longer has it always off.
+TEST(TableDiff, OutputsThatAreNotCertainAnyMore) {
+    EXPECT_EQ(text({{"END_IF END_STEP\nSTEP Hold",
+                     "END_IF TERM 16#C2, 2, 2, 16#3E, 16#80, 2, 0, 0; END_STEP\nSTEP Hold"}}),
+              "Travel, when Guard: sends STOP, has Grip on and goes to Fault; before: sends STOP, has Grip "
+              "off and goes "
+              "to Fault\n"
+              "Fault, when ANY ERROR AND NOT Start: keeps Grip; before: has Grip off\n");
+}
+
+// 1000 rpm: 1000 / 60 rev/s x 4096 counts / 520.83 samples x 16 = 2097.15.
+TEST(TableDiff, AValueOfPowerUp) {
+    EXPECT_EQ(text({{"1500 rpm", "1000 rpm"}}), "V1: 3146 -> 2097 (1500 rpm -> 1000 rpm)\n");
+    EXPECT_EQ(text({{"1500 rpm;", "1500 rpm; Soft AT A1 := 81;"}}), "A1: written now: 81 (20117 rpm/s)\n");
+}
+
+TEST(TableDiff, WhatASwitchDoes) {
+    EXPECT_EQ(
+        text({{"IF Guard THEN NEXT", "IF Guard THEN HOME; NEXT"}}),
+        "Travel, when Guard: sends HOME, STOP and goes to Fault; before: sends STOP and goes to Fault\n");
+    EXPECT_EQ(
+        text({{"T#500ms", "T#700ms"}}),
+        "Travel, when NOT Guard AND INPOS: sets TIMER := T#700ms and goes to Hold; before: sets TIMER := "
+        "T#500ms and goes to Hold\n");
+    EXPECT_EQ(text({{"Start AND NOT Guard", "Start"}}),
+              "Idle, when Start AND Guard: sends VELOCITY(V1) and goes to Travel; before: nothing\n");
+    EXPECT_EQ(text({{"IF TIMER.Q", "IF TIMER.Q AND NOT Guard"}}),
+              "Hold, when Guard AND TIMER.Q: does nothing; before: goes to Idle\n");
+}
+
+TEST(TableDiff, OutputsAreToldOnceWithTheStep) {
+    EXPECT_EQ(text({{"OUT Grip", "OUT Grip, Lamp"}}), "Travel: OUT Lamp, Grip; before: Grip\n");
+    EXPECT_EQ(text({{"OUT Lamp;", ""}}), "Idle: OUT none; before: Lamp\n");
+    EXPECT_EQ(text({{"OUT Lamp;", "OUT Lamp; OUT Grip WHEN Guard;"}}),
+              "Idle, when Guard: has Grip on; before: has Grip off\n");
+}
+
+TEST(TableDiff, AnEntryIsToldOnce) {
+    EXPECT_EQ(text({{"ENTRY STOP;", "ENTRY STOP; ENTRY CLEAR_IN_POS;"}}),
+              "Fault, when entered: sends STOP, CLEAR_IN_POS; before: sends STOP\n");
+}
+
+TEST(TableDiff, StepsThatAreNewGoneOrRenamed) {
+    EXPECT_EQ(text({{"STEP Hold", "STEP Wait"}, {"NEXT := Hold", "NEXT := Wait"}}),
+              "the same bytes\nHold is called Wait now\n");
+    const TableDiff longer =
+        diff(machine(), machine({{"STEP Hold: IF TIMER.Q THEN NEXT := Idle",
+                                  "STEP Rest: IF Start THEN NEXT := Idle; END_IF END_STEP\n"
+                                  "STEP Hold: IF TIMER.Q THEN NEXT := Rest"}}));
+    EXPECT_EQ(text_of(longer),
+              "Rest is new, step 3\n"
+              "other step numbers, which change nothing: Hold 3 -> 4, Fault 4 -> 5\n"
+              "Hold, when TIMER.Q: goes to Rest; before: goes to Idle\n");
+    EXPECT_FALSE(longer.same_behaviour());
+}
+
+TEST(TableDiff, OnlyRenumberedIsTheSame) {
+    const std::string hold = "STEP Hold: IF TIMER.Q THEN NEXT := Idle; END_IF END_STEP\n";
+    const TableDiff moved = diff(machine(), machine({{hold, ""}, {"STEP Idle", hold + "STEP Idle"}}));
+    EXPECT_TRUE(moved.same_behaviour());
+    EXPECT_EQ(text_of(moved),
+              "other bytes, but every step does the same\n"
+              "other step numbers, which change nothing: Idle 1 -> 2, Travel 2 -> 3, Hold 3 -> 1\n");
+}
+
+TEST(TableDiff, BareTablesGoByNumber) {
+    const Compilation a = compiled(machine());
+    const Compilation b = compiled(machine({{"1500 rpm", "1000 rpm"}, {"T#500ms", "T#700ms"}}));
+    EXPECT_EQ(
+        text_of(diff_of({a.table, nullptr}, {b.table, nullptr})),
+        "V1: 3146 -> 2097\n"
+        "step 2, when NOT IN1 AND INPOS: sets TIMER := T#700ms and goes to step 3; before: sets TIMER := "
+        "T#500ms and goes to step 3\n");
+    EXPECT_EQ(text_of(diff_of({a.table, &a.symbols}, {a.table, nullptr})), "the same bytes\n");
+}
+
+TEST(TableDiff, AnotherMotorIsMentioned) {
+    EXPECT_EQ(text({{"MAC140", "MAC141"}}), "the same bytes\nfor another motor: MAC140 -> MAC141\n");
+}
+
+TEST(TableDiff, Json) {
+    const auto json = nlohmann::json::parse(
+        json_of(diff(machine(), machine({{"1500 rpm", "1000 rpm"}, {"T#500ms", "T#700ms"}}))));
+    EXPECT_EQ(json["same_bytes"], false);
+    EXPECT_EQ(json["same_behaviour"], false);
+    EXPECT_EQ(json["values"][0]["register"], "V1");
+    EXPECT_EQ(json["values"][0]["now_in_units"], "1000 rpm");
+    EXPECT_EQ(json["reactions"][0]["step"], "Travel");
+    EXPECT_EQ(json["reactions"][0]["when"], "NOT Guard AND INPOS");
+}
+
+/// Whether two tables are the same is decided by running them, by a scan of our own.
+bool run_alike(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b, unsigned steps) {
+    for (int step = 0; step < static_cast<int>(steps); ++step) {
+        for (unsigned c = 0; c < 1024; ++c) {
+            if (!(test::scan_case(a, step, c) == test::scan_case(b, step, c))) return false;
+        }
+    }
+    return true;
+}
+
+TEST(TableDiff, FindsEveryChangeOfARandomTable) {
+    constexpr unsigned kSeed = 36;
+    constexpr unsigned kSteps = 3;
+    test::Random random(kSeed);
+    int same = 0;
+    int different = 0;
+    for (int round = 0; round < 150; ++round) {
+        const auto before = test::random_table(random, kSteps, 2 + random() % 12);
+        auto now = before;
+        const std::size_t term = random() % (now.size() / 8 - 1);
+        const std::size_t byte = term * 8 + 1 + random() % 7;
+        now[byte] ^= static_cast<std::uint8_t>(1U << random() % 8);
+        const TableDiff result = diff_of({before, nullptr}, {now, nullptr});
+        SCOPED_TRACE("seed " + std::to_string(kSeed) + ", round " + std::to_string(round));
+        EXPECT_FALSE(result.same_bytes);
+        if (run_alike(before, now, kSteps)) {
+            EXPECT_TRUE(result.same_behaviour()) << text_of(result);
+            ++same;
+        } else if (!result.same_behaviour()) {
+            ++different;
+        }
+        EXPECT_TRUE(diff_of({before, nullptr}, {before, nullptr}).same_behaviour());
+    }
+    EXPECT_GT(same, 10);
+    EXPECT_GT(different, 60);
+}
+
+}  // namespace
+}  // namespace nplc::seqc

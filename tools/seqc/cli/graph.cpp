@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "cli/dot_process.h"
+#include "cli/subcommands.h"
+#include "cli/views_input.h"
+#include "views/graph.h"
+
+namespace nplc::seqc::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array kFormats{"svg", "dot", "pdf", "png"};
+
+struct Options {
+    InputFile table;
+    std::string output;
+    std::string format;
+};
+
+bool is_format(const std::string& name) {
+    return std::find(kFormats.begin(), kFormats.end(), name) != kFormats.end();
+}
+
+/// Said with --format, or by the output's name; "" if that says nothing known.
+std::string format_of(const Options& options) {
+    if (!options.format.empty()) return options.format;
+    if (options.output.empty() || options.output == "-") return "svg";
+    const std::string extension = fs::path(options.output).extension().string();
+    return !extension.empty() && is_format(extension.substr(1)) ? extension.substr(1) : "";
+}
+
+int graph(const Options& options) {
+    const std::string format = format_of(options);
+    if (format.empty()) {
+        return file_problem(
+            fmt::format("'{}' does not say what to draw: name it .svg, .dot, .pdf or .png, or give "
+                        "--format",
+                        options.output));
+    }
+    const Input input = read_for_view(options.table);
+    if (input.exit_code != kOk) return input.exit_code;
+    if (!options.output.empty() && is_same_file(options.output, options.table.file))
+        return file_problem(fmt::format("'{}' is the file to draw: name another output", options.output));
+    const std::string text = graph_of(input.table, names_of(input), fs::path(options.table.file).stem().string());
+    if (format == "dot") return print_or_write(text, options.output);
+    const Rendering rendering = render_dot(text, format);
+    return rendering.error.empty() ? print_or_write(rendering.bytes, options.output)
+                                   : file_problem(rendering.error);
+}
+
+}  // namespace
+
+void add_graph(CLI::App& app, int& exit_code) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = *app.add_subcommand("graph", "Draw a program or table, with Graphviz");
+    command.add_option("file", options->table.file, "A program, F.seq, or a table")->required();
+    add_symbols_option(command, options->table);
+    command.add_option("-o,--output", options->output,
+                       "F.svg, F.dot, F.pdf or F.png (default: SVG to standard output)");
+    command.add_option("--format", options->format, "svg, dot, pdf or png, whatever the output is called")
+        ->check(CLI::IsMember(std::vector<std::string>(kFormats.begin(), kFormats.end())));
+    command.callback([options, &exit_code] { exit_code = graph(*options); });
+}
+
+}  // namespace nplc::seqc::cli

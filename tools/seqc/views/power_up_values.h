@@ -1,0 +1,30 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "views/machine.h"
+#include "views/table_diff.h"
+
+namespace nplc::seqc {
+
+/// The register values that POWER_UP writes in two tables, so that a changed value is told once and not for
+/// each way out of POWER_UP.
+class PowerUpValues {
+  public:
+    PowerUpValues(const Machine& before, const Machine& now);
+
+    std::vector<TableDiff::Value> changes(const Symbols* names_before, const Symbols* names_now) const;
+
+    /// Makes orders of step 0 alike where they differ by such a value only.
+    void level(std::vector<sequencer::MotorOrder>& before, std::vector<sequencer::MotorOrder>& now) const;
+
+  private:
+    using Writes = std::map<std::uint8_t, sequencer::MotorOrder>;
+    static Writes writes_of(const Machine& machine);
+
+    Writes before_;
+    Writes now_;
+};
+
+}  // namespace nplc::seqc

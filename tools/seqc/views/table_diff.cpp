@@ -1,0 +1,228 @@
+#include "views/table_diff.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "sequencer/term.h"
+#include "views/deed.h"
+#include "views/power_up_values.h"
+#include "views/step_match.h"
+#include "views/words.h"
+
+namespace nplc::seqc {
+namespace {
+
+using sequencer::MotorOrder;
+
+std::string list_or_none(std::uint8_t outputs, const Symbols* symbols) {
+    const std::string list = outputs_list(outputs, symbols);
+    return list.empty() ? "none" : list;
+}
+
+/// One of the two tables.
+struct Side {
+    Machine machine;
+    const Symbols* symbols;
+    std::array<Entry, kStepNumbers> entries;
+
+    explicit Side(const NamedTable& table) : machine(machine_of(table.table)), symbols(table.symbols) {
+        for (std::uint8_t step = 0; step < kStepNumbers; ++step) {
+            if (machine.used.test(step)) entries[step] = entry_of(machine, step);
+        }
+    }
+
+    /// Outputs that are the step's own affair: what a step that follows is entered with, or what a step that
+    /// stays always has.
+    std::uint8_t settled(std::uint8_t step, const Outcome& outcome) const {
+        return outcome.next == step ? machine.held[step].known : machine.entered_with[outcome.next].known;
+    }
+    KnownOutputs outputs_after(std::uint8_t step, const Outcome& outcome) const {
+        constexpr std::uint8_t kAll = 0x0F;
+        return outcome.outputs ? KnownOutputs{kAll, *outcome.outputs} : machine.held[step];
+    }
+    std::vector<MotorOrder> without_entry(const Outcome& outcome) const {
+        std::vector<MotorOrder> orders = outcome.orders;
+        orders.resize(orders.size() - entries[outcome.next].orders.size());
+        return orders;
+    }
+};
+
+class Differ {
+  public:
+    Differ(const NamedTable& before, const NamedTable& now)
+        : before_(before),
+          now_(now),
+          names_(now.symbols != nullptr ? now.symbols : before.symbols),
+          match_(match_steps(before_.machine, before.symbols, now_.machine, now.symbols)),
+          values_(before_.machine, now_.machine) {
+        diff_.same_bytes =
+            std::equal(before.table.begin(), before.table.end(), now.table.begin(), now.table.end());
+        if (before.symbols != nullptr && now.symbols != nullptr &&
+            before.symbols->motor != now.symbols->motor) {
+            diff_.motor_before = registers::name_of(before.symbols->motor);
+            diff_.motor_now = registers::name_of(now.symbols->motor);
+        }
+        list_steps();
+        diff_.values = values_.changes(before.symbols, now.symbols);
+        for (std::uint8_t step = 0; step < kStepNumbers; ++step) {
+            if (match_.before_of[step]) compare(*match_.before_of[step], step);
+        }
+        for (const std::uint8_t step : changed_entries_) add_entry(*match_.before_of[step], step);
+    }
+
+    TableDiff take() { return std::move(diff_); }
+
+  private:
+    std::string name_before(std::uint8_t step) const { return step_name(step, before_.symbols); }
+    /// As the newer table calls it, else as the older one does.
+    std::string name_now(std::uint8_t step) const {
+        const Symbols* symbols = now_.symbols;
+        const bool named =
+            symbols != nullptr && step < symbols->steps.size() && !symbols->steps[step].empty();
+        return !named && match_.before_of[step] ? name_before(*match_.before_of[step])
+                                                : step_name(step, symbols);
+    }
+
+    void list_steps() {
+        using Kind = TableDiff::Step::Kind;
+        for (std::uint8_t step = 0; step < kStepNumbers; ++step) {
+            const auto now = match_.now_of[step];
+            if (!before_.machine.used.test(step)) continue;
+            if (!now) {
+                diff_.steps.push_back({Kind::removed, name_before(step), "", step, step});
+            } else if (!has_same_name(step, *now)) {
+                diff_.steps.push_back({Kind::renamed, name_before(step), name_now(*now), step, *now});
+            } else if (*now != step) {
+                diff_.steps.push_back({Kind::renumbered, name_before(step), name_now(*now), step, *now});
+            }
+        }
+        for (std::uint8_t step = 0; step < kStepNumbers; ++step) {
+            if (now_.machine.used.test(step) && !match_.before_of[step])
+                diff_.steps.push_back({Kind::added, "", name_now(step), step, step});
+        }
+    }
+    bool has_same_name(std::uint8_t before, std::uint8_t now) const {
+        if (before_.symbols == nullptr || now_.symbols == nullptr) return true;
+        return name_before(before) == name_now(now);
+    }
+
+    void compare(std::uint8_t a, std::uint8_t b) {
+        compare_outputs(a, b);
+        std::vector<std::pair<Deed, Deed>> kinds;
+        std::vector<Truth> cases;
+        for (std::size_t c = 0; c < kCases; ++c) {
+            auto [before, now] = deeds(a, b, c);
+            if (before == now || is_only_entry(a, b, c, before, now)) continue;
+            const auto found = std::find(kinds.begin(), kinds.end(), std::pair(before, now));
+            const auto index = static_cast<std::size_t>(found - kinds.begin());
+            if (found == kinds.end()) {
+                kinds.emplace_back(std::move(before), std::move(now));
+                cases.emplace_back();
+            }
+            cases[index].set(c);
+        }
+        for (std::size_t i = 0; i < kinds.size(); ++i) {
+            diff_.reactions.push_back({name_now(b), condition_text(cases[i], {}, names_),
+                                       text_of(kinds[i].second, names_), text_of(kinds[i].first, names_)});
+        }
+    }
+
+    std::pair<Deed, Deed> deeds(std::uint8_t a, std::uint8_t b, std::size_t c) const {
+        const Outcome& x = before_.machine.steps[a].in(c);
+        const Outcome& y = now_.machine.steps[b].in(c);
+        std::pair<Deed, Deed> result{deed_of(x, c), deed_of(y, c)};
+        auto& [before, now] = result;
+        if (x.next != a) name_target_before(x.next, before);
+        if (y.next != b) {
+            now.next_id = y.next;
+            now.next = name_now(y.next);
+        }
+        if (b == 0) values_.level(before.orders, now.orders);
+        const auto settled = static_cast<std::uint8_t>(before_.settled(a, x) & now_.settled(b, y));
+        tell_outputs(before_.outputs_after(a, x), now_.outputs_after(b, y), settled, result);
+        return result;
+    }
+
+    static void tell_outputs(const KnownOutputs& before, const KnownOutputs& now, std::uint8_t settled,
+                             std::pair<Deed, Deed>& deeds) {
+        const auto differ =
+            static_cast<std::uint8_t>(((before.known ^ now.known) | (before.value ^ now.value)) & ~settled);
+        const auto tell = [differ](const KnownOutputs& outputs, Deed& deed) {
+            deed.outputs = {static_cast<std::uint8_t>(outputs.known & differ),
+                            static_cast<std::uint8_t>(outputs.value & differ)};
+            deed.kept_outputs = static_cast<std::uint8_t>(differ & ~outputs.known);
+        };
+        tell(before, deeds.first);
+        tell(now, deeds.second);
+    }
+
+    void name_target_before(std::uint8_t step, Deed& deed) const {
+        const auto now = match_.now_of[step];
+        deed.next_id = now ? *now : static_cast<int>(kStepNumbers) + step;
+        deed.next = now ? name_now(*now) : name_before(step);
+    }
+
+    /// Both lead to the same step, and differ only in what all ways into that step do.
+    bool is_only_entry(std::uint8_t a, std::uint8_t b, std::size_t c, Deed before, Deed now) {
+        if (before.next_id < 0 || before.next_id != now.next_id) return false;
+        before.orders = before_.without_entry(before_.machine.steps[a].in(c));
+        now.orders = now_.without_entry(now_.machine.steps[b].in(c));
+        if (b == 0) values_.level(before.orders, now.orders);
+        if (before != now) return false;
+        const auto target = static_cast<std::uint8_t>(now.next_id);
+        if (std::find(changed_entries_.begin(), changed_entries_.end(), target) == changed_entries_.end())
+            changed_entries_.push_back(target);
+        return true;
+    }
+
+    void add_entry(std::uint8_t a, std::uint8_t b) {
+        Deed before;
+        Deed now;
+        before.orders = before_.entries[a].orders;
+        now.orders = now_.entries[b].orders;
+        diff_.entries.push_back({name_now(b), "entered", text_of(now, names_), text_of(before, names_)});
+    }
+
+    void compare_outputs(std::uint8_t a, std::uint8_t b) {
+        const KnownOutputs& held_before = before_.machine.held[a];
+        const KnownOutputs& held_now = now_.machine.held[b];
+        const KnownOutputs& entered_before = before_.machine.entered_with[a];
+        const KnownOutputs& entered_now = now_.machine.entered_with[b];
+        add_outputs(b, "", held_before, held_now);
+        if (diff_.outputs.empty() || diff_.outputs.back().step != name_now(b))
+            add_outputs(b, "entered", entered_before, entered_now);
+    }
+
+    void add_outputs(std::uint8_t b, const std::string& when, const KnownOutputs& before,
+                     const KnownOutputs& now) {
+        const auto both = static_cast<std::uint8_t>(before.known & now.known);
+        if (((before.value ^ now.value) & both) == 0) return;
+        diff_.outputs.push_back({name_now(b), when, "OUT " + list_or_none(now.value & both, names_),
+                                 list_or_none(before.value & both, names_)});
+    }
+
+    Side before_;
+    Side now_;
+    const Symbols* names_;  ///< of signals
+    StepMatch match_;
+    PowerUpValues values_;
+    TableDiff diff_;
+    std::vector<std::uint8_t> changed_entries_;
+};
+
+}  // namespace
+
+bool TableDiff::same_behaviour() const {
+    const auto counts = [](const Step& step) {
+        return step.kind == Step::Kind::added || step.kind == Step::Kind::removed;
+    };
+    return values.empty() && outputs.empty() && entries.empty() && reactions.empty() &&
+           std::none_of(steps.begin(), steps.end(), counts);
+}
+
+TableDiff diff_of(const NamedTable& before, const NamedTable& now) {
+    return Differ(before, now).take();
+}
+
+}  // namespace nplc::seqc

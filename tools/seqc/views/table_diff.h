@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "seqc/seqc.h"
+
+namespace nplc::seqc {
+
+/// What one table does otherwise than another, in words.
+struct TableDiff {
+    struct Step {
+        enum class Kind : std::uint8_t { added, removed, renamed, renumbered };
+        Kind kind = Kind::added;
+        std::string before;  ///< its name; empty where there was none
+        std::string now;
+        std::uint8_t number_before = 0;
+        std::uint8_t number_now = 0;
+    };
+    /// A register that POWER_UP writes.
+    struct Value {
+        std::string reg;
+        std::optional<std::string> before;  ///< nothing: it was not written
+        std::optional<std::string> now;
+        std::string before_in_units;  ///< "1500 rpm"; empty where unknown
+        std::string now_in_units;
+    };
+    /// A step that does something else, whichever condition holds or when one does.
+    struct Change {
+        std::string step;
+        std::string when;  ///< the condition, "entered", or empty for its outputs
+        std::string now;
+        std::string before;
+    };
+
+    bool same_bytes = false;
+    std::string motor_before;  ///< only where both are known and differ
+    std::string motor_now;
+    std::vector<Step> steps;
+    std::vector<Value> values;
+    std::vector<Change> outputs;  ///< what is on in a step
+    std::vector<Change> entries;  ///< what every way into a step does now
+    std::vector<Change> reactions;
+
+    /// Names and numbers of steps do not count.
+    bool same_behaviour() const;
+};
+
+struct NamedTable {
+    std::span<const std::uint8_t> table;
+    const Symbols* symbols = nullptr;
+};
+
+TableDiff diff_of(const NamedTable& before, const NamedTable& now);
+
+std::string text_of(const TableDiff& diff);
+std::string json_of(const TableDiff& diff);
+
+}  // namespace nplc::seqc
