@@ -1,15 +1,15 @@
 // report, graph and diff as a user runs them.
 #include <algorithm>
 
-#include "cli_fixture.h"
+#include "cli_support.h"
 
 namespace nplc::seqc {
 namespace {
 
-class ViewsCli : public test::CliTest {
+class ViewsCli : public test::Cli {
   protected:
     void SetUp() override {
-        CliTest::SetUp();
+        Cli::SetUp();
         write("a.seq", text("1000"));
         write("b.seq", text("2000"));
         write("bad.seq", "PROGRAM P STEP S: END_STEP\n");
