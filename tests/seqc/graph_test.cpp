@@ -65,20 +65,21 @@ TEST(GraphModel, FewWaysOnErrorAreArrows) {
     EXPECT_TRUE(model.arrows[1].on_error);
 }
 
+// The CRC-32 is zlib's over C0 00 00 01 80 01 00 00, C1 01 01 00 65 00 00 00, 3F 00 00 00 00 00 00 00.
 TEST(Graph, IsTheTextWrittenByHand) {
     const Compilation small = compiled(
-        "PROGRAM Tiny MOTOR MAC50; VAR_OUTPUT Lamp AT OUT0; END_VAR POWER_UP NEXT := On; END_POWER_UP\n"
-        "STEP On: OWN ERROR; OUT Lamp; IF IN0 THEN STOP; NEXT := POWER_UP; END_IF END_STEP END_PROGRAM");
+        "PROGRAM Tiny MOTOR MAC50; VAR_OUTPUT Lamp AT OUT0; END_VAR POWER_UP NEXT := Lit; END_POWER_UP\n"
+        "STEP Lit: OWN ERROR; OUT Lamp; IF IN0 THEN STOP; NEXT := POWER_UP; END_IF END_STEP END_PROGRAM");
     const std::string expected =
         R"(digraph "Tiny" {
-  graph [size="7.3,10.7", margin=0.2, nodesep=0.4, ranksep=0.4, labelloc=b, fontname="Helvetica", fontsize=9, label=<2 steps, 3 terms, 24 bytes>];
+  graph [size="7.3,10.7", margin=0.2, nodesep=0.4, ranksep=0.4, labelloc=b, fontname="Helvetica", fontsize=9, label=<2 steps, 3 terms, CRC-32 FF6E6CDD>];
   node [fontname="Helvetica", fontsize=11, shape=box, style=filled, fillcolor="#ffffff", color="#333333", margin="0.08,0.04"];
   edge [fontname="Helvetica", fontsize=10, color="#333333", arrowsize=0.7];
   subgraph cluster_table {
     graph [peripheries=0, fontsize=16, labelloc=t, label=<<B>Tiny</B>  MAC50>];
     { rank=min; s0; }
     s0 [label=<<TABLE BORDER="0" CELLBORDER="0" CELLSPACING="0" CELLPADDING="1"><TR><TD><FONT COLOR="#777777">0</FONT>  <B>POWER_UP</B></TD></TR></TABLE>>, peripheries=2];
-    s1 [label=<<TABLE BORDER="0" CELLBORDER="0" CELLSPACING="0" CELLPADDING="1"><TR><TD><FONT COLOR="#777777">1</FONT>  <B>On</B></TD></TR><HR/><TR><TD ALIGN="LEFT">OUT Lamp</TD></TR></TABLE>>];
+    s1 [label=<<TABLE BORDER="0" CELLBORDER="0" CELLSPACING="0" CELLPADDING="1"><TR><TD><FONT COLOR="#777777">1</FONT>  <B>Lit</B></TD></TR><HR/><TR><TD ALIGN="LEFT">OUT Lamp</TD></TR></TABLE>>];
     s0 -> s1 [label=<<TABLE BORDER="0" CELLBORDER="0" CELLSPACING="0" CELLPADDING="1"><TR><TD ALIGN="LEFT">always</TD></TR></TABLE>>];
     s1 -> s0 [label=<<TABLE BORDER="0" CELLBORDER="0" CELLSPACING="0" CELLPADDING="1"><TR><TD ALIGN="LEFT">IN0</TD></TR><TR><TD ALIGN="LEFT"><FONT COLOR="#1f4e79">/ STOP</FONT></TD></TR></TABLE>>];
   }
@@ -121,6 +122,8 @@ TEST(DotText, BreaksLinesBetweenConditionsOnly) {
     EXPECT_EQ(wrapped("V1 := 3146; A1 := 81; STOP", 23),
               (std::vector<std::string>{"V1 := 3146; A1 := 81;", "STOP"}));
     EXPECT_EQ(wrapped("a, b", 99), std::vector<std::string>{"a, b"});
+    EXPECT_EQ(wrapped("Guard OR NOT INPOS AND TIMER.Q", 26),
+              (std::vector<std::string>{"Guard", "OR NOT INPOS AND TIMER.Q"}));
     EXPECT_TRUE(wrapped("", 10).empty());
 }
 

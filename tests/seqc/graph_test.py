@@ -16,6 +16,7 @@ SEQC = ""
 EXAMPLES = Path()
 SVG = "{http://www.w3.org/2000/svg}"
 SEED = 37
+LETTER = 0.45  # of the font's size: what a letter of Helvetica takes at the least, over a few of them
 
 
 def draw(file):
@@ -59,12 +60,12 @@ class Graph(unittest.TestCase):
             box = group.find(f"{SVG}polygon") if group.get("class") == "node" else None
             for text in group.findall(f".//{SVG}text"):
                 x, y, size = (float(text.get(key)) for key in ("x", "y", "font-size"))
-                # A letter is at least 0.45 of its size wide on average in Helvetica.
-                end = x + 0.45 * size * len("".join(text.itertext()))
-                if text.get("text-anchor") == "middle":
-                    x, end = 2 * x - end + (end - x) / 2, x + (end - x) / 2
-                within = extent(box) if box is not None else (left, top, right, bottom)
                 label = "".join(text.itertext())
+                width = LETTER * size * len(label)
+                if text.get("text-anchor") == "middle":
+                    x -= width / 2
+                end = x + width
+                within = extent(box) if box is not None else (left, top, right, bottom)
                 self.assertGreaterEqual(x, within[0], label)
                 self.assertLessEqual(end, within[2], label)
                 self.assertGreaterEqual(y, within[1], label)
@@ -83,6 +84,17 @@ class Graph(unittest.TestCase):
                     self.assertIn(step, texts)
                 self.assertIn("POWER_UP", texts)
                 self.assertIn(re.search(r"PROGRAM\s+(\w+)", source)[1], texts)
+
+    def test_pictures_beside_the_examples_are_true(self):
+        """A picture of a program shows the CRC-32 of its table; the other pictures are traces."""
+        pictures = 0
+        for picture in sorted(EXAMPLES.glob("*.svg")):
+            shown = re.search("CRC-32 ([0-9A-F]{8})", "".join(ElementTree.parse(picture).getroot().itertext()))
+            if shown:
+                pictures += 1
+                now = "".join(draw(picture.with_suffix(".seq")).itertext())
+                self.assertIn(shown[0], now, f"draw it anew: seqc graph {picture.stem}.seq -o {picture.name}")
+        self.assertGreaterEqual(pictures, 1)
 
     def test_random_tables(self):
         chance = random.Random(SEED)

@@ -83,10 +83,13 @@ std::string markup(std::string_view text) {
 
 std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
     std::vector<std::string> lines;
+    const bool fits = characters_in(text) <= width;
     while (!text.empty()) {
         const std::string_view piece = text.substr(0, piece_length(text));
         text.remove_prefix(piece.size());
-        if (lines.empty() || characters_in(lines.back()) + characters_in(piece) > width) lines.emplace_back();
+        if (lines.empty() || (!fits && piece.starts_with("OR ")) ||
+            characters_in(lines.back()) + characters_in(piece) > width)
+            lines.emplace_back();
         lines.back() += piece;
     }
     for (std::string& line : lines) {

@@ -59,7 +59,7 @@ std::string node(const GraphModel::Box& box) {
     std::string rest;
     for (const std::string& output : box.outputs) rest += rows(output, kBoxWidth);
     rest += action_rows(box.entry, kBoxWidth);
-    for (const GraphModel::Way& way : box.every_scan) rest += way_rows("EVERY_SCAN ", way, kBoxWidth);
+    for (const GraphModel::Way& way : box.every_scan) rest += way_rows("EVERY_SCAN, ", way, kBoxWidth);
     if (!rest.empty()) content += "<HR/>" + rest;
     return fmt::format("    s{} [label={}{}{}];\n", box.step, table_of(content),
                        box.step == 0 ? ", peripheries=2" : "",

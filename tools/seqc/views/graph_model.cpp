@@ -203,8 +203,10 @@ GraphModel graph_model_of(std::span<const std::uint8_t> table, const Symbols* sy
     const bool named = symbols != nullptr && !symbols->program.empty();
     model.title = named ? symbols->program : title;
     if (symbols != nullptr) model.motor = registers::name_of(symbols->motor);
-    model.footer = fmt::format("{} steps, {} terms, CRC-32 {:08X}", machine.used.count(), machine.terms + 1,
-                               base::crc32(table));
+    const std::size_t steps = machine.used.count();
+    const std::size_t terms = machine.terms + 1;
+    model.footer = fmt::format("{} step{}, {} term{}, CRC-32 {:08X}", steps, steps == 1 ? "" : "s", terms,
+                               terms == 1 ? "" : "s", base::crc32(table));
     Builder(machine, symbols).build(model);
     return model;
 }

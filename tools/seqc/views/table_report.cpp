@@ -13,7 +13,7 @@ TableReport::Transition transition_of(std::uint8_t from, const Reaction& reactio
     TableReport::Transition transition;
     transition.from = from;
     transition.to = reaction.outcome.next;
-    transition.condition = condition_text(reaction.when, {}, symbols);
+    transition.when = reaction.when;
     for (const auto& order : reaction.outcome.orders) transition.orders.push_back(order_text(order, symbols));
     transition.line = line_use(reaction.outcome.orders, safe);
     return transition;
@@ -36,11 +36,8 @@ TableReport report_of(std::span<const std::uint8_t> table, const Symbols* symbol
                       const LineSettings& settings) {
     const Machine machine = machine_of(table);
     TableReport report;
-    if (symbols != nullptr) {
-        report.program = symbols->program;
-        report.motor = registers::name_of(symbols->motor);
-        report.has_power_up = !symbols->steps[0].empty();
-    }
+    if (symbols != nullptr) report.symbols = *symbols;
+    report.has_power_up = symbols != nullptr && !symbols->steps[0].empty();
     report.settings = settings;
     report.terms = machine.terms + 1;
     for (std::uint8_t step = 0; step < sequencer::kEndOfTable; ++step)

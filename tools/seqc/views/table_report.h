@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,14 +23,13 @@ struct TableReport {
     struct Transition {
         std::uint8_t from = 0;
         std::uint8_t to = 0;  ///< the same as `from`: acts in every scan while it stays
-        std::string condition;
+        Truth when;
         std::vector<std::string> orders;
         LineUse line;
     };
 
-    std::string program;        ///< empty where unknown
-    std::string motor;          ///< empty where unknown
-    bool has_power_up = false;  ///< step 0 is the hidden one of a program
+    std::optional<Symbols> symbols;  ///< as given
+    bool has_power_up = false;       ///< step 0 is the hidden one of a program
     LineSettings settings;
     std::size_t terms = 0;  ///< the end included
     std::vector<Step> steps;

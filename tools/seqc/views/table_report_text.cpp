@@ -31,6 +31,14 @@ std::size_t free_terms(const TableReport& report) {
     return kTermsEverywhere - std::min(kTermsEverywhere, report.terms);
 }
 
+std::string_view motor_of(const TableReport& report) {
+    return report.symbols ? registers::name_of(report.symbols->motor) : "";
+}
+
+std::string condition_of(const Transition& transition, const TableReport& report) {
+    return condition_text(transition.when, {}, report.symbols ? &*report.symbols : nullptr);
+}
+
 const std::string& name_of(const TableReport& report, std::uint8_t step) {
     static const std::string kNone = "step 63";
     for (const Step& known : report.steps) {
@@ -84,7 +92,7 @@ std::string way_text(const Transition& transition, const TableReport& report) {
     const bool stays = transition.from == transition.to;
     return fmt::format("{:38}{}{}, {}\n", "", name_of(report, transition.from),
                        stays ? " in every scan" : " -> " + name_of(report, transition.to),
-                       transition.condition);
+                       condition_of(transition, report));
 }
 
 /// What the transition sends, and all that send the same.
@@ -139,10 +147,14 @@ std::string line_text(const TableReport& report) {
 Json json_of(const Transition& transition, const TableReport& report) {
     const auto ms = [&](std::uint32_t characters) { return milliseconds(characters, report.settings.baud); };
     const LineUse& line = transition.line;
-    return {{"from", transition.from},           {"to", transition.to},
-            {"condition", transition.condition}, {"orders", transition.orders},
-            {"messages", line.messages},         {"characters", line.characters},
-            {"line_ms", ms(line.characters)},    {"until_done_ms", ms(line.until_done)},
+    return {{"from", transition.from},
+            {"to", transition.to},
+            {"condition", condition_of(transition, report)},
+            {"orders", transition.orders},
+            {"messages", line.messages},
+            {"characters", line.characters},
+            {"line_ms", ms(line.characters)},
+            {"until_done_ms", ms(line.until_done)},
             {"at_most_ms", ms(line.at_most)}};
 }
 
@@ -150,7 +162,7 @@ Json json_of(const Transition& transition, const TableReport& report) {
 
 std::string text_of(const TableReport& report) {
     std::string text;
-    if (!report.program.empty()) text = fmt::format("program {}, {}\n", report.program, report.motor);
+    if (report.symbols) text = fmt::format("program {}, {}\n", report.symbols->program, motor_of(report));
     return text + room_text(report) + steps_text(report) + line_text(report);
 }
 
@@ -161,13 +173,14 @@ std::string summary_of(const TableReport& report) {
     if (later == report.transitions.end()) return text;
     const auto ms = [&](std::uint32_t characters) { return milliseconds(characters, report.settings.baud); };
     return text + fmt::format("longest after it: {} -> {}, {}: {:.2f} to {:.2f} ms\n",
-                              name_of(report, later->from), name_of(report, later->to), later->condition,
-                              ms(later->line.until_done), ms(later->line.at_most));
+                              name_of(report, later->from), name_of(report, later->to),
+                              condition_of(*later, report), ms(later->line.until_done),
+                              ms(later->line.at_most));
 }
 
 std::string json_of(const TableReport& report) {
-    Json json{{"program", report.program},
-              {"motor", report.motor},
+    Json json{{"program", report.symbols ? report.symbols->program : ""},
+              {"motor", motor_of(report)},
               {"steps_used", steps_used(report)},
               {"steps_most", most_steps(report)},
               {"terms", report.terms},
