@@ -46,15 +46,18 @@ Symbols names_from(Bytes bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const Bytes bytes(data, size);
-    round_trip(bytes, {});
-    if (size == 0) return 0;
+    if (size == 0 || data[0] % 2 != 0) {
+        round_trip(bytes, {});
+        return 0;
+    }
     std::vector<std::uint8_t> table(data + 1, data + size - (size - 1) % 8);
     table.insert(table.end(), {0x3F, 0, 0, 0, 0, 0, 0, 0});
     const Symbols symbols = names_from(bytes.subspan(1));
     DecompileOptions options;
     options.origin = std::string(bytes.begin(),
                                  bytes.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(size, 9)));
-    if (data[0] % 8 < 5) options.motor = static_cast<nplc::registers::Model>(data[0] % 8);
+    const int motor = data[0] / 2 % 8;
+    if (motor < 5) options.motor = static_cast<nplc::registers::Model>(motor);
     if (data[0] >= 0x80) options.symbols = &symbols;
     round_trip(table, options);
     return 0;

@@ -61,7 +61,7 @@ Term canonical(Random& random, unsigned step, unsigned steps) {
 }
 
 TEST(DecompileRandom, AnyBytes) {
-    for (unsigned seed = 1; seed <= 400; ++seed) {
+    for (unsigned seed = 1; seed <= 150; ++seed) {
         Random random(seed);
         Bytes table;
         for (unsigned n = random() % 30; n > 0; --n) add(table, random_bytes(random));
@@ -73,19 +73,19 @@ TEST(DecompileRandom, AnyBytes) {
 }
 
 TEST(DecompileRandom, CanonicalTermsStepByStepNeedNoBytes) {
-    for (unsigned seed = 1; seed <= 400; ++seed) {
+    for (unsigned seed = 1; seed <= 150; ++seed) {
         Random random(seed);
         Bytes table;
         const unsigned steps = 1 + random() % 8;
         for (unsigned step = 0; step < steps; ++step) {
             for (unsigned n = random() % 6; n > 0; --n) add(table, canonical(random, step, steps));
         }
-        EXPECT_EQ(round_trip(ended(table), seed).byte_terms, table.empty() ? 0U : 0U) << seed;
+        EXPECT_EQ(round_trip(ended(table), seed).byte_terms, 0U) << seed;
     }
 }
 
 TEST(DecompileRandom, InterleavedStepsNeedNoBytesEither) {
-    for (unsigned seed = 1; seed <= 300; ++seed) {
+    for (unsigned seed = 1; seed <= 80; ++seed) {
         Random random(seed);
         Bytes table;
         const unsigned steps = 1 + random() % 62;
@@ -96,7 +96,7 @@ TEST(DecompileRandom, InterleavedStepsNeedNoBytesEither) {
 }
 
 TEST(DecompileRandom, StepSixtyTwoAndBadBytesAmongGoodOnes) {
-    for (unsigned seed = 1; seed <= 300; ++seed) {
+    for (unsigned seed = 1; seed <= 80; ++seed) {
         Random random(seed);
         Bytes table;
         for (unsigned n = 1 + random() % 20; n > 0; --n) {
@@ -112,7 +112,7 @@ TEST(DecompileRandom, StepSixtyTwoAndBadBytesAmongGoodOnes) {
 TEST(DecompileRandom, CompiledProgramsComeBackAsBranches) {
     std::size_t structured = 0;
     std::size_t others = 0;
-    for (unsigned seed = 1; seed <= 200; ++seed) {
+    for (unsigned seed = 1; seed <= 100; ++seed) {
         Random random(seed);
         const auto condition = [&] {
             const char* const literals[] = {"A", "NOT A", "B",       "NOT B",    "C",

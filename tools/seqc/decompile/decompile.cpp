@@ -45,8 +45,9 @@ class Decompiler {
             learn(bans);
             if (bans == before) break;
         }
-        if (attempt(only_terms())) return result_;
-        return bytes_alone();
+        bans = only_terms();
+        bans.given_names = true;
+        return attempt(bans) ? result_ : bytes_alone();
     }
 
   private:
@@ -56,13 +57,11 @@ class Decompiler {
     }
     bool motor_is_sure() const { return options_.motor || options_.symbols != nullptr; }
 
-    static Bans only_terms() {
-        Bans bans;
+    static Bans only_terms(Bans bans = {}) {
         bans.shape.set();
         bans.on_error = true;
         bans.power_up = true;
         bans.entry.set();
-        bans.given_names = true;
         return bans;
     }
 
@@ -112,7 +111,7 @@ class Decompiler {
                 bans.shape.set(passage.step);
                 return;
             case Passage::Kind::rest:
-                bans = only_terms();
+                bans = only_terms(bans);
                 return;
         }
     }
@@ -206,15 +205,15 @@ std::size_t length_of(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-Decompilation decompile(std::span<const std::uint8_t> bytes, const DecompileOptions& options) {
-    const std::size_t length = length_of(bytes);
+Decompilation decompile(std::span<const std::uint8_t> table, const DecompileOptions& options) {
+    const std::size_t length = length_of(table);
     if (length == 0) {
         Decompilation result;
-        result.error = disassemble(bytes, options.origin).error;
+        result.error = disassemble(table, options.origin).error;
         return result;
     }
-    Decompilation result = Decompiler(bytes.first(length), options).run();
-    result.trailing_bytes = bytes.size() - length;
+    Decompilation result = Decompiler(table.first(length), options).run();
+    result.trailing_bytes = table.size() - length;
     return result;
 }
 

@@ -104,7 +104,7 @@ std::optional<Action> Drafter::voted_fault(const Surroundings& around) const {
     return *most->first;
 }
 
-Draft Drafter::draft(const Bans& bans) const {
+Draft Drafter::draft(const Bans& bans) {
     Draft draft;
     draft.around.outputs = voted_outputs();
     if (!bans.on_error) draft.around.fault = voted_fault(draft.around);
@@ -122,7 +122,14 @@ Draft Drafter::draft(const Bans& bans) const {
     return draft;
 }
 
-void Drafter::find_shapes(const Bans& bans, Draft& draft) const {
+const std::optional<Shape>& Drafter::shape_of(std::size_t index, const Surroundings& around) {
+    const auto key = std::tuple(index, around.fault.has_value(), around.outputs[0]);
+    const auto known = found_.find(key);
+    if (known != found_.end()) return known->second;
+    return found_[key] = find_shape(layout_.steps[index], groups_[index], around);
+}
+
+void Drafter::find_shapes(const Bans& bans, Draft& draft) {
     draft.shapes.assign(layout_.steps.size(), std::nullopt);
     std::size_t zero = layout_.steps.size();
     const bool zero_outside = std::any_of(layout_.outside.begin(), layout_.outside.end(),
@@ -134,7 +141,7 @@ void Drafter::find_shapes(const Bans& bans, Draft& draft) const {
             draft.power_up = find_power_up(part, groups_[i], draft.around);
             if (draft.power_up) continue;
         }
-        if (!bans.shape.test(part.number)) draft.shapes[i] = find_shape(part, groups_[i], draft.around);
+        if (!bans.shape.test(part.number)) draft.shapes[i] = shape_of(i, draft.around);
     }
     // A step with the number 0 writes its OUT by itself, so it can have none when it is TERMs.
     const bool must_be_silent =

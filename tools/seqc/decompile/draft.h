@@ -2,7 +2,9 @@
 
 #include <array>
 #include <bitset>
+#include <map>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "decompile/layout.h"
@@ -34,18 +36,22 @@ struct Draft {
 class Drafter {
   public:
     Drafter(const Layout& layout, registers::Model motor);
-    Draft draft(const Bans& bans) const;
+    Draft draft(const Bans& bans);
 
   private:
     std::vector<std::uint8_t> voted_outputs() const;
     std::optional<Action> voted_fault(const Surroundings& around) const;
-    void find_shapes(const Bans& bans, Draft& draft) const;
+    void find_shapes(const Bans& bans, Draft& draft);
+    const std::optional<Shape>& shape_of(std::size_t index, const Surroundings& around);
     void find_entries(const Bans& bans, Draft& draft) const;
     std::vector<const Action*> ways_into(std::uint8_t step, const Draft& draft) const;
     void note_outputs(Draft& draft) const;
 
     const Layout& layout_;
     std::vector<std::vector<Group>> groups_;  ///< as in Layout::steps
+    /// Found already: by place in Layout::steps, with or without ON ERROR, and OUT of step 0. All else in
+    /// the surroundings is the same in all drafts.
+    std::map<std::tuple<std::size_t, bool, std::uint8_t>, std::optional<Shape>> found_;
 };
 
 }  // namespace nplc::seqc

@@ -50,8 +50,8 @@ Group group_of(std::span<const TermBytes> terms, registers::Model model) {
 
 }  // namespace
 
-Truth cases_of(sequencer::TermView bytes) {
-    const sequencer::Condition condition = sequencer::decode(bytes).condition;
+Truth cases_of(sequencer::TermView term) {
+    const sequencer::Condition condition = sequencer::decode(term).condition;
     Truth cases = always();
     for (std::size_t bit = kInput0; bit <= kErrorBit; ++bit) {
         if (bit != kErrorBit && ((condition.care >> bit) & 1) == 0) continue;

@@ -98,13 +98,17 @@ class ShapeSearch {
     std::optional<Shape> run() {
         const std::size_t peaceful = std::min(peaceful_groups(groups_), kMostGroups);
         for (std::size_t left = 0; left < peaceful && left <= kMostLeft; left = left == 0 ? 1 : 2 * left) {
-            if (auto plan = plan_of(peaceful - left))
-                return Shape{std::move(*plan), terms_in(peaceful - left)};
+            if (auto shape = shape_of(peaceful - left)) return shape;
         }
-        return std::nullopt;
+        return peaceful > 1 ? shape_of(1) : std::nullopt;
     }
 
   private:
+    std::optional<Shape> shape_of(std::size_t count) {
+        std::optional<StepPlan> plan = plan_of(count);
+        return plan ? std::optional(Shape{std::move(*plan), terms_in(count)}) : std::nullopt;
+    }
+
     std::size_t terms_in(std::size_t count) const {
         return count == groups_.size() ? part_.terms.size() : groups_[count].first;
     }

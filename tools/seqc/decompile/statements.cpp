@@ -120,9 +120,9 @@ std::string outputs_text(std::uint8_t outputs, const Naming& naming) {
     return text + ";";
 }
 
-Line term_line(sequencer::TermView view, bool inside, const Speech& speech) {
+Line term_line(sequencer::TermView term, bool inside, const Speech& speech) {
     sequencer::TermBytes bytes{};
-    std::copy(view.begin(), view.end(), bytes.begin());
+    std::copy(term.begin(), term.end(), bytes.begin());
     if (sequencer::is_end(bytes)) return {byte_line(bytes), describe(bytes, nullptr)};
     const std::string_view why = obstacle(bytes, speech.motor);
     if (!why.empty())

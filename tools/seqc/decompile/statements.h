@@ -36,6 +36,6 @@ std::string register_text(const registers::Register& reg, const Speech& speech);
 
 /// The line of one term: in symbols, or as bytes with the reason and the meaning in a comment. `inside`: in
 /// its step, so that it needs no name.
-Line term_line(sequencer::TermView bytes, bool inside, const Speech& speech);
+Line term_line(sequencer::TermView term, bool inside, const Speech& speech);
 
 }  // namespace nplc::seqc

@@ -9,7 +9,6 @@ namespace {
 
 using ast::Expression;
 using ast::Statement;
-using sequencer::Condition;
 using sequencer::Term;
 using Kind = Expression::Kind;
 
