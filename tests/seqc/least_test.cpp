@@ -1,5 +1,6 @@
-// The claim: a step whose terms look at no more than two inputs and the timer takes as few terms as any table
-// that does the same, whatever its tricks. Every table of fewer terms is tried, from the last term back.
+// The claim: a step that looks at no more than two inputs and either a third one or the timer, has at most
+// four branches, and sends no order twice in one branch, takes as few terms as any table that does the same,
+// whatever its tricks. Every table of fewer terms is tried, from the last term back.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -75,6 +75,8 @@ Compilation compile(std::string_view source) {
     if (!plan.steps.empty() && plan.steps.front().number == 0)
         result.symbols.steps[0] = plan.steps.front().name;
     for (const StepPlan& step : plan.steps) result.steps.push_back({step.number, step.span, step.outputs});
+    std::sort(result.steps.begin(), result.steps.end(),
+              [](const StepOrigin& a, const StepOrigin& b) { return a.number < b.number; });
     if (syntax_sound && !checks.has_errors()) {
         check_motor_state(plan, result.symbols.motor, checks);
         check_invisible_limits(plan, result.symbols.motor, checks);

@@ -13,14 +13,14 @@ namespace nplc::seqc::cli {
 namespace {
 
 struct Options {
-    std::string table;
+    InputFile table;
     std::string output;
     std::string motor;
 };
 
 int decompile(const Options& options) {
     DecompileOptions wanted;
-    wanted.origin = std::filesystem::path(options.table).filename().string();
+    wanted.origin = std::filesystem::path(options.table.file).filename().string();
     if (!options.motor.empty()) {
         wanted.motor = registers::model_of(options.motor);
         if (!wanted.motor) {
@@ -30,7 +30,7 @@ int decompile(const Options& options) {
     }
     const Input input = read_input(options.table);
     if (input.exit_code != kOk) return input.exit_code;
-    if (!options.output.empty() && is_same_file(options.output, options.table))
+    if (!options.output.empty() && is_same_file(options.output, input.file))
         return file_problem(fmt::format("'{}' is the table itself: name another output", options.output));
     if (input.symbols) wanted.symbols = &*input.symbols;
     const Decompilation result = seqc::decompile(input.table, wanted);
@@ -43,8 +43,11 @@ void add_decompile(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<Options>();
     CLI::App& command = *app.add_subcommand(
         "decompile", "Turn a table into a readable program that compiles to the same bytes");
-    command.add_option("table", options->table, "The raw table, F.bin: terms of 8 bytes up to STATE 63")
+    command
+        .add_option("table", options->table.file,
+                    "The table, F.bin or F.hex: terms of 8 bytes up to STATE 63")
         ->required();
+    add_symbols_option(command, options->table);
     command.add_option("-o,--output", options->output, "Write to a file instead of standard output (-)");
     command.add_option("--motor", options->motor, "The motor the table is for, such as MAC140");
     command.callback([options, &exit_code] { exit_code = decompile(*options); });
