@@ -92,6 +92,14 @@ TEST_F(Cli, DecompilesAndCompilesToTheSame) {
     EXPECT_NE(read("out").find("STEP S:"), std::string::npos) << "a program's own names";
 }
 
+TEST_F(Cli, AStepWithTheNumberNoughtCounts) {
+    write("a.seq",
+          "PROGRAM P STEP S AT 0: OWN ERROR; IF IN0 THEN NEXT := T; END_IF END_STEP STEP T: OWN ERROR; "
+          "END_STEP END_PROGRAM\n");
+    EXPECT_EQ(run("build a.seq"), 0) << read("err");
+    EXPECT_TRUE(read("out").starts_with("a.bin: 2 steps of 61, ")) << read("out");
+}
+
 TEST_F(Cli, DecompileRefusesWhatItCannotDo) {
     write("a.seq", kGood);
     EXPECT_EQ(run("build a.seq"), 0);

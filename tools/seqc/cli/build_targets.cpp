@@ -130,8 +130,11 @@ bool has_room(const BuildTargets& targets, std::size_t bytes) {
 std::string summary(const BuildTargets& targets, const Compilation& compilation) {
     if (is_device(targets.table)) return {};
     std::string text = targets.table + ": ";
-    if (!compilation.steps.empty())
-        text += fmt::format("{} of {}, ", counted(compilation.steps.size() - 1, "step"), kMostSteps);
+    const bool has_power_up = compilation.symbols.steps[0] == "POWER_UP";
+    if (!compilation.steps.empty()) {
+        const std::size_t named = compilation.steps.size() - (has_power_up ? 1 : 0);
+        text += fmt::format("{} of {}, ", counted(named, "step"), kMostSteps);
+    }
     const std::size_t bytes = compilation.table.size();
     text += fmt::format("{}, {} bytes", counted(bytes / sequencer::kTermBytes, "term"), bytes);
     if (targets.base_address != 0) text += fmt::format(" at {:X}h", targets.base_address);

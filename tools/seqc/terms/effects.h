@@ -38,7 +38,6 @@ struct Effects {
 
 Effects effects_of(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of);
 
-
 /// The terms that carry one effect under one condition: commands in order, each FastMAC-format one with the
 /// same next step and outputs, since the last of them wins.
 void append_terms(const Effect& effect, const sequencer::Condition& condition,
