@@ -83,6 +83,15 @@ TEST(TableDiff, AValueOfPowerUp) {
     EXPECT_EQ(text({{"1500 rpm;", "1500 rpm; Soft AT A1 := 81;"}}), "A1: written now: 81 (20117 rpm/s)\n");
 }
 
+// 1 rev = 5 mm: 60 mm are 12 rev, 12 x 4096 = 49152; 50 mm are 40960.
+TEST(TableDiff, PositionsInTheProgramsOwnUnit) {
+    const std::string own = machine({{"MOTOR MAC140;", "MOTOR MAC140; SCALE 1 rev = 5 mm;"},
+                                     {"1500 rpm;", "1500 rpm; Place AT P2 := 60 mm;"}});
+    std::string moved = own;
+    moved.replace(moved.find("60 mm"), 5, "50 mm");
+    EXPECT_EQ(text_of(diff(own, moved)), "P2: 49152 -> 40960 (60 mm -> 50 mm)\n");
+}
+
 TEST(TableDiff, WhatASwitchDoes) {
     EXPECT_EQ(
         text({{"IF Guard THEN NEXT", "IF Guard THEN HOME; NEXT"}}),
