@@ -107,6 +107,11 @@ bool is_stale_socket(const std::string& path, const sockaddr_un& address) {
     return ::connect(probe.get(), generic(address), sizeof address) != 0 && errno == ECONNREFUSED;
 }
 
+/// These lines know no password: nobody outside of this machine may move a motor.
+bool is_loopback(const sockaddr_in& address) {
+    return ntohl(address.sin_addr.s_addr) >> 24 == IN_LOOPBACKNET;
+}
+
 std::optional<sockaddr_in> tcp_address(const std::string& where) {
     const auto colon = where.rfind(':');
     if (colon == std::string::npos) return std::nullopt;
@@ -119,7 +124,7 @@ std::optional<sockaddr_in> tcp_address(const std::string& where) {
     address.sin_port = htons(port);
     const bool sound = error == std::errc() && end == digits.data() + digits.size() && !digits.empty() &&
                        ::inet_pton(AF_INET, host.c_str(), &address.sin_addr) == 1;
-    return sound ? std::optional(address) : std::nullopt;
+    return sound && is_loopback(address) ? std::optional(address) : std::nullopt;
 }
 
 std::string tcp_name(int listener) {
@@ -157,7 +162,8 @@ ByteServer::Opened open_unix_server(const std::string& path) {
 
 ByteServer::Opened open_tcp_server(const std::string& where) {
     const auto address = tcp_address(where);
-    if (!address) return {nullptr, "tcp:" + where + ": write tcp:127.0.0.1:PORT, PORT 0..65535"};
+    if (!address)
+        return {nullptr, "tcp:" + where + ": write tcp:127.0.0.1:PORT (this machine only), PORT 0..65535"};
     FileDescriptor listener = make_socket(AF_INET);
     const int on = 1;
     if (listener) ::setsockopt(listener.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);

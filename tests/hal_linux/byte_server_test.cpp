@@ -208,7 +208,7 @@ TEST_F(ByteServerTest, TcpPassesEveryByteAndTellsItsPort) {
 TEST_F(ByteServerTest, WhatIsNoEndpointIsNamed) {
     for (const char* wrong :
          {"", "pty", "pty:", "serial:/dev/x", "tcp:127.0.0.1", "tcp:127.0.0.1:", "tcp:1.2.3:5",
-          "tcp:127.0.0.1:65536", "tcp:127.0.0.1:12x", "tcp:host:80", "/dev/ttyS0"}) {
+          "tcp:127.0.0.1:65536", "tcp:127.0.0.1:12x", "tcp:host:80", "tcp:0.0.0.0:9000", "/dev/ttyS0"}) {
         const auto opened = ByteServer::open(wrong);
         EXPECT_EQ(opened.server, nullptr) << wrong;
         EXPECT_NE(opened.error.find(wrong), std::string::npos) << opened.error;
