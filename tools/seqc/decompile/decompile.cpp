@@ -10,6 +10,7 @@
 #include "decompile/naming.h"
 #include "decompile/vocabulary.h"
 #include "decompile/writer.h"
+#include "seqc/format.h"
 #include "sequencer/term.h"
 
 namespace nplc::seqc {
@@ -40,14 +41,14 @@ class Decompiler {
         Bans bans;
         if (table_.size() / sequencer::kTermBytes > kTermsEverywhere) bans = only_terms();
         for (std::size_t i = 0; i < kMostDrafts; ++i) {
-            if (attempt(bans)) return result_;
+            if (attempt(bans)) return in_one_style();
             const Bans before = bans;
             learn(bans);
             if (bans == before) break;
         }
         bans = only_terms();
         bans.given_names = true;
-        return attempt(bans) ? result_ : bytes_alone();
+        return attempt(bans) ? in_one_style() : bytes_alone();
     }
 
   private:
@@ -75,6 +76,12 @@ class Decompiler {
         result_.text = manuscript_.text;
         return compilation_.ok &&
                std::equal(compilation_.table.begin(), compilation_.table.end(), table_.begin(), table_.end());
+    }
+
+    Decompilation in_one_style() {
+        Formatted formatted = format_program(result_.text);
+        if (formatted.ok) result_.text = std::move(formatted.text);
+        return result_;
     }
 
     /// What the compiler refused, or made other bytes of, is written in a plainer way next time.
