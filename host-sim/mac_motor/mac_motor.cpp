@@ -5,11 +5,6 @@ namespace {
 
 constexpr std::size_t kHistory = 16;
 
-/// Of the bare motor at full torque, 1/16 counts/sample^2; ours: 869,000 rpm/s, and 695,000 rpm/s on MAC800.
-constexpr std::int32_t full_acceleration_16(registers::Model model) {
-    return is_mac800(model) ? 2500 : 3500;
-}
-
 protocol::fastmac::RegisterCode code_of(const MacMotorOptions& options) {
     using protocol::fastmac::RegisterCode;
     return options.old_register_codes ? RegisterCode::older_example : RegisterCode::format_list;
@@ -21,8 +16,7 @@ MacMotor::MacMotor(registers::Model model, const MacMotorOptions& options)
     : options_(options),
       memory_(model),
       stored_(model),
-      plant_(full_acceleration_16(model), options.load),
-      regulator_(full_acceleration_16(model)),
+      servo_(model, options.load),
       analogue_level_(model),
       link_(
           {.model = model, .baud = options.baud, .code = code_of(options), .log_limit = options.order_limit}),
@@ -42,13 +36,12 @@ void MacMotor::power_cycle() {
     mactalk_.power_up();
     samples_.rewind();
     samples_.clear();
-    last_counts_ = plant_.counts();
     v_history_.clear();
-    torque_ = v_old_ = samples_within_ = corrected_braking_ = 0;
+    v_old_ = samples_within_ = corrected_braking_ = 0;
     follow_error_16_ = 0;
     emergency_ = false;
     mode_after_stop_ = 0;
-    regulator_.reset();
+    servo_.power_up();
     gear_.reset();
     unsupported_.clear();
     const auto home = static_cast<std::uint16_t>(memory_.get(cell::HOME_MODE) & 0xFF);
@@ -110,14 +103,7 @@ void MacMotor::sample() {
 }
 
 void MacMotor::measure() {
-    if (is_driven()) {
-        plant_.drive(torque_);
-    } else {
-        plant_.short_circuit();
-    }
-    const std::int64_t counts = plant_.counts();
-    const auto v_ist = static_cast<std::int32_t>(counts - last_counts_);
-    last_counts_ = counts;
+    const std::int32_t v_ist = servo_.advance(memory_);
     memory_.set(cell::V_IST, v_ist);
     memory_.set(cell::P_IST, wrap32(std::int64_t{p_ist()} + v_ist));
 
@@ -130,7 +116,7 @@ void MacMotor::measure() {
 
 // 001 §3.2.120, §3.2.122
 void MacMotor::read_inputs() {
-    const std::int32_t voltage = analogue_register(model(), terminals_.millivolts(plant_.counts()));
+    const std::int32_t voltage = analogue_register(model(), terminals_.millivolts(servo_.counts()));
     memory_.set(cell::ANINP, wrap32(std::int64_t{voltage} + memory_.get(cell::ANINP_OFFSET)));
     analogue_level_.update(memory_.get(cell::ANINP));
 
@@ -170,9 +156,9 @@ void MacMotor::stay_passive() {
     follow_error_16_ = 0;
     memory_.set(cell::FLWERR, 0);
     memory_.set(cell::FNCERR, 0);
-    v_old_ = torque_ = 0;
-    regulator_.reset();
-    show_profile(0, 0);
+    v_old_ = 0;
+    servo_.carry_out({}, memory_);
+    show_profile(0);
     clear_in_position();
 }
 

@@ -13,7 +13,7 @@ void MacMotor::begin_homing() {
 void MacMotor::search_home() {
     const bool found = homing_.step({.v_home = memory_.get(cell::V_HOME),
                                      .t_home = memory_.get(cell::T_HOME),
-                                     .torque = torque_,
+                                     .torque = servo_.torque(),
                                      .sensor = analogue_level_.on()});
     if (found) end_homing();
 }
@@ -28,7 +28,7 @@ void MacMotor::end_homing() {
     corrected_braking_ = 0;
     v_old_ = 16 * v_ist();
     follow_error_16_ = v_old_;  // as the regulator's, for this sample's V_IST is counted in P_IST already
-    regulator_.restart(v_old_);
+    servo_.restart(v_old_);
     set_home_done(true);
 
     const auto start_mode = static_cast<std::uint16_t>(memory_.get(cell::STARTMODE));
@@ -43,7 +43,7 @@ void MacMotor::end_homing() {
 std::int32_t MacMotor::beyond_index() const {
     if ((static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS)) & bits().index_home) == 0) return 0;
     const std::int64_t pitch = bits().counts_to_index;
-    const std::int64_t beyond = ((last_counts_ % pitch) + pitch) % pitch;
+    const std::int64_t beyond = ((servo_.counts() % pitch) + pitch) % pitch;
     return static_cast<std::int32_t>(2 * beyond < pitch ? beyond : beyond - pitch);
 }
 

@@ -80,9 +80,9 @@ void MacMotor::begin_stop(std::uint16_t then, bool emergency) {
 // R: what the regulator gave up in a mode without correction is taken off P_FNC now: P_FNC - FLWERR stays
 // true.
 void MacMotor::begin_correction() {
-    const std::int64_t given_up = follow_error_16_ - regulator_.lag_16();
+    const std::int64_t given_up = follow_error_16_ - servo_.lag_16();
     memory_.set(cell::P_FNC, wrap32(memory_.get(cell::P_FNC) - given_up));
-    follow_error_16_ = regulator_.lag_16();
+    follow_error_16_ = servo_.lag_16();
     memory_.set(cell::FNCERR, 0);
 }
 

@@ -84,11 +84,8 @@ void MacMotor::run_gear() {
 }
 
 void MacMotor::regulate(std::int32_t fnc_out) {
-    const std::int32_t kvout = memory_.get(cell::KVOUT);
-    const Regulator::Output out = regulator_.step({.fnc_out = fnc_out,
-                                                   .v_ist = v_ist(),
-                                                   .torque_limit = torque_limit(),
-                                                   .kvout_256 = is_mac800(model()) ? kvout >> 8 : kvout});
+    const Servo::Result out = servo_.carry_out(
+        {.kind = Drive::Kind::velocity, .fnc_out = fnc_out, .torque_limit = torque_limit()}, memory_);
     if (facts().corrected) {
         learn_braking(fnc_out, out.correction);
         fnc_out += out.correction;
@@ -99,9 +96,8 @@ void MacMotor::regulate(std::int32_t fnc_out) {
     follow_error_16_ += fnc_out - 16 * v_ist();
     memory_.set(cell::FLWERR, wrap32(follow_error_16_ / 16));
     memory_.set(cell::P_FNC, wrap32(std::int64_t{memory_.get(cell::P_FNC)} + fnc_out));
-    show_profile(fnc_out, out.torque);
+    show_profile(fnc_out);
     v_old_ = fnc_out;
-    torque_ = out.torque;
 }
 
 // R: a move whose braking had to be corrected is planned with less of it to its end, or it would swing about
@@ -117,11 +113,10 @@ void MacMotor::learn_braking(std::int32_t wanted, std::int32_t correction) {
     corrected_braking_ = std::max(before - before / 16 - 1, 1);
 }
 
-void MacMotor::show_profile(std::int32_t fnc_out, std::int32_t torque) {
+void MacMotor::show_profile(std::int32_t fnc_out) {
     set_error_bits(err::ACC_FLAG, fnc_out > v_old_);
     set_error_bits(err::DEC_FLAG, fnc_out < v_old_);
     memory_.set(cell::FNC_OUT, is_mac800(model()) ? wrap32(std::int64_t{fnc_out} * 0x10000) : fnc_out);
-    memory_.set(cell::VF_OUT, torque);
 }
 
 void MacMotor::judge_in_position() {

@@ -17,10 +17,9 @@
 #include "sim/mactalk_slave.h"
 #include "sim/mode_table.h"
 #include "sim/motor_memory.h"
-#include "sim/plant.h"
 #include "sim/profile.h"
-#include "sim/regulator.h"
 #include "sim/sample_buffer.h"
+#include "sim/servo.h"
 #include "sim/terminals.h"
 
 namespace nplc::sim {
@@ -105,8 +104,8 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     void power_cycle();
 
     /// Load and mechanical stops, changeable in motion.
-    Plant& plant() { return plant_; }
-    const Plant& plant() const { return plant_; }
+    Plant& plant() { return servo_.plant(); }
+    const Plant& plant() const { return servo_.plant(); }
     /// What is wired to the analogue and the pulse input, changeable at any time.
     Terminals& terminals() { return terminals_; }
 
@@ -172,7 +171,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     std::int32_t braking(std::int64_t distance);
     void learn_braking(std::int32_t wanted, std::int32_t correction);
     void regulate(std::int32_t fnc_out);
-    void show_profile(std::int32_t fnc_out, std::int32_t torque);
+    void show_profile(std::int32_t fnc_out);
     void judge_in_position();
     bool within_window() const;
     std::int64_t distance_16() const;
@@ -185,8 +184,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     MacMotorOptions options_;
     MotorMemory memory_;
     MotorMemory stored_;
-    Plant plant_;
-    Regulator regulator_;
+    Servo servo_;
     Terminals terminals_;
     AnalogueLevel analogue_level_;
     Gear gear_;
@@ -199,8 +197,6 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     bool link_on_ = true;
     bool pulse_input_on_ = false;
     bool pulse_input_inverted_ = false;
-    std::int64_t last_counts_ = 0;
-    std::int32_t torque_ = 0;
     std::int32_t v_old_ = 0;              // V_OLD, 1/16 counts/sample
     std::int64_t follow_error_16_ = 0;    // FLWERR, 1/16 counts
     std::int32_t corrected_braking_ = 0;  // what brakes in torque limit, 1/16 counts/sample^2; 0: A_SOLL does
