@@ -26,6 +26,7 @@ void MacMotor::end_homing() {
     memory_.set(cell::P_FNC, wrap32(16 * std::int64_t{position}));
     memory_.set(cell::P_SOLL, 0);
     corrected_braking_ = 0;
+    coil_.forget();
     v_old_ = 16 * v_ist();
     follow_error_16_ = v_old_;  // as the regulator's, for this sample's V_IST is counted in P_IST already
     servo_.restart(v_old_);
@@ -33,9 +34,9 @@ void MacMotor::end_homing() {
 
     const auto start_mode = static_cast<std::uint16_t>(memory_.get(cell::STARTMODE));
     const ModeFacts* start = facts_of(start_mode);
-    const bool usable = start != nullptr && !start->homing && start_mode != number(MotorMode::safe);
+    const bool usable = start != nullptr && !start->homing() && start_mode != number(MotorMode::safe);
     request_mode(usable ? start_mode : number(MotorMode::init));
-    if (facts().homing) request_init();
+    if (facts().homing()) request_init();
 }
 
 /// INDEX_HOME: counts that the shaft is beyond the nearest index marker, else 0 (001 §3.2.36). R: markers are

@@ -79,6 +79,12 @@ void MacMotor::load_parameters(std::uint16_t command) {
 }
 
 void MacMotor::run_sample_buffer() {
+    if (is_mode(MotorMode::test_voltage)) return;  // which records its own
+    const auto control = static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS));
+    record_samples((control & bits().record_inner) != 0 ? kInnerSamples : 1);
+}
+
+void MacMotor::record_samples(int count) {
     auto control = static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS));
     if ((control & (bits().rewind | bits().record)) == 0) return;
     if ((control & bits().rewind) != 0) {
@@ -86,7 +92,6 @@ void MacMotor::run_sample_buffer() {
         control &= ~bits().rewind;
     }
     if ((control & bits().record) != 0) {
-        const int count = (control & bits().record_inner) != 0 ? kInnerSamples : 1;
         for (int i = 0; i < count && !samples_.full(); ++i) samples_.record(sampled_registers());
         if (samples_.full()) control &= ~bits().record;
     }

@@ -195,19 +195,20 @@ TEST(Mode, EmergencyStopUsesItsOwnAcceleration) {
     EXPECT_EQ(c.reg(FNC_OUT), slow - 10);
 }
 
-TEST(Mode, ModesNotBuiltArePassiveAndSaySo) {
+// The manual gives nothing but the purpose (001 §4.4.24).
+TEST(Mode, TestTqIsPassiveAndSaysSo) {
     MotorBench b;
     run_at(b, 1600);
-    EXPECT_TRUE(b.motor.unsupported().empty());
-    b.set(MODE_REG, 5);
+    b.set(MODE_REG, 23);
     EXPECT_EQ(b.reg(MODE_REG), 11);
     b.settle();
-    EXPECT_EQ(b.reg(MODE_REG), 5);
+    EXPECT_EQ(b.reg(MODE_REG), 23);
     EXPECT_EQ(b.motor.v_ist(), 0);
-    EXPECT_NE(b.motor.unsupported().find("AV_MODE"), std::string_view::npos);
+    EXPECT_EQ(b.reg(VF_OUT), 0);
+    EXPECT_NE(b.motor.note().find("TESTTQ_MODE"), std::string_view::npos);
     b.set(MODE_REG, 2);
     EXPECT_EQ(b.reg(MODE_REG), 2);
-    EXPECT_TRUE(b.motor.unsupported().empty());
+    EXPECT_TRUE(b.motor.note().empty());
     b.set(MODE_REG, 99);
     EXPECT_EQ(b.reg(MODE_REG), 2);
 }

@@ -55,6 +55,12 @@ inline constexpr Cell PROG_VERSION = word(1, 1), MODE_REG = word(2, 2), P_SOLL =
                       MYADDR = word(156, 202), G_FNC = long_int(0, 165), HW_SETUP = word(0, 39),
                       P_NEW = long_int(163, 4), V_IST_16 = integer(0, 11), SAMPLE1 = word(112, 158),
                       REC_CNT = word(116, 162);
+
+// Supply, surroundings, tests.
+inline constexpr Cell UMEAS = word(130, 177), IA_OFFSET = word(140, 186), UA_VAL = integer(145, 192),
+                      UC_VAL = integer(147, 194), KIA = word(148, 188), U_SUPPLY = word(151, 198),
+                      U_MIN_SUP = word(152, 0), UV_HANDLE = word(160, 23), IA_IST = integer(137, 183),
+                      DEGC = word(0, 29), DEGCMAX = word(0, 31), U_24V = word(0, 21);
 }  // namespace cell
 
 /// All registers of one motor. MAC50-141: 16-bit words by register number, a LongInt takes its number (low
