@@ -6,9 +6,8 @@ namespace nplc::sim {
 
 std::int32_t MacMotor::analogue_v_soll() const {
     const std::int32_t aninp = memory_.get(cell::ANINP);
-    return is_mode(MotorMode::analogue_velocity)
-               ? analogue_velocity(model(), aninp, v_soll())
-               : analogue_velocity_with_dead_band(model(), aninp, v_soll());
+    return is_mode(MotorMode::analogue_velocity) ? analogue_velocity(model(), aninp, v_soll())
+                                                 : analogue_velocity_with_dead_band(model(), aninp, v_soll());
 }
 
 /// P_SOLL or P_FNC of the position block, where the voltage sets them.

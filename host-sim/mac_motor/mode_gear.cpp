@@ -11,8 +11,8 @@ void MacMotor::run_gear() {
     const std::int32_t aninp = memory_.get(cell::ANINP);
     const std::int32_t factor =
         is_mode(MotorMode::analogue_gear) ? analogue_gear_factor(model(), aninp) : Gear::kOne;
-    gear_.take(gear_.scale(memory_.get(cell::V_EXT), memory_.get(cell::GEARF1), memory_.get(cell::GEARF2),
-                           factor));
+    gear_.take(
+        gear_.scale(memory_.get(cell::V_EXT), memory_.get(cell::GEARF1), memory_.get(cell::GEARF2), factor));
     if (is_mode(MotorMode::analogue_velocity_gear)) gear_.take(analogue_trim(model(), aninp));
     const std::int64_t distance = -gear_.g_fnc();
     const std::int32_t limit = std::abs(v_soll());

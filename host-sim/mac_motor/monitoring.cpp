@@ -49,7 +49,8 @@ void MacMotor::watch_limits() {
     if (limited && (p_ist() < low || p_ist() > high)) fail(err::PLIM_ERR);
 }
 
-// 001 §4.5.6. R: UV_V_SOLL0 acts if the bit is set; MAC800, whose UVMIN is "not used", has a limit of its own.
+// 001 §4.5.6. R: UV_V_SOLL0 acts if the bit is set; MAC800, whose UVMIN is "not used", has a limit of its
+// own.
 void MacMotor::watch_supply() {
     const std::int64_t voltage = memory_.get(cell::U_SUPPLY);
     const std::int64_t least = is_mac800(model()) ? kLowBus : memory_.get(cell::U_MIN_SUP);

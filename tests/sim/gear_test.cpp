@@ -192,18 +192,28 @@ TEST(Gear, FncErrIsThePositioningError) {
     EXPECT_EQ(b.reg(MODE_REG), 0);
 }
 
-// R: P_FNC ran on, so position mode goes back to the place it left: a flying saw.
-TEST(Gear, PositionModeAfterItKnowsWhereItIs) {
-    GearBench b(3);
-    b.motor.terminals().set_pulse_rate(77'000);
-    b.samples(300);
-    EXPECT_GT(b.motor.p_ist(), 50'000);
-    b.set(P_SOLL, 0);
+// 001 §3.2.8, the flying saw: stands at its start in position mode; runs beside the job; position mode takes
+// it back, for P_FNC ran on. Again and again from the same place.
+TEST(Gear, FlyingSaw) {
+    MotorBench b(registers::Model::mac800);
+    b.set(V_SOLL, 8000);
+    b.set(P_SOLL, 1234);
     b.set(MODE_REG, 2);
     b.settle();
-    b.until_in_position();
-    b.settle();
-    EXPECT_EQ(b.motor.p_ist(), 0);
+    EXPECT_EQ(b.motor.p_ist(), 1234);
+    b.motor.terminals().set_pulse_rate(77'000);  // the job passes: 100 counts/sample
+    b.samples(100);
+    EXPECT_EQ(b.motor.p_ist(), 1234);
+    for (int job = 0; job < 3; ++job) {
+        b.set(MODE_REG, 24);
+        b.samples(400);
+        EXPECT_NEAR(b.motor.v_ist(), 100, 2) << "sawing";
+        EXPECT_EQ(b.reg(P_FNC) / 16 - 1234, 40'000) << "all 400 x 100 counts of the job";
+        b.set(MODE_REG, 2);
+        b.settle();
+        EXPECT_EQ(b.motor.p_ist(), 1234);
+        EXPECT_EQ(b.reg(P_FNC), 16 * 1234);
+    }
 }
 
 TEST(Gear, PulsesBeforeTheModeDoNotCount) {

@@ -30,7 +30,7 @@ constexpr std::array<std::string_view, 25> kMatrix{
     ">>>>>>>>.>>s>>>.>>>>>>>>>",  // 8 TESTU
     "s........................",  // 9 TESTA
     "s........................",  // 10 BREAK
-    "s>>>>>>rrr>s>>>.>>>>>>rr>",  // 11 STOP
+    "s>>>>>>rrr>s>>>s>>>>>>rr>",  // 11 STOP: goes on to INIT
     "s>>>>>>rrr>s.>>.>>>>>>rr>",  // 12 HOME1
     "s>>>>>>rrr>s>.>.>>>>>>rr>",  // 13 HOME2
     "s>>>>>>rrr>s>>..>>>>>>rr>",  // 14 HOME3

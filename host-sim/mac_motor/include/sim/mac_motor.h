@@ -81,8 +81,8 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     /// Why the motor stands in the mode that it was asked for, as a sentence: a gear mode without the pins of
     /// the pulse input, or TESTTQ, of which the manual says nothing. Empty if all is well.
     std::string_view note() const { return note_; }
-    /// The output for a holding brake (004, MAN_NO_BRAKE): on while the motor is passive. R: no brake is built
-    /// in; it holds nothing.
+    /// The output for a holding brake (004, MAN_NO_BRAKE): on while the motor is passive. R: no brake is
+    /// built in; it holds nothing.
     bool brake_output() const;
 
     /// 001 §4.4.16: only over MacTalk, so not over the user interface. False: refused (not in INIT, not in

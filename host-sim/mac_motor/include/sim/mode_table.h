@@ -68,8 +68,8 @@ struct ModeFacts {
     Block block = Block::none;
     Leave leave = Leave::at_once;
     InPosition in_position = InPosition::never;
-    bool corrected = false;      ///< "correction of function block: active"
-    bool counts_pulses = false;  ///< V_EXT is updated (001 §3.2.120; R: in GF_MODE too)
+    bool corrected = false;       ///< "correction of function block: active"
+    bool counts_pulses = false;   ///< V_EXT is updated (001 §3.2.120; R: in GF_MODE too)
     bool begins_at_rest = false;  ///< R: not entered in motion
 
     bool homing() const { return block == Block::homing; }

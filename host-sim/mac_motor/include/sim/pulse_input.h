@@ -15,8 +15,8 @@ enum class PulseFormat : std::uint8_t {
 /// What the pulse input's pins are set to at power-up (001 §3.2.36 bits 0 to 4; 004 HW_SETUP).
 class PulseInput {
   public:
-    /// R: MAC800 (004 gives names only): XPRINP is PULSEDIR, INVXDIR is INPSIGN, NOFILT is HICLK; the input is
-    /// always there.
+    /// R: MAC800 (004 gives names only): XPRINP is PULSEDIR, INVXDIR is INPSIGN, NOFILT is HICLK; the input
+    /// is always there.
     void configure(registers::Model model, std::int32_t cntrl_bits, std::int32_t hw_setup);
 
     bool on() const { return on_; }
