@@ -1,5 +1,7 @@
 // The modes without speed regulator: AT's drive, MANI, TESTU, TESTA, BREAK, TESTKI (001 §4.4.5, §4.4.8 to
 // §4.4.11, §4.4.23).
+#include <algorithm>
+
 #include "sim/mac_motor.h"
 
 namespace nplc::sim {
@@ -28,7 +30,7 @@ void MacMotor::begin_test() {
 }
 
 Drive MacMotor::test_drive() const {
-    const std::int32_t t_soll = memory_.get(cell::T_SOLL);
+    const std::int32_t t_soll = std::clamp(memory_.get(cell::T_SOLL), 0, 1023);
     switch (static_cast<MotorMode>(mode())) {
         case MotorMode::analogue_torque:
             if (coasting_) return {.kind = Drive::Kind::torque};

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "sim/mac_motor.h"
 
 namespace nplc::sim {
@@ -11,8 +13,9 @@ void MacMotor::begin_homing() {
 
 // R: homing has its own velocity and torque: V_SOLL and T_SOLL keep theirs, so a V_SOLL = 0 does not stop it.
 void MacMotor::search_home() {
-    const bool found = homing_.step({.v_home = memory_.get(cell::V_HOME),
-                                     .t_home = memory_.get(cell::T_HOME),
+    constexpr std::int32_t kBound = 0xFFFF;  // MAC800 registers hold more
+    const bool found = homing_.step({.v_home = std::clamp(memory_.get(cell::V_HOME), -kBound, kBound),
+                                     .t_home = std::clamp(memory_.get(cell::T_HOME), -kBound, kBound),
                                      .torque = servo_.torque(),
                                      .sensor = analogue_level_.on()});
     if (found) end_homing();

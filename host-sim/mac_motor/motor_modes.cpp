@@ -1,7 +1,14 @@
 // Switching of modes (001 §4.4, §5.2.1.4 command 10h). What a mode is, and how it is left, is in mode_table.
+#include <algorithm>
+
 #include "sim/mac_motor.h"
 
 namespace nplc::sim {
+namespace {
+
+constexpr std::int32_t kMostCounts = 0xFFFF;
+
+}  // namespace
 
 using Leave = ModeFacts::Leave;
 
@@ -110,7 +117,7 @@ void MacMotor::begin_stop(std::uint16_t then, bool emergency) {
 /// Out of a mode without speed regulator: the profile begins where the shaft is and as fast as it is, a
 /// sample ahead as always.
 void MacMotor::begin_at_measured_speed() {
-    v_old_ = 16 * v_ist();
+    v_old_ = 16 * std::clamp(v_ist(), -kMostCounts, kMostCounts);  // a user may have written V_IST
     follow_error_16_ = v_old_;
     memory_.set(cell::P_FNC, wrap32(std::int64_t{memory_.get(cell::P_FNC)} + v_old_));
     servo_.restart(v_old_);
