@@ -16,7 +16,7 @@ MacMotor::MacMotor(registers::Model model, const MacMotorOptions& options)
     : options_(options),
       memory_(model),
       stored_(model),
-      servo_(model, options.load),
+      servo_(model, options.depth, options.load),
       analogue_level_(model),
       link_(
           {.model = model, .baud = options.baud, .code = code_of(options), .log_limit = options.order_limit}),
@@ -41,7 +41,7 @@ void MacMotor::power_cycle() {
     follow_error_16_ = 0;
     emergency_ = false;
     mode_after_stop_ = 0;
-    servo_.power_up();
+    servo_.power_up(memory_);
     gear_.reset();
     coil_.forget();
     analogue_level_ = AnalogueLevel(model());
@@ -110,7 +110,11 @@ void MacMotor::sample() {
 }
 
 void MacMotor::measure() {
-    const std::int32_t v_ist = servo_.advance(memory_);
+    const auto control = static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS));
+    const std::uint32_t inner = bits().record | bits().record_inner;
+    const bool watching = (control & inner) == inner;
+    if (watching && (control & bits().rewind) != 0) rewind_samples();
+    const std::int32_t v_ist = servo_.advance(memory_, terminals_, watching ? this : nullptr);
     memory_.set(cell::V_IST, v_ist);
     memory_.set(cell::P_IST, wrap32(std::int64_t{p_ist()} + v_ist));
 
@@ -127,7 +131,7 @@ void MacMotor::read_inputs() {
     memory_.set(cell::ANINP, wrap32(std::int64_t{voltage} + memory_.get(cell::ANINP_OFFSET)));
     analogue_was_on_ = analogue_level_.on();
     analogue_level_.update(memory_.get(cell::ANINP));
-    memory_.set(cell::DEGC, surroundings_.degc());
+    memory_.set(cell::DEGC, memory_.get(cell::DEGC) + surroundings_.degc());
     memory_.set(cell::U_24V, surroundings_.u_24v());
 
     const std::int32_t pulses = terminals_.next_pulses(sample_period(), pulse_input_);
@@ -177,7 +181,6 @@ void MacMotor::stay_passive() {
     memory_.set(cell::FLWERR, 0);
     memory_.set(cell::FNCERR, 0);
     v_old_ = 0;
-    adjust_current_offsets();
     servo_.carry_out(test_drive(), memory_);
     show_profile(0);
     clear_in_position();

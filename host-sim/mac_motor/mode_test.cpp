@@ -9,7 +9,6 @@ namespace {
 
 constexpr int kTestSamples = 11;
 constexpr std::int32_t kNominalGain = 256;  // KIA, KIB, KIC (001 §3.2.148): ours are exact
-constexpr std::int32_t kOffset = 1024;      // where our measuring circuits have no current
 
 }  // namespace
 
@@ -24,8 +23,8 @@ void MacMotor::begin_test() {
     memory_.set(cell::SAMPLE1[0], is_mac800(model()) ? first.big : first.small);
     memory_.set(cell::SAMPLE1[1], is_mac800(model()) ? second.big : second.small);
     auto control = static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS));
-    control = (control & ~bits().record_inner) | bits().rewind | bits().record;
-    if (voltage) control |= bits().record_inner;
+    control = (control & ~bits().record_inner) | bits().rewind;
+    control |= voltage ? bits().record_inner : bits().record;  // TESTU: with the voltage
     memory_.set(cell::CNTRL_BITS, static_cast<std::int32_t>(control));
 }
 
@@ -44,9 +43,9 @@ Drive MacMotor::test_drive() const {
     }
 }
 
-void MacMotor::end_recording() {
-    const auto control = static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS));
-    memory_.set(cell::CNTRL_BITS, static_cast<std::int32_t>(control & ~bits().record));
+void MacMotor::set_recording(bool on) {
+    const auto control = static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS)) & ~bits().record;
+    memory_.set(cell::CNTRL_BITS, static_cast<std::int32_t>(on ? control | bits().record : control));
 }
 
 /// R: braked is what stands or has turned round.
@@ -56,14 +55,13 @@ bool MacMotor::is_braked() const {
 
 void MacMotor::end_test() {
     switch (static_cast<MotorMode>(mode())) {
-        case MotorMode::test_voltage:  // the voltage has been on for the sample that just ended
-            if (test_samples_++ == 0) return;
-            record_samples(kTestSamples);
-            end_recording();
+        case MotorMode::test_voltage:  // on in the next sample, for 11 of the inner loop
+            if (test_samples_++ == 0) return set_recording(true);
+            set_recording(false);
             return set_mode(number(MotorMode::init));
         case MotorMode::test_acceleration:
             if (test_samples_++ < kTestSamples) return;
-            end_recording();
+            set_recording(false);
             return enter(number(MotorMode::brake));
         case MotorMode::brake:
             if (is_braked()) set_mode(number(MotorMode::init));
@@ -75,14 +73,6 @@ void MacMotor::end_test() {
             return set_mode(number(MotorMode::init));
         default:
             return;
-    }
-}
-
-/// 001 §3.2.140: in INIT, so that no current is measured.
-void MacMotor::adjust_current_offsets() {
-    if (!is_mode(MotorMode::init) && !is_mode(MotorMode::safe)) return;
-    for (int phase = 0; phase < (is_mac800(model()) ? 2 : 3); ++phase) {
-        memory_.set(cell::IA_OFFSET[phase], kOffset);
     }
 }
 

@@ -9,8 +9,7 @@ constexpr std::int32_t kLowBus = 135;     // U_BUS below 120 V
 constexpr std::int32_t kHighBus = 506;    // U_BUS above 450 V (004), 0.888798 V each
 constexpr std::int32_t kLowLogic = 1340;  // U_24V below 18 V
 constexpr std::int64_t kFastest = 3600;   // rpm (004)
-constexpr std::int32_t kEndOfRange = 1023;
-constexpr std::int32_t kAbove52V = 968;  // U_SUPPLY, 53.7 mV each (001 §3.2.18)
+constexpr std::int32_t kAbove52V = 968;   // U_SUPPLY, 53.7 mV each (001 §3.2.18)
 
 constexpr std::int32_t kSetUvErr = 1, kUvGoPassive = 2;
 
@@ -74,12 +73,7 @@ void MacMotor::watch_supply() {
 
 // 001 §3.2.35 bit 11: IX_ERR is shown and stops nothing. MAC800's IPEAK_ERR does (R).
 void MacMotor::watch_currents() {
-    bool at_the_end = false;
-    for (int phase = 0; phase < 3; ++phase) {
-        const std::int32_t current = memory_.get(cell::IA_IST[phase]);
-        at_the_end = at_the_end || current >= kEndOfRange || current <= -kEndOfRange;
-    }
-    if (!at_the_end) return;
+    if (!servo_.current_at_the_end()) return;
     if (is_mac800(model())) return fail(bits().over_current);
     set_error_bits(bits().over_current, true);
 }

@@ -57,7 +57,7 @@ void MacMotor::go_passive(bool emergency) {
             coasting_ = true;
             return;
         case Leave::test:
-            end_recording();
+            set_recording(false);
             begin_at_measured_speed();
             return begin_stop(number(MotorMode::init), emergency);
         case Leave::stopping:

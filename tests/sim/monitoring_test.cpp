@@ -1,5 +1,6 @@
 // 001 §4.5 and MAC800's errors (004): what provokes each, what it does, and how it is cleared.
 #include <functional>
+#include <vector>
 
 #include "motor_bench.h"
 
@@ -190,13 +191,134 @@ TEST(Monitoring, UndervoltageBit3StopsByVSoll) {
     EXPECT_NEAR(b.motor.v_ist(), 0, 1);
 }
 
-// 001 §3.2.18: above UITLIM and above 52 V.
+// The same by the supply itself: 24 V for one of 48 V with U_MIN_SUP at 37.6 V (700 x 53.7 mV), 1.25 x
+// which is 47 V.
+TEST(Monitoring, ASaggingSupplyIsSeen) {
+    MotorBench b;
+    b.set(kUMinSup, 700);
+    b.samples(5);
+    EXPECT_EQ(b.reg(ERR_STAT) & kUvDetect, 0) << "U_SUPPLY " << b.reg(kUSupply);
+    b.motor.supply().set_source(24);
+    b.motor.supply().settle();
+    b.samples(2);
+    EXPECT_NEAR(b.reg(kUSupply), 447, 2);
+    EXPECT_NE(b.reg(ERR_STAT) & kUvDetect, 0);
+}
+
+// 001 §3.2.18: above UITLIM and above 52 V. A load that drives the motor feeds the dump.
 TEST(Monitoring, UitNeedsTheDumpsVoltage) {
+    MotorBench b;
+    b.set(V_SOLL, 5000);
+    b.set(MODE_REG, 1);
+    b.samples(300);
+    b.set(UITLIM, b.reg(UIT) + 50);
+    b.motor.plant().load().torque = 600;
+    for (int i = 0; i < 5000 && b.reg(MODE_REG) == 1; ++i) b.samples(1);
+    b.motor.plant().load().torque = 0;
+    EXPECT_EQ(b.reg(ERR_STAT) & 0x0F, 0x08);
+    EXPECT_GT(b.reg(UIT), b.reg(UITLIM));
+    EXPECT_GT(b.reg(kUSupply), 968) << "52 V";
+    EXPECT_EQ(b.reg(MODE_REG), 11);
+    b.settle();
+    EXPECT_EQ(b.reg(MODE_REG), 0);
+    EXPECT_EQ(b.status() & 1, 1);
+    EXPECT_LT(b.reg(kUSupply), 968);
+    b.command(protocol::fastmac::Number::reset_error);
+    b.samples(2);
+    EXPECT_EQ(b.reg(ERR_STAT) & 0x0F, 0) << "UIT may still be above: at 48 V nothing goes to the dump";
+}
+
+// 001 §4.5.1: full torque against a stop heats; below the limit again it can be reset.
+TEST(Monitoring, I2t) {
+    MotorBench b;
+    b.set(I2TLIM, 2000);
+    b.motor.plant().load().high_stop = MechanicalStop{100};
+    b.set(P_SOLL, 100'000);
+    b.set(MODE_REG, 2);
+    for (int i = 0; i < 20'000 && b.reg(MODE_REG) == 2; ++i) b.samples(1);
+    EXPECT_GT(b.reg(I2T), 2000);
+    EXPECT_EQ(b.reg(ERR_STAT) & 0x0F, 0x01);
+    EXPECT_EQ(b.status() & 1, 1);
+    b.samples(2);
+    EXPECT_EQ(b.reg(MODE_REG), 0);
+    b.samples(2000);
+    EXPECT_LT(b.reg(I2T), 2000);
+    b.command(protocol::fastmac::Number::reset_error);
+    b.samples(2);
+    EXPECT_EQ(b.reg(ERR_STAT) & 0x0F, 0);
+}
+
+struct Mac800Error {
+    const char* name;
+    std::int32_t bit;
+    std::function<void(MacMotor&)> provoke, heal;
+};
+
+// 004: each stops the motor with ACC_EMERG, keeps INIT, and is cleared by "reset error" once its cause is
+// gone.
+TEST(Monitoring, ErrorsOfMac800) {
+    const std::vector<Mac800Error> errors{
+        {"temperature", 1 << 8, [](MacMotor& m) { m.surroundings().celsius = 90; },
+         [](MacMotor& m) { m.surroundings().celsius = 25; }},
+        {"undervoltage", 1 << 9,
+         [](MacMotor& m) {
+             m.write(23, 3);
+             m.supply().set_source(100);
+             m.supply().settle();
+         },
+         [](MacMotor& m) {
+             m.supply().set_source(325);
+             m.supply().settle();
+         }},
+        {"overvoltage", 1 << 11,
+         [](MacMotor& m) {
+             m.supply().set_source(600);
+             m.supply().settle();
+         },
+         [](MacMotor& m) {
+             m.supply().set_source(325);
+             m.supply().settle();
+         }},
+        {"encoder", 1 << 15, [](MacMotor& m) { m.surroundings().encoder_broken = true; },
+         [](MacMotor& m) { m.surroundings().encoder_broken = false; }},
+        {"24 V", 1 << 17, [](MacMotor& m) { m.surroundings().logic_millivolts = 17'900; },
+         [](MacMotor& m) { m.surroundings().logic_millivolts = 24'000; }},
+    };
+    for (const Mac800Error& error : errors) {
+        SCOPED_TRACE(error.name);
+        MotorBench b = running(registers::Model::mac800);
+        b.set(31, 696);  // DEGCMAX: 85 degrees
+        b.samples(5);
+        EXPECT_EQ(b.reg(MODE_REG), 1);
+        error.provoke(b.motor);
+        b.samples(1);
+        expect_error(b, error.bit, [&] { error.heal(b.motor); });
+    }
+}
+
+// 004: above 3600 rpm, which is 623.4 counts/sample: 9990 / 16 = 624.4.
+TEST(Monitoring, OverspeedOfMac800) {
+    MotorBench b(registers::Model::mac800);
+    b.set(V_SOLL, 9800);
+    b.set(A_SOLL, 50);
+    b.set(MODE_REG, 1);
+    b.samples(400);
+    EXPECT_EQ(b.reg(MODE_REG), 1) << "612 counts/sample";
+    b.set(V_SOLL, 10'400);
+    b.samples(100);
+    EXPECT_NE(b.reg(ERR_STAT) & 1 << 13, 0);
+    b.samples(400);
+    EXPECT_EQ(b.reg(MODE_REG), 0);
+    EXPECT_FALSE(MotorBench().reg(ERR_STAT) & 1 << 13);
+}
+
+// 001 §3.2.35 bit 11: shown, and nothing more; an offset of -400 puts the converter at its end.
+TEST(Monitoring, IxErrStopsNothing) {
     MotorBench b = running();
-    b.set(UITLIM, 100);
-    b.set(UIT, 200);
-    b.samples(1);
-    EXPECT_EQ(b.reg(ERR_STAT) & 0x08, 0) << "48 V";
+    b.set(140, 2047);
+    b.samples(3);
+    EXPECT_NE(b.reg(ERR_STAT) & 1 << 11, 0);
+    EXPECT_EQ(b.reg(MODE_REG), 1);
 }
 
 }  // namespace

@@ -32,13 +32,16 @@ struct MacMotorOptions {
     /// The register codes of the example in 001 §5.2.1.5 in place of §5.2.1.4's list.
     bool old_register_codes = false;
     std::size_t order_limit = 100'000;
+    /// How much of the motor is computed. `outer_loop` is some 15 times as fast, and close in position and
+    /// velocity.
+    Servo::Depth depth = Servo::Depth::current_loop;
     Load load{};
 };
 
 /// A virtual MAC motor with its user interface set to FastMAC/FlexMAC. It has no clock: the caller gives it
 /// bytes with their times, fetches bytes when the line is free, and calls `sample` once every
 /// `sample_period`. Deterministic: the same calls give the same motion on every machine.
-class MacMotor final : private LinkTarget, private MacTalkTarget {
+class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerWatcher {
   public:
     explicit MacMotor(registers::Model model, const MacMotorOptions& options = {});
 
@@ -111,6 +114,8 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     /// Load and mechanical stops, changeable in motion.
     Plant& plant() { return servo_.plant(); }
     const Plant& plant() const { return servo_.plant(); }
+    /// Changeable at any time; U_SUPPLY (MAC800: U_BUS) follows.
+    Supply& supply() { return servo_.supply(); }
     /// What is wired to the analogue and the pulse input, changeable at any time.
     Terminals& terminals() { return terminals_; }
     Surroundings& surroundings() { return surroundings_; }
@@ -140,7 +145,9 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     static void clear_volatile(MotorMemory& memory);
     void load_parameters(std::uint16_t command);
     void run_sample_buffer();
-    void record_samples(int count);
+    void rewind_samples();
+    void record();
+    void inner_sample() override;
     SampleBuffer::Sample sampled_registers() const;
     SampleBuffer::Sample next_sample() override;
 
@@ -174,10 +181,9 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     // MANI, TESTU, TESTA, BREAK, TESTKI: mode_test.cpp
     void begin_test();
     Drive test_drive() const;
-    void end_recording();
+    void set_recording(bool on);
     void end_test();
     bool is_braked() const;
-    void adjust_current_offsets();
 
     // Homing: motor_homing.cpp
     void begin_homing();
