@@ -36,9 +36,9 @@ TEST(Mode, StartsInStartmode) {
     EXPECT_TRUE(b.motor.is_mode(MotorMode::position));
 }
 
-// 300 rpm are 39.3 counts/sample (001 §3.2.12: 7.629 rpm each): 39 is below, 40 is not. Slow braking passes
-// every count.
-TEST(Mode, StopEndsAt39) {
+// 300 rpm are 39.3 counts/sample (001 §3.2.12: 7.629 rpm each): 39 is below, 40 is not. Slow braking, a
+// quarter of a count a sample, passes every count, or all but one that the encoder's step hides.
+TEST(Mode, StopEndsBelow300Rpm) {
     MotorBench b;
     run_at(b, 1600);
     b.set(A_SOLL, 4);
@@ -46,18 +46,18 @@ TEST(Mode, StopEndsAt39) {
     EXPECT_EQ(b.reg(MODE_REG), 11);
     b.samples(1);
     EXPECT_EQ(b.reg(MODE_REG), 11);
-    EXPECT_EQ(velocity_at_end_of_stop(b), 39);
+    EXPECT_NEAR(velocity_at_end_of_stop(b), 38.5, 0.5);
     EXPECT_EQ(b.reg(FLWERR), 0);
     b.settle();
     EXPECT_EQ(b.motor.v_ist(), 0);
 }
 
-TEST(Mode, StopEndsAtMinus39Backwards) {
+TEST(Mode, StopEndsBelow300RpmBackwards) {
     MotorBench b;
     run_at(b, -1600);
     b.set(A_SOLL, 4);
     b.set(MODE_REG, 0);
-    EXPECT_EQ(velocity_at_end_of_stop(b), -39);
+    EXPECT_NEAR(velocity_at_end_of_stop(b), -38.5, 0.5);
 }
 
 // 004: 0.17316 counts/sample per rpm, so 300 rpm are 51.9.
