@@ -183,6 +183,7 @@ void World::spoil_line(const action::SpoilLine& faults) {
 
 void World::power_motor(bool on) {
     if (on && !motor_powered_) {
+        mac_.surroundings().encoder_broken = false;
         mac_.power_cycle();
         motor_asks_ = std::max(now_, line_.from_motor().busy_until());
     }
@@ -209,6 +210,17 @@ void World::connect_sensor(const action::MotorSensor& sensor) {
 
 void World::set_analogue(double volts) {
     mac_.terminals().set_analogue(static_cast<std::int32_t>(std::lround(1000 * volts)));
+}
+
+void World::set_pulses(const action::MotorPulses& pulses) {
+    mac_.terminals().set_pulse_rate(pulses.per_second, pulses.with_direction
+                                                           ? PulseFormat::pulse_and_direction
+                                                           : PulseFormat::quadrature);
+}
+
+void World::set_supply(const action::MotorSupply& supply) {
+    if (!supply.logic) return mac_.supply().set_source(supply.volts);
+    mac_.surroundings().logic_millivolts = static_cast<std::int32_t>(std::lround(1000 * supply.volts));
 }
 
 void World::gateway(action::Gateway what) {

@@ -43,22 +43,29 @@ void MacMotor::power_cycle() {
     mode_after_stop_ = 0;
     servo_.power_up(memory_);
     gear_.reset();
-    unsupported_.clear();
-    const auto home = static_cast<std::uint16_t>(memory_.get(cell::HOME_MODE) & 0xFF);
-    request_mode(home != 0 ? home : static_cast<std::uint16_t>(memory_.get(cell::STARTMODE)));
+    coil_.forget();
+    analogue_level_ = AnalogueLevel(model());
+    analogue_was_on_ = coasting_ = false;
+    uv_timer_ = 0;
+    note_ = {};
+    request_mode(first_mode());
 }
 
 /// 001 §3.2.36: FastMAC and the pulse input share their pins. R: on MAC800, which has two channels and no
 /// such bits (004), both are there.
 void MacMotor::set_up_user_interface() {
-    constexpr std::int32_t kUserInterface = 3, kPulsesIn = 0, kCommunication = 3, kInpSign = 8;
-    constexpr std::int32_t kInvXDir = 0x40;
+    constexpr std::int32_t kUserInterface = 3, kCommunication = 3;
     const std::int32_t control = memory_.get(cell::CNTRL_BITS);
-    const std::int32_t use = control & kUserInterface;
-    link_on_ = is_mac800(model()) || use == kCommunication;
-    pulse_input_on_ = is_mac800(model()) || use == kPulsesIn;
-    pulse_input_inverted_ =
-        is_mac800(model()) ? (memory_.get(cell::HW_SETUP) & kInvXDir) != 0 : (control & kInpSign) != 0;
+    link_on_ = is_mac800(model()) || (control & kUserInterface) == kCommunication;
+    pulse_input_.configure(model(), control, memory_.get(cell::HW_SETUP));
+}
+
+/// 001 §3.2.42: only the homing modes are legal. R: another value is as 0.
+std::uint16_t MacMotor::first_mode() const {
+    const auto home = static_cast<std::uint16_t>(memory_.get(cell::HOME_MODE) & 0xFF);
+    const ModeFacts* wanted = facts_of(home);
+    return wanted != nullptr && wanted->homing() ? home
+                                                 : static_cast<std::uint16_t>(memory_.get(cell::STARTMODE));
 }
 
 std::int32_t MacMotor::counts_per_revolution() const {
@@ -90,8 +97,8 @@ void MacMotor::sample() {
     measure();
     read_inputs();
     resynchronise();
-    if (is_mode(MotorMode::stop) && below_300_rpm()) set_mode(mode_after_stop_);
-    if (facts().homing) search_home();
+    end_mode_by_itself();
+    if (facts().homing()) search_home();
     if (is_driven()) {
         run_profile();
         judge_in_position();
@@ -122,12 +129,21 @@ void MacMotor::measure() {
 void MacMotor::read_inputs() {
     const std::int32_t voltage = analogue_register(model(), terminals_.millivolts(servo_.counts()));
     memory_.set(cell::ANINP, wrap32(std::int64_t{voltage} + memory_.get(cell::ANINP_OFFSET)));
+    analogue_was_on_ = analogue_level_.on();
     analogue_level_.update(memory_.get(cell::ANINP));
+    memory_.set(cell::DEGC, memory_.get(cell::DEGC) + surroundings_.degc());
+    memory_.set(cell::U_24V, surroundings_.u_24v());
 
-    const std::int32_t pulses = terminals_.next_pulses(sample_period());
+    const std::int32_t pulses = terminals_.next_pulses(sample_period(), pulse_input_);
     if (!facts().counts_pulses) return;
-    const std::int32_t counted = pulse_input_inverted_ ? -pulses : pulses;
-    memory_.set(cell::V_EXT, pulse_input_on_ ? counted : 0);
+    const std::int64_t turned = is_mode(MotorMode::coil) ? memory_.get(cell::V1[7]) : 0;  // 001 §4.4.20
+    memory_.set(cell::V_EXT, wrap32(pulses + turned));
+}
+
+bool MacMotor::brake_output() const {
+    constexpr std::int32_t kManNoBrake = 0x80;
+    const bool wanted = (memory_.get(cell::CNTRL_BITS) & kManNoBrake) == 0;
+    return is_mac800(model()) && wanted && facts().drive == Drive::Kind::shorted;
 }
 
 // 001 §3.2.163
@@ -144,16 +160,20 @@ void MacMotor::resynchronise() {
         move(cell::P_FNC, p_new * 16);
         memory_.set(cell::CNTRL_BITS, static_cast<std::int32_t>(control & ~bits().man_resync));
     }
-    if (!is_driven() && (control & bits().auto_resync) != 0) {
+    if (resynchronises_by_itself()) {
         memory_.set(cell::P_FNC, wrap32(16 * std::int64_t{p_ist()}));
     }
 }
 
+bool MacMotor::resynchronises_by_itself() const {
+    const auto control = static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS));
+    return (control & bits().auto_resync) != 0 && (is_mode(MotorMode::init) || is_mode(MotorMode::safe));
+}
+
+/// Without speed regulator.
 // R: P_FNC runs on with the shaft, so that a stop does not cost the motor its position.
 void MacMotor::stay_passive() {
-    const bool auto_resync =
-        (static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS)) & bits().auto_resync) != 0;
-    if (!auto_resync) {
+    if (!resynchronises_by_itself()) {
         const std::int64_t moved = 16 * std::int64_t{v_ist()} - follow_error_16_;
         memory_.set(cell::P_FNC, wrap32(memory_.get(cell::P_FNC) + moved));
     }
@@ -161,7 +181,7 @@ void MacMotor::stay_passive() {
     memory_.set(cell::FLWERR, 0);
     memory_.set(cell::FNCERR, 0);
     v_old_ = 0;
-    servo_.carry_out({}, memory_);
+    servo_.carry_out(test_drive(), memory_);
     show_profile(0);
     clear_in_position();
 }

@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <string>
 #include <string_view>
 
 #include "base/time.h"
 #include "registers/mac.h"
 #include "sim/analogue_input.h"
+#include "sim/coil.h"
 #include "sim/error_bits.h"
 #include "sim/fastmac_slave.h"
 #include "sim/gear.h"
@@ -18,8 +18,10 @@
 #include "sim/mode_table.h"
 #include "sim/motor_memory.h"
 #include "sim/profile.h"
+#include "sim/pulse_input.h"
 #include "sim/sample_buffer.h"
 #include "sim/servo.h"
+#include "sim/surroundings.h"
 #include "sim/terminals.h"
 
 namespace nplc::sim {
@@ -79,9 +81,12 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     bool in_position() const { return (error_status() & err::IN_POS) != 0; }
     std::uint32_t err_stat() const { return error_status(); }
 
-    /// What the motor was asked for and cannot do yet, as a sentence; empty if nothing. Stays until a mode
-    /// that is simulated is asked for.
-    std::string_view unsupported() const { return unsupported_; }
+    /// Why the motor stands in the mode that it was asked for, as a sentence: a gear mode without the pins of
+    /// the pulse input, or TESTTQ, of which the manual says nothing. Empty if all is well.
+    std::string_view note() const { return note_; }
+    /// The output for a holding brake (004, MAN_NO_BRAKE): on while the motor is passive. R: no brake is
+    /// built in; it holds nothing.
+    bool brake_output() const;
 
     /// 001 §4.4.16: only over MacTalk, so not over the user interface. False: refused (not in INIT, not in
     /// SAFE).
@@ -113,9 +118,11 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     Supply& supply() { return servo_.supply(); }
     /// What is wired to the analogue and the pulse input, changeable at any time.
     Terminals& terminals() { return terminals_; }
+    Surroundings& surroundings() { return surroundings_; }
 
   private:
     void set_up_user_interface();
+    std::uint16_t first_mode() const;
 
     // LinkTarget, and what FastMAC commands do: motor_commands.cpp
     void execute(const protocol::fastmac::Command& command) override;
@@ -150,14 +157,33 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     void request_init();
     void enter(std::uint16_t mode);
     void set_mode(std::uint16_t mode) { memory_.set(cell::MODE_REG, mode); }
+    void leave_for(std::uint16_t mode);
+    void go_passive(bool emergency);
     void begin_stop(std::uint16_t then, bool emergency);
+    void begin_at_measured_speed();
+    void end_mode_by_itself();
     bool error_forbids_motion() const;
     const ModeFacts& facts() const;
-    bool is_driven() const { return facts().driven; }
+    bool is_driven() const { return facts().driven(); }
     bool below_300_rpm() const;
     void begin_correction();
+    std::string_view why_it_stands(std::uint16_t mode) const;
+
+    // Monitoring: monitoring.cpp
     void monitor();
     void fail(std::uint32_t error);
+    void watch_limits();
+    void watch_supply();
+    void watch_currents();
+    void watch_mac800();
+    bool exceeds(Cell value, Cell limit) const;
+
+    // MANI, TESTU, TESTA, BREAK, TESTKI: mode_test.cpp
+    void begin_test();
+    Drive test_drive() const;
+    void set_recording(bool on);
+    void end_test();
+    bool is_braked() const;
 
     // Homing: motor_homing.cpp
     void begin_homing();
@@ -170,12 +196,19 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     void measure();
     void read_inputs();
     void resynchronise();
+    bool resynchronises_by_itself() const;
     void stay_passive();
 
     // Profile and regulator: motor_profile.cpp
     void run_profile();
     void run_position();
     void run_gear();
+    void run_coil();
+    Coil::Setup coil_setup() const;
+    void show_gear_error();
+    std::int32_t analogue_v_soll() const;
+    void set_target_by_voltage();
+    void set_target_by_level();
     std::int32_t braking(std::int64_t distance);
     void learn_braking(std::int32_t wanted, std::int32_t correction);
     void regulate(std::int32_t fnc_out);
@@ -194,8 +227,12 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     MotorMemory stored_;
     Servo servo_;
     Terminals terminals_;
+    Surroundings surroundings_;
+    PulseInput pulse_input_;
     AnalogueLevel analogue_level_;
+    bool analogue_was_on_ = false;  // in the sample before
     Gear gear_;
+    Coil coil_;
     Homing homing_;
     FastMacSlave link_;
     MacTalkSlave mactalk_;
@@ -203,8 +240,6 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
 
     std::uint32_t flash_writes_ = 0;
     bool link_on_ = true;
-    bool pulse_input_on_ = false;
-    bool pulse_input_inverted_ = false;
     std::int32_t v_old_ = 0;              // V_OLD, 1/16 counts/sample
     std::int64_t follow_error_16_ = 0;    // FLWERR, 1/16 counts
     std::int32_t corrected_braking_ = 0;  // what brakes in torque limit, 1/16 counts/sample^2; 0: A_SOLL does
@@ -212,8 +247,12 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     std::int32_t samples_within_ = 0;
     std::uint16_t mode_after_stop_ = 0;
     bool emergency_ = false;
+    bool coasting_ = false;             // AT on its way to INIT
+    int test_samples_ = 0;              // of TESTU and TESTA
+    std::int32_t brake_direction_ = 0;  // BREAK: the sign of the motion that it ends
+    std::int32_t uv_timer_ = 0;         // UV_TIMER, samples
     std::deque<std::int32_t> v_history_;
-    std::string unsupported_;
+    std::string_view note_;
 };
 
 }  // namespace nplc::sim

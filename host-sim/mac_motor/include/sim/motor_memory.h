@@ -74,7 +74,7 @@ inline constexpr Cell ELDEGN_OFFSET = word(124, 0), ELDEGP_OFFSET = word(125, 0)
                       KIA = word(148, 188), KIC = word(150, 0), ELDEG_IST = word(143, 190),
                       V_ELDEG = integer(144, 191), UA_VAL = integer(145, 192), U_SUPPLY = word(151, 198),
                       EMK_A = integer(0, 195), U_24V = word(0, 21), DEGC = word(0, 29), DEGCMAX = word(0, 31),
-                      OUTLOOPDIV = word(0, 157), U_MIN_SUP = word(152, 0);
+                      OUTLOOPDIV = word(0, 157), U_MIN_SUP = word(152, 0), UV_HANDLE = word(160, 23);
 }  // namespace cell
 
 /// All registers of one motor. MAC50-141: 16-bit words by register number, a LongInt takes its number (low
