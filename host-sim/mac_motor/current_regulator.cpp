@@ -1,6 +1,7 @@
 #include "sim/current_regulator.h"
 
 namespace nplc::sim {
+
 void CurrentRegulator::reset() {
     apply({});
     wanted_ = measured_ = {};

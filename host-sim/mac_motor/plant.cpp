@@ -6,21 +6,12 @@ namespace nplc::sim {
 namespace {
 
 constexpr double kFullTorque = 1023;
-constexpr double kTorqueBound = 1'000'000;
 constexpr double kFastest = 4096;  // counts/sample, 31,250 rpm on MAC50-141: keeps a wild load in range
 constexpr std::int64_t kFarthest = std::int64_t{1} << 42;  // counts
 
 /// Halves in an outer sample: the third and the 15th root of 1/2.
 double thrown_in(int steps) {
     return steps == 1 ? 0.5 : steps == 3 ? 0.7937 : 0.9548;
-}
-
-/// Friction works against motion, holds what is slower than it brakes in a step, and never turns a shaft
-/// round.
-double rubbed(double velocity, double friction) {
-    if (velocity > friction) return velocity - friction;
-    if (velocity < -friction) return velocity + friction;
-    return 0;
 }
 
 std::int64_t edge_of(const MechanicalStop& stop) {
@@ -35,24 +26,7 @@ Plant::Plant(double full_acceleration, int steps, const Load& load)
       thrown_(thrown_in(steps)),
       load_(load) {}
 
-/// What torque 1 gives motor and load, counts/step^2.
-double Plant::of_one() {
-    if (load_.inertia_256 != inertia_256_) {
-        inertia_256_ = load_.inertia_256;
-        of_one_ = acceleration_of_one_ * 256 / std::max(inertia_256_, 1);
-    }
-    return of_one_;
-}
-
-void Plant::step(double torque, double brake) {
-    const double of_one = this->of_one();
-    const double push = std::clamp(torque + load_.torque, -kTorqueBound, kTorqueBound) * of_one;
-    const double pushed = (velocity_ + push) / (1 + brake * of_one);
-    const double before = velocity_;
-    velocity_ = std::clamp(rubbed(pushed, std::max(load_.friction_torque, 0) * of_one), -fastest_, fastest_);
-    const std::int64_t from = position_;
-    position_ += static_cast<std::int64_t>((before + velocity_) * (kCount / 2));
-    if (!load_.low_stop && !load_.high_stop) return;
+void Plant::keep_within_stops(std::int64_t from) {
     if (const MechanicalStop* stop = stop_beyond()) press(*stop, from);
 }
 

@@ -62,17 +62,22 @@ std::int32_t Regulator::correct(double excess, double kvout) {
     return correction;
 }
 
-// The lag that begins with it is what the sum in VF has to take back: VF's output rises by the sum of its
-// numerator for each unit of it.
+// VF is given the sum of its input as it would be: the lag less what the filters still hold. Its output rises
+// by the sum of its numerator for each unit of that.
 void Regulator::restart(std::int32_t velocity) {
     reset();
     lag_16_ = velocity;
     fnc_out_.fill(velocity);
     v_ist_.fill(velocity / 16.0);
     double sum = 0;
-    for (const double coefficient : c_.vfx) sum += coefficient;
+    double held = 0;
     for (std::size_t i = 0; i < torque_.size(); ++i) {
-        torque_[i] = std::clamp(-sum * velocity * static_cast<double>(i), -kTorqueBound, kTorqueBound);
+        sum += c_.vfx[i];
+        held += static_cast<double>(i) * (c_.ff[i] - c_.vb[i] / 16);
+    }
+    const double rise = sum * velocity * (1 - held);
+    for (std::size_t i = 0; i < torque_.size(); ++i) {
+        torque_[i] = std::clamp(-rise * static_cast<double>(i), -kTorqueBound, kTorqueBound);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "sim/analogue_input.h"
 
@@ -66,16 +67,18 @@ void Servo::power_up(MotorMemory& memory) {
 void Servo::take_settings(const MotorMemory& memory) {
     const bool mac800 = is_mac800(memory.model());
     bool changed = false;
-    std::size_t at = 0;
+    std::uint32_t* taken = settings_.data();
     for (const Range& range : mac800 ? kBigSettings : kSmallSettings) {
-        for (const std::uint32_t value : memory.stored(range.first, range.last)) {
-            changed |= settings_[at] != value;
-            settings_[at++] = value;
+        const std::span<const std::uint32_t> now = memory.stored(range.first, range.last);
+        if (std::memcmp(taken, now.data(), now.size_bytes()) != 0) {
+            std::copy(now.begin(), now.end(), taken);
+            changed = true;
         }
+        taken += now.size();
     }
     const bool hall_int = !mac800 && (memory.get(cell::CNTRL_BITS) & kHallInt) != 0;
-    changed |= settings_[at] != std::uint32_t{hall_int};
-    settings_[at] = hall_int;
+    changed |= *taken != std::uint32_t{hall_int};
+    *taken = hall_int;
     if (!changed) return;
     regulator_.use(regulator_coefficients(memory));
     const Cell forwards = mac800 ? cell::ELDEG_OFFSET : cell::ELDEGP_OFFSET;

@@ -46,9 +46,9 @@ TEST(Mode, StartsInStartmode) {
     EXPECT_TRUE(b.motor.is_mode(MotorMode::position));
 }
 
-// 300 rpm are 39.3 counts/sample (001 §3.2.12: 7.629 rpm each): 39 is below, 40 is not. Slow braking passes
-// every count.
-TEST(Mode, StopEndsAt39) {
+// 300 rpm are 39.3 counts/sample (001 §3.2.12: 7.629 rpm each): 39 is below, 40 is not. Slow braking, a
+// quarter of a count a sample, passes every count, or all but one that the encoder's step hides.
+TEST(Mode, StopEndsBelow300Rpm) {
     MotorBench b;
     run_at(b, 1600);
     b.set(A_SOLL, 4);
@@ -62,7 +62,7 @@ TEST(Mode, StopEndsAt39) {
     EXPECT_EQ(b.motor.v_ist(), 0);
 }
 
-TEST(Mode, StopEndsAtMinus39Backwards) {
+TEST(Mode, StopEndsBelow300RpmBackwards) {
     MotorBench b;
     run_at(b, -1600);
     b.set(A_SOLL, 4);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -31,7 +32,17 @@ class Plant {
     Plant(double full_acceleration, int steps, const Load& load);
 
     /// One step with the motor's `torque`, and `brake` of torque against each count/step of velocity.
-    void step(double torque, double brake = 0);
+    void step(double torque, double brake = 0) {
+        const double of_one = this->of_one();
+        const double push = std::clamp(torque + load_.torque, -kTorqueBound, kTorqueBound) * of_one;
+        const double pushed = brake == 0 ? velocity_ + push : (velocity_ + push) / (1 + brake * of_one);
+        const double before = velocity_;
+        velocity_ = rubbed(pushed, std::max(load_.friction_torque, 0) * of_one);
+        velocity_ = std::clamp(velocity_, -fastest_, fastest_);
+        const std::int64_t from = position_;
+        position_ += static_cast<std::int64_t>((before + velocity_) * (kCount / 2));
+        if (load_.low_stop || load_.high_stop) keep_within_stops(from);
+    }
 
     /// Encoder counts since the motor was built.
     std::int64_t counts() const { return (position_ + kCount / 2) >> kFractionBits; }
@@ -45,8 +56,24 @@ class Plant {
   private:
     static constexpr int kFractionBits = 20;
     static constexpr std::int64_t kCount = std::int64_t{1} << kFractionBits;
+    static constexpr double kTorqueBound = 1'000'000;
 
-    double of_one();
+    /// Friction works against motion, holds what is slower than it brakes in a step, and never turns a shaft
+    /// round.
+    static double rubbed(double velocity, double friction) {
+        if (velocity > friction) return velocity - friction;
+        if (velocity < -friction) return velocity + friction;
+        return 0;
+    }
+    /// What torque 1 gives motor and load, counts/step^2.
+    double of_one() {
+        if (load_.inertia_256 != inertia_256_) {
+            inertia_256_ = load_.inertia_256;
+            of_one_ = acceleration_of_one_ * 256 / std::max(inertia_256_, 1);
+        }
+        return of_one_;
+    }
+    void keep_within_stops(std::int64_t from);
     const MechanicalStop* stop_beyond() const;
     void press(const MechanicalStop& stop, std::int64_t from);
 
