@@ -1,6 +1,7 @@
 // A virtual motor under whatever lines, registers and terminals can do to it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -211,19 +212,22 @@ class RandomMotor : public ::testing::TestWithParam<registers::Model> {};
 
 TEST_P(RandomMotor, IsAlwaysPassiveAfterARequestOfInit) {
     int longest = 0;
+    std::array<int, 25> asked{};  // from which modes
     for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         Tormentor tormentor(GetParam(), seed, false);
         tormentor.run();
         if (HasFatalFailure()) return;
+        ++asked[tormentor.motor().mode()];
         const int samples = tormentor.until_passive();
         ASSERT_LT(samples, kPassiveWithin)
             << "mode " << tormentor.motor().mode() << ", V_IST " << tormentor.motor().v_ist();
         ASSERT_TRUE(tormentor.stays_passive());
         longest = std::max(longest, samples);
     }
-    std::printf("%d runs of %d deeds, seeds 1 to %d: passive after %d samples at the most\n", kRuns, kDeeds,
-                kRuns, longest);
+    const auto modes = std::count_if(asked.begin(), asked.end(), [](int times) { return times > 0; });
+    std::printf("%d runs of %d deeds, seeds 1 to %d, from %d modes: passive after %d samples at the most\n",
+                kRuns, kDeeds, kRuns, static_cast<int>(modes), longest);
 }
 
 // With every register written, coefficients too: no shaft can be promised, but no crash, no undefined mode,

@@ -56,7 +56,7 @@ TEST(Mode, StopEndsBelow300Rpm) {
     EXPECT_EQ(b.reg(MODE_REG), 11);
     b.samples(1);
     EXPECT_EQ(b.reg(MODE_REG), 11);
-    EXPECT_EQ(slowest_in_stop(b, 39), 40);
+    EXPECT_NEAR(slowest_in_stop(b, 39), 40, 1);
     EXPECT_EQ(b.reg(FLWERR), 0);
     b.settle();
     EXPECT_EQ(b.motor.v_ist(), 0);
@@ -67,7 +67,20 @@ TEST(Mode, StopEndsBelow300RpmBackwards) {
     run_at(b, -1600);
     b.set(A_SOLL, 4);
     b.set(MODE_REG, 0);
-    EXPECT_EQ(slowest_in_stop(b, 39), 40);
+    EXPECT_NEAR(slowest_in_stop(b, 39), 40, 1);
+}
+
+// The two velocities themselves, from a steady run: 640 / 16 = 40, 624 / 16 = 39.
+TEST(Mode, StopGoesOnAt40AndEndsAt39) {
+    for (const int v_ist : {40, 39, -39, -40}) {
+        MotorBench b;
+        run_at(b, 16 * v_ist);
+        b.set(MODE_REG, 0);
+        EXPECT_EQ(b.reg(MODE_REG), 11);
+        b.samples(1);
+        ASSERT_EQ(b.motor.v_ist(), v_ist);
+        EXPECT_EQ(b.reg(MODE_REG), std::abs(v_ist) == 40 ? 11 : 0);
+    }
 }
 
 // 004: 0.17316 counts/sample per rpm, so 300 rpm are 51.9.
