@@ -34,11 +34,11 @@ void write_speed_regulator(MotorMemory& memory) {
     const bool big = is_mac800(memory.model());
     const Filters& f = big ? kBigFilters : kSmallFilters;
     const double scale = big ? 3500.0 / 2500.0 : 1.0;  // of torque that an acceleration takes
-    // Their sum is 1, so a move ends where the profile does; the sum of n times the n-th is 0.25: at constant
-    // velocity the shaft is a quarter of a sample behind.
-    constexpr double kForward[] = {553 / 256.0, -436 / 256.0, -84 / 256.0, 223 / 256.0};
-    // 0.74 of the velocity error, 0.28 of the lag and 0.037 of its sum, as acceleration.
-    constexpr double kError[] = {1273 / 4096.0, -2116 / 4096.0, 888 / 4096.0};
+    // Their sum is 1, so a move ends where the profile does; the sum of n times the n-th is 0, so there is no
+    // lag at constant velocity.
+    constexpr double kForward[] = {410 / 256.0, -154 / 256.0, -154 / 256.0, 154 / 256.0};
+    // 0.55 of the velocity error, 0.25 of the lag and 0.02 of its sum, as acceleration.
+    constexpr double kError[] = {982 / 4096.0, -1616 / 4096.0, 658 / 4096.0};
     for (int n = 0; n < 4; ++n) memory.set(cell::KFF[n], fixed(kForward[n], f.one_f));
     for (int n = 0; n < 3; ++n) memory.set(cell::KVFX[n], fixed(kError[n] * scale, f.one_vf));
     memory.set(cell::KVFY[0], fixed(2, f.one_vf));

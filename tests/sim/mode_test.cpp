@@ -56,7 +56,7 @@ TEST(Mode, StopEndsBelow300Rpm) {
     EXPECT_EQ(b.reg(MODE_REG), 11);
     b.samples(1);
     EXPECT_EQ(b.reg(MODE_REG), 11);
-    EXPECT_NEAR(slowest_in_stop(b, 39), 40, 1);
+    EXPECT_NEAR(slowest_in_stop(b, 39), 40.5, 0.5);
     EXPECT_EQ(b.reg(FLWERR), 0);
     b.settle();
     EXPECT_EQ(b.motor.v_ist(), 0);
@@ -67,7 +67,7 @@ TEST(Mode, StopEndsBelow300RpmBackwards) {
     run_at(b, -1600);
     b.set(A_SOLL, 4);
     b.set(MODE_REG, 0);
-    EXPECT_NEAR(slowest_in_stop(b, 39), 40, 1);
+    EXPECT_NEAR(slowest_in_stop(b, 39), 40.5, 0.5);
 }
 
 // The two velocities themselves, from a steady run: 640 / 16 = 40, 624 / 16 = 39.
