@@ -52,7 +52,7 @@ class Tormentor {
     /// A request of INIT, a calm world: how many samples until the motor is passive; kPassiveWithin: it is
     /// not.
     int until_passive() {
-        motor_.plant().load().torque = 0;
+        calm();
         motor_.go_to_init();
         for (int i = 0; i < kPassiveWithin; ++i) {
             if (motor_.is_mode(MotorMode::init)) return i;
@@ -87,6 +87,13 @@ class Tormentor {
         now_ += std::chrono::microseconds(2000);
         ASSERT_LT(motor_.mode(), 25);
         ASSERT_LE(std::abs(motor_.torque()), 1023);
+    }
+
+    /// Nothing pulls, the supply is there.
+    void calm() {
+        motor_.plant().load().torque = 0;
+        motor_.supply().set_source(is_mac800(motor_.model()) ? 325 : 48);
+        motor_.surroundings() = {};
     }
 
     std::int32_t value() {
@@ -161,7 +168,7 @@ class Tormentor {
         }
     }
     void change_the_world() {
-        switch (below(7)) {
+        switch (below(10)) {
             case 0:
                 return motor_.terminals().set_analogue(static_cast<std::int32_t>(below(24'000)) - 12'000);
             case 1:
@@ -177,6 +184,14 @@ class Tormentor {
                 return;
             case 5:
                 return motor_.power_cycle();
+            case 6:
+                return motor_.supply().set_source(static_cast<double>(below(600)));
+            case 7:
+                motor_.surroundings().celsius = static_cast<std::int32_t>(below(120));
+                motor_.surroundings().encoder_broken = below(4) == 0;
+                return;
+            case 8:
+                return calm();
             default:
                 return motor_.terminals().connect({.counts = 0, .on_above = below(2) == 0});
         }
