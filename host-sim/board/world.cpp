@@ -102,19 +102,8 @@ void World::move_characters() {
 void World::sample_motor() {
     next_sample_ += mac_.sample_period();
     if (!motor_powered_) return;
-    if (std::exchange(motor_fails_, false)) return fail_in_this_sample();
     mac_.sample();
-}
-
-/// For one sample the drive finds itself overloaded: I2T above its limit.
-void World::fail_in_this_sample() {
-    const std::int32_t i2t = mac_.read(registers::I2T);
-    const std::int32_t limit = mac_.read(registers::I2TLIM);
-    mac_.write(registers::I2TLIM, 1);
-    mac_.write(registers::I2T, 2);
-    mac_.sample();
-    mac_.write(registers::I2T, i2t);
-    mac_.write(registers::I2TLIM, limit);
+    if (std::exchange(motor_fails_, false)) mac_.overload();
 }
 
 void World::poll_gateway() {
@@ -183,6 +172,7 @@ void World::spoil_line(const action::SpoilLine& faults) {
 
 void World::power_motor(bool on) {
     if (on && !motor_powered_) {
+        mac_.surroundings().encoder_broken = false;
         mac_.power_cycle();
         motor_asks_ = std::max(now_, line_.from_motor().busy_until());
     }
@@ -209,6 +199,17 @@ void World::connect_sensor(const action::MotorSensor& sensor) {
 
 void World::set_analogue(double volts) {
     mac_.terminals().set_analogue(static_cast<std::int32_t>(std::lround(1000 * volts)));
+}
+
+void World::set_pulses(const action::MotorPulses& pulses) {
+    mac_.terminals().set_pulse_rate(pulses.per_second, pulses.with_direction
+                                                           ? PulseFormat::pulse_and_direction
+                                                           : PulseFormat::quadrature);
+}
+
+void World::set_supply(const action::MotorSupply& supply) {
+    if (!supply.logic) return mac_.supply().set_source(supply.volts);
+    mac_.surroundings().logic_millivolts = static_cast<std::int32_t>(std::lround(1000 * supply.volts));
 }
 
 void World::gateway(action::Gateway what) {

@@ -1,5 +1,6 @@
 #include "sim/homing.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace nplc::sim {
@@ -45,7 +46,8 @@ bool Homing::step_sensor(const Input& input) {
 }
 
 std::int32_t Homing::torque_limit(std::int32_t t_home) {
-    return std::abs(t_home) * 5 / 4;
+    constexpr std::int64_t kFull = 1023;
+    return static_cast<std::int32_t>(std::min(std::abs(std::int64_t{t_home}) * 5 / 4, kFull));
 }
 
 std::int32_t Homing::creep(std::int32_t v_home) {

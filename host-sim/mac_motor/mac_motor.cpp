@@ -5,11 +5,6 @@ namespace {
 
 constexpr std::size_t kHistory = 16;
 
-/// Of the bare motor at full torque, 1/16 counts/sample^2; ours: 869,000 rpm/s, and 695,000 rpm/s on MAC800.
-constexpr std::int32_t full_acceleration_16(registers::Model model) {
-    return is_mac800(model) ? 2500 : 3500;
-}
-
 protocol::fastmac::RegisterCode code_of(const MacMotorOptions& options) {
     using protocol::fastmac::RegisterCode;
     return options.old_register_codes ? RegisterCode::older_example : RegisterCode::format_list;
@@ -21,8 +16,7 @@ MacMotor::MacMotor(registers::Model model, const MacMotorOptions& options)
     : options_(options),
       memory_(model),
       stored_(model),
-      plant_(full_acceleration_16(model), options.load),
-      regulator_(full_acceleration_16(model)),
+      servo_(model, options.depth, options.load),
       analogue_level_(model),
       link_(
           {.model = model, .baud = options.baud, .code = code_of(options), .log_limit = options.order_limit}),
@@ -42,30 +36,36 @@ void MacMotor::power_cycle() {
     mactalk_.power_up();
     samples_.rewind();
     samples_.clear();
-    last_counts_ = plant_.counts();
     v_history_.clear();
-    torque_ = v_old_ = samples_within_ = corrected_braking_ = 0;
+    v_old_ = samples_within_ = corrected_braking_ = 0;
     follow_error_16_ = 0;
     emergency_ = false;
     mode_after_stop_ = 0;
-    regulator_.reset();
+    servo_.power_up(memory_);
     gear_.reset();
-    unsupported_.clear();
-    const auto home = static_cast<std::uint16_t>(memory_.get(cell::HOME_MODE) & 0xFF);
-    request_mode(home != 0 ? home : static_cast<std::uint16_t>(memory_.get(cell::STARTMODE)));
+    coil_.forget();
+    analogue_level_ = AnalogueLevel(model());
+    analogue_was_on_ = coasting_ = false;
+    uv_timer_ = 0;
+    note_ = {};
+    request_mode(first_mode());
 }
 
 /// 001 §3.2.36: FastMAC and the pulse input share their pins. R: on MAC800, which has two channels and no
 /// such bits (004), both are there.
 void MacMotor::set_up_user_interface() {
-    constexpr std::int32_t kUserInterface = 3, kPulsesIn = 0, kCommunication = 3, kInpSign = 8;
-    constexpr std::int32_t kInvXDir = 0x40;
+    constexpr std::int32_t kUserInterface = 3, kCommunication = 3;
     const std::int32_t control = memory_.get(cell::CNTRL_BITS);
-    const std::int32_t use = control & kUserInterface;
-    link_on_ = is_mac800(model()) || use == kCommunication;
-    pulse_input_on_ = is_mac800(model()) || use == kPulsesIn;
-    pulse_input_inverted_ =
-        is_mac800(model()) ? (memory_.get(cell::HW_SETUP) & kInvXDir) != 0 : (control & kInpSign) != 0;
+    link_on_ = is_mac800(model()) || (control & kUserInterface) == kCommunication;
+    pulse_input_.configure(model(), control, memory_.get(cell::HW_SETUP));
+}
+
+/// 001 §3.2.42: only the homing modes are legal. R: another value is as 0.
+std::uint16_t MacMotor::first_mode() const {
+    const auto home = static_cast<std::uint16_t>(memory_.get(cell::HOME_MODE) & 0xFF);
+    const ModeFacts* wanted = facts_of(home);
+    return wanted != nullptr && wanted->homing() ? home
+                                                 : static_cast<std::uint16_t>(memory_.get(cell::STARTMODE));
 }
 
 std::int32_t MacMotor::counts_per_revolution() const {
@@ -97,8 +97,8 @@ void MacMotor::sample() {
     measure();
     read_inputs();
     resynchronise();
-    if (is_mode(MotorMode::stop) && below_300_rpm()) set_mode(mode_after_stop_);
-    if (facts().homing) search_home();
+    end_mode_by_itself();
+    if (facts().homing()) search_home();
     if (is_driven()) {
         run_profile();
         judge_in_position();
@@ -110,14 +110,11 @@ void MacMotor::sample() {
 }
 
 void MacMotor::measure() {
-    if (is_driven()) {
-        plant_.drive(torque_);
-    } else {
-        plant_.short_circuit();
-    }
-    const std::int64_t counts = plant_.counts();
-    const auto v_ist = static_cast<std::int32_t>(counts - last_counts_);
-    last_counts_ = counts;
+    const auto control = static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS));
+    const std::uint32_t inner = bits().record | bits().record_inner;
+    const bool watching = (control & inner) == inner;
+    if (watching && (control & bits().rewind) != 0) rewind_samples();
+    const std::int32_t v_ist = servo_.advance(memory_, terminals_, watching ? this : nullptr);
     memory_.set(cell::V_IST, v_ist);
     memory_.set(cell::P_IST, wrap32(std::int64_t{p_ist()} + v_ist));
 
@@ -130,14 +127,23 @@ void MacMotor::measure() {
 
 // 001 §3.2.120, §3.2.122
 void MacMotor::read_inputs() {
-    const std::int32_t voltage = analogue_register(model(), terminals_.millivolts(plant_.counts()));
+    const std::int32_t voltage = analogue_register(model(), terminals_.millivolts(servo_.counts()));
     memory_.set(cell::ANINP, wrap32(std::int64_t{voltage} + memory_.get(cell::ANINP_OFFSET)));
+    analogue_was_on_ = analogue_level_.on();
     analogue_level_.update(memory_.get(cell::ANINP));
+    memory_.set(cell::DEGC, memory_.get(cell::DEGC) + surroundings_.degc());
+    memory_.set(cell::U_24V, surroundings_.u_24v());
 
-    const std::int32_t pulses = terminals_.next_pulses(sample_period());
+    const std::int32_t pulses = terminals_.next_pulses(sample_period(), pulse_input_);
     if (!facts().counts_pulses) return;
-    const std::int32_t counted = pulse_input_inverted_ ? -pulses : pulses;
-    memory_.set(cell::V_EXT, pulse_input_on_ ? counted : 0);
+    const std::int64_t turned = is_mode(MotorMode::coil) ? memory_.get(cell::V1[7]) : 0;  // 001 §4.4.20
+    memory_.set(cell::V_EXT, wrap32(pulses + turned));
+}
+
+bool MacMotor::brake_output() const {
+    constexpr std::int32_t kManNoBrake = 0x80;
+    const bool wanted = (memory_.get(cell::CNTRL_BITS) & kManNoBrake) == 0;
+    return is_mac800(model()) && wanted && facts().drive == Drive::Kind::shorted;
 }
 
 // 001 §3.2.163
@@ -154,25 +160,29 @@ void MacMotor::resynchronise() {
         move(cell::P_FNC, p_new * 16);
         memory_.set(cell::CNTRL_BITS, static_cast<std::int32_t>(control & ~bits().man_resync));
     }
-    if (!is_driven() && (control & bits().auto_resync) != 0) {
+    if (resynchronises_by_itself()) {
         memory_.set(cell::P_FNC, wrap32(16 * std::int64_t{p_ist()}));
     }
 }
 
+bool MacMotor::resynchronises_by_itself() const {
+    const auto control = static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS));
+    return (control & bits().auto_resync) != 0 && (is_mode(MotorMode::init) || is_mode(MotorMode::safe));
+}
+
+/// Without speed regulator.
 // R: P_FNC runs on with the shaft, so that a stop does not cost the motor its position.
 void MacMotor::stay_passive() {
-    const bool auto_resync =
-        (static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS)) & bits().auto_resync) != 0;
-    if (!auto_resync) {
+    if (!resynchronises_by_itself()) {
         const std::int64_t moved = 16 * std::int64_t{v_ist()} - follow_error_16_;
         memory_.set(cell::P_FNC, wrap32(memory_.get(cell::P_FNC) + moved));
     }
     follow_error_16_ = 0;
     memory_.set(cell::FLWERR, 0);
     memory_.set(cell::FNCERR, 0);
-    v_old_ = torque_ = 0;
-    regulator_.reset();
-    show_profile(0, 0);
+    v_old_ = 0;
+    servo_.carry_out(test_drive(), memory_);
+    show_profile(0);
     clear_in_position();
 }
 

@@ -5,48 +5,64 @@
 namespace nplc::sim {
 namespace {
 
-constexpr ModeFacts passive(std::string_view name) {
-    return {.name = name};
+using Block = ModeFacts::Block;
+using Leave = ModeFacts::Leave;
+using InPosition = ModeFacts::InPosition;
+using Kind = Drive::Kind;
+
+/// Both regulators active; INIT comes through STOP.
+constexpr ModeFacts driven(std::string_view name, Block block, InPosition in_position = InPosition::never) {
+    return {.name = name,
+            .drive = Kind::velocity,
+            .block = block,
+            .leave = Leave::stopping,
+            .in_position = in_position};
 }
-constexpr ModeFacts passive_with_pulses(std::string_view name) {
-    return {.name = name, .counts_pulses = true};
+constexpr ModeFacts positioned(std::string_view name) {
+    ModeFacts facts = driven(name, Block::position, InPosition::position);
+    facts.corrected = true;
+    return facts;
 }
-constexpr ModeFacts driven(std::string_view name) {
-    return {.name = name, .simulated = true, .driven = true};
+constexpr ModeFacts geared(std::string_view name, Block block = Block::gear) {
+    ModeFacts facts = driven(name, block, InPosition::gear);
+    facts.corrected = facts.counts_pulses = true;
+    return facts;
 }
-constexpr ModeFacts homing(std::string_view name) {
-    return {.name = name, .simulated = true, .driven = true, .homing = true};
+constexpr ModeFacts geared_without_correction(std::string_view name) {
+    ModeFacts facts = driven(name, Block::gear);
+    facts.counts_pulses = true;
+    return facts;
 }
-constexpr ModeFacts gear(std::string_view name) {
-    return {.name = name, .simulated = true, .driven = true, .corrected = true, .counts_pulses = true};
+constexpr ModeFacts at_rest(std::string_view name, Kind drive, Leave leave = Leave::at_once) {
+    return {.name = name, .drive = drive, .leave = leave, .begins_at_rest = true};
 }
 
 constexpr std::array<ModeFacts, 25> kModes{{
-    {.name = "INIT", .simulated = true, .counts_pulses = true},
-    driven("V_MODE"),
-    {.name = "P_MODE", .simulated = true, .driven = true, .corrected = true},
-    gear("GP_MODE"),
-    passive("AT_MODE"),
-    passive("AV_MODE"),
-    passive_with_pulses("AVG_MODE"),
-    passive("MANI_MODE"),
-    passive("TESTU_MODE"),
-    passive("TESTA_MODE"),
-    passive("BREAK_MODE"),
-    driven("STOP_MODE"),
-    homing("HOME1_MODE"),
-    homing("HOME2_MODE"),
-    homing("HOME3_MODE"),
-    {.name = "SAFE_MODE", .simulated = true},
-    passive("AVZ_MODE"),
-    passive("VAT_MODE"),
-    passive_with_pulses("AG_MODE"),
-    passive_with_pulses("COIL_MODE"),
-    passive("A2POS_MODE"),
-    passive("APOS_MODE"),
-    passive("TESTKI_MODE"),
-    passive("TESTTQ_MODE"),
-    gear("GF_MODE"),
+    {.name = "INIT", .counts_pulses = true},
+    driven("V_MODE", Block::velocity, InPosition::velocity),
+    positioned("P_MODE"),
+    geared("GP_MODE"),
+    {.name = "AT_MODE", .drive = Kind::analogue_torque, .leave = Leave::coasting},
+    driven("AV_MODE", Block::analogue_velocity),
+    geared_without_correction("AVG_MODE"),
+    at_rest("MANI_MODE", Kind::field),
+    at_rest("TESTU_MODE", Kind::voltage),
+    at_rest("TESTA_MODE", Kind::torque, Leave::test),
+    {.name = "BREAK_MODE", .drive = Kind::torque, .leave = Leave::test},
+    driven("STOP_MODE", Block::stop),
+    driven("HOME1_MODE", Block::homing),
+    driven("HOME2_MODE", Block::homing),
+    driven("HOME3_MODE", Block::homing),
+    {.name = "SAFE_MODE"},
+    driven("AVZ_MODE", Block::analogue_velocity),
+    driven("VAT_MODE", Block::velocity, InPosition::velocity),
+    geared("AG_MODE"),
+    geared("COIL_MODE", Block::coil),
+    positioned("A2POS_MODE"),
+    positioned("APOS_MODE"),
+    at_rest("TESTKI_MODE", Kind::shorted),
+    at_rest("TESTTQ_MODE", Kind::shorted),
+    geared("GF_MODE"),
 }};
 
 }  // namespace

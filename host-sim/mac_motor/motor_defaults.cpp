@@ -1,3 +1,4 @@
+#include "sim/motor_constants.h"
 #include "sim/motor_memory.h"
 
 namespace nplc::sim {
@@ -18,6 +19,53 @@ constexpr std::int32_t kInPosWindow = 32;
 constexpr std::int32_t kInPosCount = 3;
 constexpr std::int32_t kUserInterfaceFastMac = 3;
 
+/// Fixed-point coefficients; the folder's README has their design.
+struct Filters {
+    double one_f, one_vf, one_if;  // what is 1.0 in FF, VB and IB; in VF; in IF
+};
+constexpr Filters kSmallFilters{256, 4096, 4096};
+constexpr Filters kBigFilters{16777216, 65536, 65536};
+
+std::int32_t fixed(double value, double one) {
+    return static_cast<std::int32_t>(value * one + (value < 0 ? -0.5 : 0.5));
+}
+
+void write_speed_regulator(MotorMemory& memory) {
+    const bool big = is_mac800(memory.model());
+    const Filters& f = big ? kBigFilters : kSmallFilters;
+    const double scale = big ? 3500.0 / 2500.0 : 1.0;  // of torque that an acceleration takes
+    // Their sum is 1, so a move ends where the profile does; the sum of n times the n-th is 0, so there is no
+    // lag at constant velocity.
+    constexpr double kForward[] = {410 / 256.0, -154 / 256.0, -154 / 256.0, 154 / 256.0};
+    // 0.55 of the velocity error, 0.25 of the lag and 0.02 of its sum, as acceleration.
+    constexpr double kError[] = {982 / 4096.0, -1616 / 4096.0, 658 / 4096.0};
+    for (int n = 0; n < 4; ++n) memory.set(cell::KFF[n], fixed(kForward[n], f.one_f));
+    for (int n = 0; n < 3; ++n) memory.set(cell::KVFX[n], fixed(kError[n] * scale, f.one_vf));
+    memory.set(cell::KVFY[0], fixed(2, f.one_vf));
+    memory.set(cell::KVFY[1], fixed(-1, f.one_vf));
+    memory.set(cell::GEARB, fixed(16, f.one_f));
+    memory.set(cell::KVB, fixed(big ? 16 : 1, f.one_f));
+}
+
+void write_current_loop(MotorMemory& memory) {
+    const bool big = is_mac800(memory.model());
+    const Filters& f = big ? kBigFilters : kSmallFilters;
+    constexpr double kRate = 0.35;  // of an error that a sample takes away
+    const MotorConstants& c = constants_of(memory.model());
+    const double gain = kRate * c.resistance / (1 - c.decay);
+    memory.set(cell::KIFX2, fixed(gain, f.one_if));
+    memory.set(cell::KIFX1, fixed(-gain * c.decay, f.one_if));
+    memory.set(cell::KIFY1, fixed(1, f.one_if));
+    memory.set(cell::KIB1, fixed(1, f.one_f));
+    memory.set(cell::AMPLITUDE, 212);
+    memory.set(cell::PHASE_COMP, fixed(3.4, 256));
+    for (int p = 0; p < (big ? 2 : 3); ++p) memory.set(cell::IA_OFFSET[p], 1024);
+    for (int p = 0; p < (big ? 2 : 3); ++p) memory.set(cell::KIA[p], 256);
+    memory.set(cell::ELDEGN_OFFSET, 2040);
+    memory.set(cell::OUTLOOPDIV, kInnerSamples);
+    memory.set(cell::DEGCMAX, 696);  // 85 degrees
+}
+
 }  // namespace
 
 void write_defaults(MotorMemory& memory, std::uint8_t address) {
@@ -37,6 +85,8 @@ void write_defaults(MotorMemory& memory, std::uint8_t address) {
     memory.set(cell::V_HOME, -d.v_step);
     memory.set(cell::T_HOME, 300);
     memory.set(cell::MYADDR, address);
+    write_speed_regulator(memory);
+    write_current_loop(memory);
     for (int n = 0; n < 8; ++n) memory.set(cell::V1[n], d.v_step * (n + 1));
     for (int n = 0; n < 4; ++n) {
         memory.set(cell::A1[n], d.a_first << n);

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "sim/mac_motor.h"
 
 namespace nplc::sim {
@@ -11,9 +13,10 @@ void MacMotor::begin_homing() {
 
 // R: homing has its own velocity and torque: V_SOLL and T_SOLL keep theirs, so a V_SOLL = 0 does not stop it.
 void MacMotor::search_home() {
-    const bool found = homing_.step({.v_home = memory_.get(cell::V_HOME),
-                                     .t_home = memory_.get(cell::T_HOME),
-                                     .torque = torque_,
+    constexpr std::int32_t kBound = 0xFFFF;  // MAC800 registers hold more
+    const bool found = homing_.step({.v_home = std::clamp(memory_.get(cell::V_HOME), -kBound, kBound),
+                                     .t_home = std::clamp(memory_.get(cell::T_HOME), -kBound, kBound),
+                                     .torque = servo_.torque(),
                                      .sensor = analogue_level_.on()});
     if (found) end_homing();
 }
@@ -26,16 +29,17 @@ void MacMotor::end_homing() {
     memory_.set(cell::P_FNC, wrap32(16 * std::int64_t{position}));
     memory_.set(cell::P_SOLL, 0);
     corrected_braking_ = 0;
+    coil_.forget();
     v_old_ = 16 * v_ist();
     follow_error_16_ = v_old_;  // as the regulator's, for this sample's V_IST is counted in P_IST already
-    regulator_.restart(v_old_);
+    servo_.restart(v_old_);
     set_home_done(true);
 
     const auto start_mode = static_cast<std::uint16_t>(memory_.get(cell::STARTMODE));
     const ModeFacts* start = facts_of(start_mode);
-    const bool usable = start != nullptr && !start->homing && start_mode != number(MotorMode::safe);
+    const bool usable = start != nullptr && !start->homing() && start_mode != number(MotorMode::safe);
     request_mode(usable ? start_mode : number(MotorMode::init));
-    if (facts().homing) request_init();
+    if (facts().homing()) request_init();
 }
 
 /// INDEX_HOME: counts that the shaft is beyond the nearest index marker, else 0 (001 §3.2.36). R: markers are
@@ -43,7 +47,7 @@ void MacMotor::end_homing() {
 std::int32_t MacMotor::beyond_index() const {
     if ((static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS)) & bits().index_home) == 0) return 0;
     const std::int64_t pitch = bits().counts_to_index;
-    const std::int64_t beyond = ((last_counts_ % pitch) + pitch) % pitch;
+    const std::int64_t beyond = ((servo_.counts() % pitch) + pitch) % pitch;
     return static_cast<std::int32_t>(2 * beyond < pitch ? beyond : beyond - pitch);
 }
 

@@ -1,22 +1,16 @@
-#include <string>
+// Switching of modes (001 §4.4, §5.2.1.4 command 10h). What a mode is, and how it is left, is in mode_table.
+#include <algorithm>
 
 #include "sim/mac_motor.h"
 
 namespace nplc::sim {
 namespace {
 
-std::string passive_note(std::uint16_t mode, std::string_view name) {
-    return "mode " + std::to_string(mode) + " (" + std::string(name) +
-           ") is not simulated yet: the motor is passive as in INIT; use modes 0 to 3, 12 to 14 or 24";
-}
-
-std::string no_pulses_note(std::uint16_t mode, std::string_view name) {
-    return "mode " + std::to_string(mode) + " (" + std::string(name) +
-           ") finds no pulses: the FastMAC line has the pins of the pulse input (CNTRL_BITS, USERINTF = 11), "
-           "V_EXT stays 0; use a MAC800";
-}
+constexpr std::int32_t kMostCounts = 0xFFFF;
 
 }  // namespace
+
+using Leave = ModeFacts::Leave;
 
 const ModeFacts& MacMotor::facts() const {
     return *facts_of(mode());
@@ -31,44 +25,87 @@ void MacMotor::request_mode(std::uint16_t mode) {
         if (is_mode(MotorMode::safe)) load_parameters(mode);
         return;
     }
-    const ModeFacts* wanted = facts_of(mode);
-    if (wanted == nullptr) return;
+    if (facts_of(mode) == nullptr) return;
     if (mode == number(MotorMode::init)) return request_init();
-    if (error_forbids_motion()) return;
-    unsupported_.clear();
-    if (!wanted->simulated) unsupported_ = passive_note(mode, wanted->name);
-    if (!wanted->driven && is_driven()) return begin_stop(mode, false);
+    if (!error_forbids_motion()) leave_for(mode);
+}
+
+// R: AT and the tests end in INIT whatever they are left for, and a test runs to its end.
+void MacMotor::leave_for(std::uint16_t mode) {
+    if (facts().leave == Leave::test) return;
+    if (facts().leave == Leave::coasting) {
+        if (mode != this->mode()) coasting_ = true;
+        return;
+    }
     if (mode == number(MotorMode::stop)) return begin_stop(number(MotorMode::init), false);
+    if (facts_of(mode)->begins_at_rest && is_driven()) return begin_stop(mode, false);
     enter(mode);
 }
 
 void MacMotor::request_init() {
-    unsupported_.clear();
-    if (is_mode(MotorMode::stop)) {
-        mode_after_stop_ = number(MotorMode::init);
-    } else if (is_driven()) {
-        begin_stop(number(MotorMode::init), false);
-    } else {
-        set_mode(number(MotorMode::init));
+    note_ = {};
+    go_passive(false);
+}
+
+/// 001 §4.1.8, §4.4.1: to INIT as the mode allows it.
+void MacMotor::go_passive(bool emergency) {
+    switch (facts().leave) {
+        case Leave::at_once:
+            if (!is_mode(MotorMode::safe)) set_mode(number(MotorMode::init));
+            return;
+        case Leave::coasting:
+            coasting_ = true;
+            return;
+        case Leave::test:
+            set_recording(false);
+            begin_at_measured_speed();
+            return begin_stop(number(MotorMode::init), emergency);
+        case Leave::stopping:
+            return begin_stop(number(MotorMode::init), emergency || (is_mode(MotorMode::stop) && emergency_));
     }
 }
 
 void MacMotor::enter(std::uint16_t mode) {
     const ModeFacts& next = *facts_of(mode);
-    if (next.corrected && mode != this->mode()) begin_correction();
-    if (next.corrected && next.counts_pulses) {
-        if (mode != this->mode()) gear_.reset();
-        if (!pulse_input_on_) unsupported_ = no_pulses_note(mode, next.name);
+    if (mode != this->mode()) {
+        corrected_braking_ = 0;
+        coasting_ = false;
+        if (next.corrected) begin_correction();
+        if (next.geared()) gear_.reset();
     }
+    note_ = why_it_stands(mode);
     set_mode(mode);
-    if (next.homing) begin_homing();
+    if (next.homing()) begin_homing();
+    begin_test();
 }
 
-// 001 §5.2.1.4, command 10h
+std::string_view MacMotor::why_it_stands(std::uint16_t mode) const {
+    if (mode == number(MotorMode::test_torque)) {
+        return "the manual does not say what TESTTQ_MODE (23) does: the motor is passive in it as in INIT";
+    }
+    if (facts_of(mode)->geared() && !pulse_input_.on()) {
+        return "a gear mode finds no pulses: the FastMAC line has the pins of the pulse input (CNTRL_BITS, "
+               "USERINTF = 11), V_EXT stays 0; use a MAC800";
+    }
+    return {};
+}
+
+/// 001 §4.1.8, §4.4.5, §4.4.9 to §4.4.11: what a mode does without being asked.
+void MacMotor::end_mode_by_itself() {
+    if (is_mode(MotorMode::stop) && below_300_rpm()) {
+        enter(mode_after_stop_);
+    } else if (coasting_ && below_300_rpm()) {
+        coasting_ = false;
+        set_mode(number(MotorMode::init));
+    } else {
+        end_test();
+    }
+}
+
 void MacMotor::request_home() {
     const auto mode = static_cast<std::uint16_t>((memory_.get(cell::HOME_MODE) >> 8) & 0xFF);
     const ModeFacts* wanted = facts_of(mode);
-    if (wanted != nullptr && wanted->homing) request_mode(mode);
+    if (wanted != nullptr && wanted->homing()) request_mode(mode);
 }
 
 void MacMotor::begin_stop(std::uint16_t then, bool emergency) {
@@ -77,12 +114,21 @@ void MacMotor::begin_stop(std::uint16_t then, bool emergency) {
     set_mode(number(MotorMode::stop));
 }
 
+/// Out of a mode without speed regulator: the profile begins where the shaft is and as fast as it is, a
+/// sample ahead as always.
+void MacMotor::begin_at_measured_speed() {
+    v_old_ = 16 * std::clamp(v_ist(), -kMostCounts, kMostCounts);  // a user may have written V_IST
+    follow_error_16_ = v_old_;
+    memory_.set(cell::P_FNC, wrap32(std::int64_t{memory_.get(cell::P_FNC)} + v_old_));
+    servo_.restart(v_old_);
+}
+
 // R: what the regulator gave up in a mode without correction is taken off P_FNC now: P_FNC - FLWERR stays
 // true.
 void MacMotor::begin_correction() {
-    const std::int64_t given_up = follow_error_16_ - regulator_.lag_16();
+    const std::int64_t given_up = follow_error_16_ - servo_.lag_16();
     memory_.set(cell::P_FNC, wrap32(memory_.get(cell::P_FNC) - given_up));
-    follow_error_16_ = regulator_.lag_16();
+    follow_error_16_ = servo_.lag_16();
     memory_.set(cell::FNCERR, 0);
 }
 
@@ -92,35 +138,6 @@ bool MacMotor::below_300_rpm() const {
     const std::int64_t v = v_ist();
     return (v < 0 ? -v : v) * kNanosecondsInMinute <
            300 * std::int64_t{counts_per_revolution()} * sample_period().count();
-}
-
-// 001 §4.5. I2T and UIT are compared with their limits; nothing computes them yet.
-void MacMotor::monitor() {
-    const auto beyond = [&](Cell value, Cell limit) {
-        const std::int64_t v = memory_.get(value);
-        const std::int64_t most = memory_.get(limit);
-        return most > 0 && (v < 0 ? -v : v) > most;
-    };
-    if (beyond(cell::I2T, cell::I2TLIM)) fail(err::I2T_ERR);
-    if (beyond(cell::UIT, cell::UITLIM)) fail(err::UIT_ERR);
-    if (beyond(cell::FLWERR, cell::FLWERRMAX)) fail(err::FLW_ERR);
-    if (beyond(cell::FNCERR, cell::FNCERRMAX)) fail(err::FNC_ERR);
-    const std::int32_t low = memory_.get(cell::MIN_P_IST);
-    const std::int32_t high = memory_.get(cell::MAX_P_IST);
-    const bool limited = (low != 0 || high != 0) && (error_status() & err::DIS_P_LIM) == 0;
-    if (limited && (p_ist() < low || p_ist() > high)) fail(err::PLIM_ERR);
-}
-
-void MacMotor::fail(std::uint32_t error) {
-    set_error_bits(error, true);
-    if (is_mode(MotorMode::stop)) {
-        mode_after_stop_ = number(MotorMode::init);
-        emergency_ = true;
-    } else if (is_driven()) {
-        begin_stop(number(MotorMode::init), true);
-    } else if (!is_mode(MotorMode::safe)) {
-        set_mode(number(MotorMode::init));
-    }
 }
 
 }  // namespace nplc::sim

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "sim/analogue_blocks.h"
 #include "sim/mac_motor.h"
 
 namespace nplc::sim {
@@ -35,24 +36,32 @@ std::int64_t MacMotor::distance_16() const {
 std::int32_t MacMotor::torque_limit() const {
     if (is_mode(MotorMode::stop)) return kFullTorque;
     if (is_mode(MotorMode::home1)) return Homing::torque_limit(memory_.get(cell::T_HOME));
-    return memory_.get(cell::T_SOLL);
+    const std::int32_t t_soll = memory_.get(cell::T_SOLL);
+    if (!is_mode(MotorMode::velocity_analogue_torque)) return t_soll;
+    return analogue_torque_limit(model(), memory_.get(cell::ANINP), t_soll);
 }
 
 void MacMotor::run_profile() {
-    switch (static_cast<MotorMode>(mode())) {
-        case MotorMode::position:
+    const auto towards = [&](std::int32_t velocity) {
+        regulate(velocity_block(velocity, v_old_, acceleration()));
+    };
+    switch (facts().block) {
+        case ModeFacts::Block::velocity:
+            return towards(v_soll());
+        case ModeFacts::Block::analogue_velocity:
+            return towards(analogue_v_soll());
+        case ModeFacts::Block::homing:
+            return towards(homing_.velocity());
+        case ModeFacts::Block::position:
+            set_target_by_voltage();
             return run_position();
-        case MotorMode::gear_position:
-        case MotorMode::gear_follow:
+        case ModeFacts::Block::gear:
             return run_gear();
-        case MotorMode::home1:
-        case MotorMode::home2:
-        case MotorMode::home3:
-            return regulate(velocity_block(homing_.velocity(), v_old_, acceleration()));
-        case MotorMode::stop:
-            return regulate(velocity_block(0, v_old_, acceleration()));
-        default:
-            return regulate(velocity_block(v_soll(), v_old_, acceleration()));
+        case ModeFacts::Block::coil:
+            return run_coil();
+        case ModeFacts::Block::stop:
+        case ModeFacts::Block::none:
+            return towards(0);
     }
 }
 
@@ -69,46 +78,27 @@ void MacMotor::run_position() {
     distance_to_go_ = wrap32(distance - v_old_);
 }
 
-void MacMotor::run_gear() {
-    gear_.take(memory_.get(cell::V_EXT), memory_.get(cell::GEARF1), memory_.get(cell::GEARF2));
-    const std::int64_t distance = -gear_.g_fnc();
-    const std::int32_t limit = std::abs(v_soll());
-    if (is_mode(MotorMode::gear_position)) {
-        regulate(position_block(distance, v_old_, limit, acceleration(), braking(distance)));
-    } else {
-        regulate(gear_follow_block(gear_.g_fnc(), v_old_, limit, acceleration()));
-    }
-    gear_.went(v_old_);
-    memory_.set(cell::G_FNC, wrap32(gear_.g_fnc()));
-    memory_.set(cell::FNCERR, wrap32(gear_.g_fnc()));  // here a positioning error (001 §3.2.24)
-}
-
 void MacMotor::regulate(std::int32_t fnc_out) {
-    const std::int32_t kvout = memory_.get(cell::KVOUT);
-    const Regulator::Output out = regulator_.step({.fnc_out = fnc_out,
-                                                   .v_ist = v_ist(),
-                                                   .torque_limit = torque_limit(),
-                                                   .kvout_256 = is_mac800(model()) ? kvout >> 8 : kvout});
+    const Servo::Result out = servo_.carry_out(
+        {.kind = Drive::Kind::velocity, .fnc_out = fnc_out, .torque_limit = torque_limit()}, memory_);
     if (facts().corrected) {
         learn_braking(fnc_out, out.correction);
-        fnc_out += out.correction;
+        fnc_out = std::clamp(fnc_out + out.correction, -kBound, kBound);
     }
-    if (is_mode(MotorMode::position)) {
-        memory_.set(cell::FNCERR, wrap32(std::int64_t{memory_.get(cell::FNCERR)} + out.correction));
-    }
+    const std::int64_t corrected = facts().corrected ? std::int64_t{memory_.get(cell::FNCERR)} : 0;
+    memory_.set(cell::FNCERR, facts().corrected ? wrap32(corrected + out.correction) : 0);
     follow_error_16_ += fnc_out - 16 * v_ist();
-    memory_.set(cell::FLWERR, wrap32(follow_error_16_ / 16));
+    memory_.set(cell::FLWERR, is_mode(MotorMode::stop) ? 0 : wrap32(follow_error_16_ / 16));
     memory_.set(cell::P_FNC, wrap32(std::int64_t{memory_.get(cell::P_FNC)} + fnc_out));
-    show_profile(fnc_out, out.torque);
+    show_profile(fnc_out);
     v_old_ = fnc_out;
-    torque_ = out.torque;
 }
 
 // R: a move whose braking had to be corrected is planned with less of it to its end, or it would swing about
 // its target.
 // Gear modes have no such end: there it comes back.
 void MacMotor::learn_braking(std::int32_t wanted, std::int32_t correction) {
-    if (correction == 0 && !is_mode(MotorMode::position) && corrected_braking_ != 0) {
+    if (correction == 0 && facts().geared() && corrected_braking_ != 0) {
         corrected_braking_ += corrected_braking_ / 64 + 1;
         if (corrected_braking_ >= acceleration()) corrected_braking_ = 0;
     }
@@ -117,15 +107,13 @@ void MacMotor::learn_braking(std::int32_t wanted, std::int32_t correction) {
     corrected_braking_ = std::max(before - before / 16 - 1, 1);
 }
 
-void MacMotor::show_profile(std::int32_t fnc_out, std::int32_t torque) {
+void MacMotor::show_profile(std::int32_t fnc_out) {
     set_error_bits(err::ACC_FLAG, fnc_out > v_old_);
     set_error_bits(err::DEC_FLAG, fnc_out < v_old_);
     memory_.set(cell::FNC_OUT, is_mac800(model()) ? wrap32(std::int64_t{fnc_out} * 0x10000) : fnc_out);
-    memory_.set(cell::VF_OUT, torque);
 }
 
 void MacMotor::judge_in_position() {
-    if (is_mode(MotorMode::stop) || facts().homing) return clear_in_position();
     if (!within_window()) return clear_in_position();
     ++samples_within_;
     if (samples_within_ < memory_.get(cell::INPOSCNT)) return;
@@ -137,8 +125,16 @@ void MacMotor::judge_in_position() {
 // gear modes (R: P_FNC there is the block's own G_FNC).
 bool MacMotor::within_window() const {
     const std::int64_t window = memory_.get(cell::INPOSWIN);
-    if (is_mode(MotorMode::position)) return std::abs(distance_16() + follow_error_16_) < 16 * window;
-    if (facts().corrected) return std::abs(gear_.g_fnc()) < 16 * window;
+    switch (facts().in_position) {
+        case ModeFacts::InPosition::never:
+            return false;
+        case ModeFacts::InPosition::position:
+            return std::abs(distance_16() + follow_error_16_) < 16 * window;
+        case ModeFacts::InPosition::gear:
+            return std::abs(gear_.g_fnc()) < 16 * window;
+        case ModeFacts::InPosition::velocity:
+            break;
+    }
     if (memory_.get(cell::INPOSCNT) == 0) return std::abs(std::int64_t{v_ist()}) < window;
     return std::abs(std::int64_t{v_soll()} - 16 * std::int64_t{v_ist()}) < window;
 }

@@ -8,7 +8,6 @@ namespace {
 constexpr std::uint16_t kDefaultsToFlash = 256;
 constexpr std::uint16_t kDefaults = 257;
 constexpr std::uint16_t kStoredAgain = 258;
-constexpr int kInnerSamples = 15;  // of the current loop in one of the outer loop (001 §1.2)
 
 /// Not parameters: what the motor itself counts and shows, which no flash brings back.
 constexpr Cell kVolatile[] = {cell::P_SOLL, cell::P_FNC,   cell::P_IST,  cell::V_IST,    cell::FLWERR,
@@ -79,19 +78,31 @@ void MacMotor::load_parameters(std::uint16_t command) {
 }
 
 void MacMotor::run_sample_buffer() {
-    auto control = static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS));
+    const auto control = static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS));
     if ((control & (bits().rewind | bits().record)) == 0) return;
-    if ((control & bits().rewind) != 0) {
-        samples_.rewind();
-        control &= ~bits().rewind;
-    }
-    if ((control & bits().record) != 0) {
-        const int count = (control & bits().record_inner) != 0 ? kInnerSamples : 1;
-        for (int i = 0; i < count && !samples_.full(); ++i) samples_.record(sampled_registers());
-        if (samples_.full()) control &= ~bits().record;
-    }
-    memory_.set(cell::CNTRL_BITS, static_cast<std::int32_t>(control));
+    if ((control & bits().rewind) != 0) rewind_samples();
+    if ((control & bits().record) != 0 && (control & bits().record_inner) == 0) record();
+}
+
+void MacMotor::rewind_samples() {
+    samples_.rewind();
+    const auto control = static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS));
+    memory_.set(cell::CNTRL_BITS, static_cast<std::int32_t>(control & ~bits().rewind));
+    memory_.set(cell::REC_CNT, 0);
+}
+
+void MacMotor::record() {
+    samples_.record(sampled_registers());
     memory_.set(cell::REC_CNT, static_cast<std::int32_t>(samples_.count()));
+    const bool test_ended = servo_.drive().kind == Drive::Kind::voltage &&  // 001 §4.4.9
+                            servo_.test_samples() == Servo::kTestSamples;
+    if (!samples_.full() && !test_ended) return;
+    const auto control = static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS));
+    memory_.set(cell::CNTRL_BITS, static_cast<std::int32_t>(control & ~bits().record));
+}
+
+void MacMotor::inner_sample() {
+    if ((static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS)) & bits().record) != 0) record();
 }
 
 SampleBuffer::Sample MacMotor::sampled_registers() const {
@@ -106,7 +117,7 @@ SampleBuffer::Sample MacMotor::sampled_registers() const {
 // A REWIND that no sample has seen yet counts too, or a quick reader would miss the first samples.
 SampleBuffer::Sample MacMotor::next_sample() {
     const auto control = static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS));
-    if ((control & bits().rewind) != 0) run_sample_buffer();
+    if ((control & bits().rewind) != 0) rewind_samples();
     const SampleBuffer::Sample sample = samples_.next();
     memory_.set(cell::REC_CNT, static_cast<std::int32_t>(samples_.count()));
     return sample;

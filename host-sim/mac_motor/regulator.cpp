@@ -1,60 +1,111 @@
 #include "sim/regulator.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace nplc::sim {
 namespace {
 
-// Percent of the acceleration that each part asks for. Stable, with a load of a half to four times what KVOUT
-// says.
-constexpr std::int64_t kForward = 100, kVelocity = 60, kLag = 25, kIntegral = 2;
-constexpr std::int64_t kOfFncOut = kForward + kVelocity + kLag + kIntegral;
-
-constexpr std::int64_t kFullTorque = 1023;
 constexpr std::int64_t kLagBound = std::int64_t{1} << 28;
-constexpr std::int64_t kDriveBound = std::int64_t{1} << 36;
+constexpr double kTorqueBound = 1e9;      // keeps wild coefficients finite
+constexpr double kLeastGain = 1e-6;       // below it no FNC_OUT would have helped
+constexpr double kCorrectionBound = 1e8;  // 1/16 counts/sample
+
+void remember(Regulator::Taps& history, double value) {
+    for (std::size_t i = history.size() - 1; i > 0; --i) history[i] = history[i - 1];
+    history[0] = value;
+}
+
+double filtered(const Regulator::Taps& coefficients, const Regulator::Taps& history) {
+    double even = coefficients[0] * history[0] + coefficients[2] * history[2] + coefficients[4] * history[4];
+    double odd = coefficients[1] * history[1] + coefficients[3] * history[3] + coefficients[5] * history[5];
+    return even + odd;
+}
 
 }  // namespace
 
 Regulator::Output Regulator::step(const Input& input) {
-    const std::int64_t wanted = input.fnc_out;
-    const std::int64_t error = wanted - 16 * std::int64_t{input.v_ist};
-    lag_16_ = std::clamp(lag_16_ + error, -kLagBound, kLagBound);
-    integral_ += kIntegral * lag_16_;
-    const std::int64_t drive =
-        std::clamp(kForward * (wanted - last_fnc_out_) + kVelocity * error + kLag * lag_16_ + integral_,
-                   -kDriveBound, kDriveBound);
-    last_fnc_out_ = wanted;
+    Output out;
+    remember(fnc_out_, input.fnc_out);
+    remember(v_ist_, input.v_ist);
+    out.ff_out = filtered(c_.ff, fnc_out_);
+    out.vb_out = filtered(c_.vb, v_ist_);
+    remember(error_, out.ff_out - out.vb_out);
+    remember(torque_,
+             std::clamp(filtered(c_.vfx, error_) + filtered(c_.vfy, torque_), -kTorqueBound, kTorqueBound));
 
-    const std::int64_t gain = std::clamp<std::int64_t>(input.kvout_256, 0, 0xFFFF) * kFullTorque;
-    const std::int64_t divisor = 100 * 256 * full_acceleration_16_;
-    const std::int64_t limit = std::clamp<std::int64_t>(input.torque_limit, 0, kFullTorque);
-    const std::int64_t torque = drive * gain / divisor;
-    const std::int64_t limited = std::clamp(torque, -limit, limit);
-
-    std::int64_t correction = 0;
+    const double torque = torque_[0] * input.kvout;
+    const double limit = input.torque_limit;
+    const double limited = std::clamp(torque, -limit, limit);
+    out.torque = static_cast<std::int32_t>(limited);
     if (torque != limited) {
-        correction = (limited * divisor / gain - drive) / kOfFncOut;
-        correction = std::clamp<std::int64_t>(correction, -kLagBound, kLagBound);
-        last_fnc_out_ += correction;
-        lag_16_ += correction;
-        integral_ += kIntegral * correction;
+        out.correction = correct(limited - torque, input.kvout);
+        out.ff_out += c_.ff[0] * out.correction;
     }
-    const std::int64_t integral_bound = 100 * full_acceleration_16_ * 4;
-    integral_ = std::clamp(integral_, -integral_bound, integral_bound);
-    return {static_cast<std::int32_t>(limited), static_cast<std::int32_t>(correction)};
+    lag_16_ = std::clamp(lag_16_ + input.fnc_out + out.correction - 16 * std::int64_t{input.v_ist},
+                         -kLagBound, kLagBound);
+    return out;
 }
 
+/// Takes `excess` of torque back out of the filters, as if FNC_OUT had been another.
+std::int32_t Regulator::correct(double excess, double kvout) {
+    const double gain = c_.ff[0] * c_.vfx[0] * kvout;
+    if (gain < kLeastGain) {  // R: coefficients that no velocity can answer for: the output alone is held
+        torque_[0] += excess / std::max(kvout, kLeastGain);
+        return 0;
+    }
+    const auto correction =
+        static_cast<std::int32_t>(std::clamp(excess / gain, -kCorrectionBound, kCorrectionBound));
+    fnc_out_[0] += correction;
+    error_[0] += c_.ff[0] * correction;
+    torque_[0] += c_.vfx[0] * c_.ff[0] * correction;
+    return correction;
+}
+
+// VF is given the sum of its input as it would be: the lag less what the filters still hold. Its output rises
+// by the sum of its numerator for each unit of that.
 void Regulator::restart(std::int32_t velocity) {
     reset();
-    lag_16_ = velocity;  // which the next step takes off again
-    last_fnc_out_ = velocity;
+    lag_16_ = velocity;
+    fnc_out_.fill(velocity);
+    v_ist_.fill(velocity / 16.0);
+    double sum = 0;
+    double held = 0;
+    for (std::size_t i = 0; i < torque_.size(); ++i) {
+        sum += c_.vfx[i];
+        held += static_cast<double>(i) * (c_.ff[i] - c_.vb[i] / 16);
+    }
+    const double rise = sum * velocity * (1 - held);
+    for (std::size_t i = 0; i < torque_.size(); ++i) {
+        torque_[i] = std::clamp(-rise * static_cast<double>(i), -kTorqueBound, kTorqueBound);
+    }
 }
 
 void Regulator::reset() {
     lag_16_ = 0;
-    integral_ = 0;
-    last_fnc_out_ = 0;
+    fnc_out_ = v_ist_ = error_ = torque_ = {};
+}
+
+Regulator::Coefficients regulator_coefficients(const MotorMemory& memory) {
+    Regulator::Coefficients c;
+    const auto fill = [&](Regulator::Taps& taps, Cell first, int count, double one) {
+        for (int i = 0; i < count; ++i) taps[static_cast<std::size_t>(i)] = memory.get(first[i]) / one;
+    };
+    if (is_mac800(memory.model())) {
+        constexpr double kFixed16 = 65536, kFixed24 = 16777216;
+        fill(c.ff, cell::KFF, 6, kFixed24);
+        fill(c.vb, cell::KVB, 5, kFixed24);
+        fill(c.vfx, cell::KVFX, 6, kFixed16);
+        fill(c.vfy, cell::KVFY, 6, kFixed16);
+        return c;
+    }
+    constexpr double kFixed4 = 4096, kFixed8 = 256;
+    fill(c.ff, cell::KFF, 4, kFixed8);
+    fill(c.vb, cell::KVB, 4, kFixed8);
+    fill(c.vfx, cell::KVFX, 4, kFixed4);
+    fill(c.vfy, cell::KVFY, 4, kFixed4);
+    for (double& coefficient : c.vb) coefficient *= memory.get(cell::GEARB) / kFixed8;
+    return c;
 }
 
 }  // namespace nplc::sim

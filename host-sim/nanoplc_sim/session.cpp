@@ -139,7 +139,7 @@ void Session::note_changes() {
         reason_ = reason;
         timeline_.remark(std::string(in_words(reason)));
     }
-    if (const auto note = world_.mac().unsupported(); note != motor_note_) {
+    if (const auto note = world_.mac().note(); note != motor_note_) {
         motor_note_ = note;
         if (!note.empty()) timeline_.alarm(fmt::format("motor: {}", note));
     }

@@ -36,7 +36,9 @@ class ActionParser {
     double spring();
     action::MotorSensor motor_sensor();
     action::MotorAnalogue motor_analogue();
-    action::MotorPulses motor_pulses();
+    action::MotorPulses motor_pulses(bool with_direction);
+    action::MotorSupply motor_supply(bool logic);
+    action::MotorTemperature motor_temperature();
     bool above_or_below(std::string_view example);
     int whole(std::string_view what, double least, double most, std::string_view mistake);
     void gateway(Actions& list, Time after);

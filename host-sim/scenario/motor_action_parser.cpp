@@ -4,7 +4,9 @@ namespace nplc::sim {
 namespace {
 
 constexpr std::string_view kMotor =
-    "motor error, motor load, motor power, motor stop, motor sensor, motor analogue or motor pulses";
+    "motor error, motor load, motor power, motor stop, motor sensor, motor analogue, motor pulses, motor "
+    "steps, "
+    "motor supply, motor logic, motor temperature or motor encoder";
 
 }  // namespace
 
@@ -15,7 +17,15 @@ void ActionParser::motor(Actions& list, Time after) {
     if (reader_.take("stop")) return motor_stop(list, after);
     if (reader_.take("sensor")) return add(list, after, motor_sensor());
     if (reader_.take("analogue")) return add(list, after, motor_analogue());
-    if (reader_.take("pulses")) return add(list, after, motor_pulses());
+    if (reader_.take("pulses")) return add(list, after, motor_pulses(false));
+    if (reader_.take("steps")) return add(list, after, motor_pulses(true));
+    if (reader_.take("supply")) return add(list, after, motor_supply(false));
+    if (reader_.take("logic")) return add(list, after, motor_supply(true));
+    if (reader_.take("temperature")) return add(list, after, motor_temperature());
+    if (reader_.take("encoder")) {
+        reader_.want("broken", "motor encoder broken");
+        return add(list, after, action::BreakEncoder{});
+    }
     reader_.fail(kMotor);
 }
 
@@ -80,12 +90,26 @@ action::MotorAnalogue ActionParser::motor_analogue() {
     return {volts};
 }
 
-action::MotorPulses ActionParser::motor_pulses() {
-    const int rate = whole("a rate, such as motor pulses 5000 per s", -1e6, 1e6,
-                           "pulses are a whole number -1000000 to 1000000 per s");
-    reader_.want("per", "per s, such as motor pulses 5000 per s");
-    reader_.want("s", "per s, such as motor pulses 5000 per s");
-    return {rate};
+action::MotorPulses ActionParser::motor_pulses(bool with_direction) {
+    const std::string example = with_direction ? "motor steps 5000 per s" : "motor pulses 5000 per s";
+    const int rate =
+        whole("a rate, such as " + example, -1e6, 1e6, "pulses are a whole number -1000000 to 1000000 per s");
+    reader_.want("per", "per s, such as " + example);
+    reader_.want("s", "per s, such as " + example);
+    return {rate, with_direction};
+}
+
+action::MotorSupply ActionParser::motor_supply(bool logic) {
+    const std::string example = logic ? "motor logic 15 V" : "motor supply 20 V";
+    const double volts = reader_.number("a voltage, such as " + example);
+    reader_.want("V", "its unit, such as " + example);
+    if (volts < 0 || volts > 600) throw LineMistake{"a supply is 0 V to 600 V"};
+    return {volts, logic};
+}
+
+action::MotorTemperature ActionParser::motor_temperature() {
+    return {whole("degrees Celsius, such as motor temperature 90", -40, 200,
+                  "a temperature is a whole number -40 to 200, in degrees Celsius")};
 }
 
 }  // namespace nplc::sim

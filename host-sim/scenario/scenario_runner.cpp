@@ -102,7 +102,10 @@ void ScenarioRunner::perform(const Action& action) {
         void operator()(const action::FreeMotor&) const { self.stage_.free_motor(); }
         void operator()(const action::MotorSensor& a) const { self.stage_.connect_sensor(a); }
         void operator()(const action::MotorAnalogue& a) const { self.stage_.set_analogue(a.volts); }
-        void operator()(const action::MotorPulses& a) const { self.stage_.set_pulses(a.per_second); }
+        void operator()(const action::MotorPulses& a) const { self.stage_.set_pulses(a); }
+        void operator()(const action::MotorSupply& a) const { self.stage_.set_supply(a); }
+        void operator()(const action::MotorTemperature& a) const { self.stage_.set_temperature(a.celsius); }
+        void operator()(const action::BreakEncoder&) const { self.stage_.break_encoder(); }
         void operator()(const action::Gateway& a) const { self.stage_.gateway(a); }
         void operator()(const action::Log& a) const { self.stage_.log(a.text); }
         void operator()(const action::End&) const { self.ended_ = true; }

@@ -215,7 +215,7 @@ TEST(FastMacCommand, RegisterSets) {
     }
 }
 
-// The high byte of HOME_MODE; homing itself is not simulated yet and says so.
+// The high byte of HOME_MODE, where it is a homing mode.
 TEST(FastMacCommand, Home) {
     MotorBench b;
     b.command(Number::home);

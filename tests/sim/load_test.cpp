@@ -181,16 +181,16 @@ TEST(Load, ShaftTurnedInInitIsCounted) {
 // It stays there and comes out without being thrown. The hardest spring leaves 1/129 of the depth: full
 // torque, 218 counts/sample^2, over 1000 counts is 660 counts/sample, so (660 + 218) / 129 = 7 counts.
 TEST(Load, ASpringyStopGivesWay) {
-    Plant soft(3500, {.high_stop = MechanicalStop{1000, 1024}});
-    for (int i = 0; i < 2000; ++i) soft.drive(300);
+    Plant soft(3500 / 16.0, 1, {.high_stop = MechanicalStop{1000, 1024}});
+    for (int i = 0; i < 2000; ++i) soft.step(300);
     EXPECT_NEAR(static_cast<double>(soft.counts()), 1300, 6);
-    for (int i = 0; i < 2000; ++i) soft.drive(0);
+    for (int i = 0; i < 2000; ++i) soft.step(0);
     EXPECT_LE(soft.counts(), 1010);
     EXPECT_GE(soft.counts(), 980);
 
-    Plant hard(3500, {.low_stop = MechanicalStop{-1000, 1'000'000'000}});
+    Plant hard(3500 / 16.0, 1, {.low_stop = MechanicalStop{-1000, 1'000'000'000}});
     for (int i = 0; i < 2000; ++i) {
-        hard.drive(-1023);
+        hard.step(-1023);
         ASSERT_GE(hard.counts(), -1007);
     }
 }

@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
 #include "motor_bench.h"
 
 namespace nplc::sim {
@@ -11,11 +15,18 @@ void run_at(MotorBench& b, std::int32_t v_soll) {
     b.samples(300);
 }
 
-/// Samples in STOP until it ends; V_IST then.
-std::int32_t velocity_at_end_of_stop(MotorBench& b) {
-    for (int i = 0; i < 5000 && b.reg(MODE_REG) == 11; ++i) b.samples(1);
+/// Follows STOP to its end: it goes on at every V_IST above `last_below`, and ends at the first that is not.
+/// Answers the slowest that it went on at.
+std::int32_t slowest_in_stop(MotorBench& b, std::int32_t last_below) {
+    std::int32_t slowest = 100'000;
+    for (int i = 0; i < 5000 && b.reg(MODE_REG) == 11; ++i) {
+        b.samples(1);
+        const std::int32_t v = std::abs(b.motor.v_ist());
+        EXPECT_EQ(b.reg(MODE_REG), v > last_below ? 11 : 0) << v;
+        if (v > last_below) slowest = std::min(slowest, v);
+    }
     EXPECT_EQ(b.reg(MODE_REG), 0);
-    return b.motor.v_ist();
+    return slowest;
 }
 
 TEST(Mode, StartsInInit) {
@@ -36,9 +47,9 @@ TEST(Mode, StartsInStartmode) {
     EXPECT_TRUE(b.motor.is_mode(MotorMode::position));
 }
 
-// 300 rpm are 39.3 counts/sample (001 §3.2.12: 7.629 rpm each): 39 is below, 40 is not. Slow braking passes
-// every count.
-TEST(Mode, StopEndsAt39) {
+// 300 rpm are 39.3 counts/sample (001 §3.2.12: 7.629 rpm each): 39 is below, 40 is not. Slow braking, a
+// quarter of a count a sample, passes every count, or all but one that the encoder's step hides.
+TEST(Mode, StopEndsBelow300Rpm) {
     MotorBench b;
     run_at(b, 1600);
     b.set(A_SOLL, 4);
@@ -46,18 +57,36 @@ TEST(Mode, StopEndsAt39) {
     EXPECT_EQ(b.reg(MODE_REG), 11);
     b.samples(1);
     EXPECT_EQ(b.reg(MODE_REG), 11);
-    EXPECT_EQ(velocity_at_end_of_stop(b), 39);
+    EXPECT_NEAR(slowest_in_stop(b, 39), 40.5, 0.5);
     EXPECT_EQ(b.reg(FLWERR), 0);
     b.settle();
     EXPECT_EQ(b.motor.v_ist(), 0);
 }
 
-TEST(Mode, StopEndsAtMinus39Backwards) {
+TEST(Mode, StopEndsBelow300RpmBackwards) {
     MotorBench b;
     run_at(b, -1600);
     b.set(A_SOLL, 4);
     b.set(MODE_REG, 0);
-    EXPECT_EQ(velocity_at_end_of_stop(b), -39);
+    EXPECT_NEAR(slowest_in_stop(b, 39), 40.5, 0.5);
+}
+
+// The two velocities themselves, about 640 / 16 = 40, as the encoder reads them in the first sample of STOP.
+TEST(Mode, StopGoesOnAt40AndEndsAt39) {
+    std::set<std::int32_t> went_on;
+    std::set<std::int32_t> ended;
+    for (int wait = 0; wait < 60; ++wait) {
+        MotorBench b;
+        run_at(b, 632 + wait % 10);
+        b.samples(wait);
+        b.set(MODE_REG, 0);
+        EXPECT_EQ(b.reg(MODE_REG), 11);
+        b.samples(1);
+        (b.reg(MODE_REG) == 11 ? went_on : ended).insert(b.motor.v_ist());
+    }
+    ASSERT_FALSE(went_on.empty() || ended.empty());
+    EXPECT_EQ(*went_on.begin(), 40);
+    EXPECT_EQ(*ended.rbegin(), 39);
 }
 
 // 004: 0.17316 counts/sample per rpm, so 300 rpm are 51.9.
@@ -66,7 +95,7 @@ TEST(Mode, StopEndsAt51OnMac800) {
     run_at(b, 1600);
     b.set(A_SOLL, 4);
     b.set(MODE_REG, 0);
-    EXPECT_EQ(velocity_at_end_of_stop(b), 51);
+    EXPECT_NEAR(slowest_in_stop(b, 51), 52, 1);
 }
 
 // R: A_SOLL = 0 still stops.
@@ -195,19 +224,20 @@ TEST(Mode, EmergencyStopUsesItsOwnAcceleration) {
     EXPECT_EQ(c.reg(FNC_OUT), slow - 10);
 }
 
-TEST(Mode, ModesNotBuiltArePassiveAndSaySo) {
+// The manual gives nothing but the purpose (001 §4.4.24).
+TEST(Mode, TestTqIsPassiveAndSaysSo) {
     MotorBench b;
     run_at(b, 1600);
-    EXPECT_TRUE(b.motor.unsupported().empty());
-    b.set(MODE_REG, 5);
+    b.set(MODE_REG, 23);
     EXPECT_EQ(b.reg(MODE_REG), 11);
     b.settle();
-    EXPECT_EQ(b.reg(MODE_REG), 5);
+    EXPECT_EQ(b.reg(MODE_REG), 23);
     EXPECT_EQ(b.motor.v_ist(), 0);
-    EXPECT_NE(b.motor.unsupported().find("AV_MODE"), std::string_view::npos);
+    EXPECT_EQ(b.reg(VF_OUT), 0);
+    EXPECT_NE(b.motor.note().find("TESTTQ_MODE"), std::string_view::npos);
     b.set(MODE_REG, 2);
     EXPECT_EQ(b.reg(MODE_REG), 2);
-    EXPECT_TRUE(b.motor.unsupported().empty());
+    EXPECT_TRUE(b.motor.note().empty());
     b.set(MODE_REG, 99);
     EXPECT_EQ(b.reg(MODE_REG), 2);
 }
@@ -262,8 +292,8 @@ TEST(Mode, Resynchronisation) {
     EXPECT_EQ(b.reg(P_SOLL), 7000);
     EXPECT_EQ(b.reg(P_IST), 7000);
     EXPECT_EQ(b.reg(P_FNC), 112'000);
-    EXPECT_EQ(b.reg(CNTRL_BITS), 3);
-    b.set(CNTRL_BITS, 0x1403);  // and REL_RESYNC
+    EXPECT_EQ(b.reg(CNTRL_BITS) & 0x1FFF, 3);  // bits 13 to 15 are the hall elements
+    b.set(CNTRL_BITS, 0x1403);                 // and REL_RESYNC
     b.samples(1);
     EXPECT_EQ(b.reg(P_SOLL), 14'000);
     EXPECT_EQ(b.reg(P_IST), 14'000);

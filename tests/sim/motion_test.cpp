@@ -259,14 +259,14 @@ TEST(Motor, RelativeMovesBothWays) {
 TEST(Motor, TurntableGoesOnForEver) {
     MotorBench b;
     b.set(P1, 67'000'000);
-    b.set(V_SOLL, 32'000);
+    b.set(V_SOLL, 10'000);  // 4768 rpm
     b.set(A_SOLL, 1000);
     b.set(T1, 1023);
     b.set(P_IST, 2'147'483'000);
     b.set(MODE_REG, 2);
     b.command(0x76);
     b.command(0x40);
-    b.samples(35'000);  // 67E6 / 2000 = 33500
+    b.samples(108'000);  // 67E6 / 625 = 107200
     EXPECT_EQ(b.reg(P_FNC), 0);
     EXPECT_EQ(b.motor.p_ist(), -2'147'483'648 + (67'000'000 - 648));
     EXPECT_TRUE(b.motor.in_position());

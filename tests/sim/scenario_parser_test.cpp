@@ -56,6 +56,9 @@ TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
         at 4 s motor sensor on below -1 rev
         motor analogue 0 V
         motor pulses 5000 per s
+        motor steps -5000 per s
+        at 4 s motor supply 20 V, after 1 s motor supply 48 V
+        at 4 s motor logic 15.5 V, motor temperature 90, motor encoder broken
         never TORQUE > 300 or SHAFT < -3 rev
         at 5 s gateway stop, after 1 s gateway run, after 1 s gateway restart
         expect at 3 s step = Idle
@@ -134,7 +137,17 @@ TEST(ScenarioParser, MistakesSayWhatIsWrongAndWhatToWrite) {
     EXPECT_EQ(
         mistake("motor stpo none"),
         "\"stpo\" is out of place; write motor error, motor load, motor power, motor stop, motor sensor, "
-        "motor analogue or motor pulses");
+        "motor analogue, motor pulses, motor steps, motor supply, motor logic, motor temperature or motor "
+        "encoder");
+    EXPECT_EQ(mistake("motor supply 20"),
+              "the line ends too early; write its unit, such as motor supply 20 V");
+    EXPECT_EQ(mistake("motor supply -1 V"), "a supply is 0 V to 600 V");
+    EXPECT_EQ(mistake("motor logic 601 V"), "a supply is 0 V to 600 V");
+    EXPECT_EQ(mistake("motor temperature 0.5"),
+              "a temperature is a whole number -40 to 200, in degrees Celsius");
+    EXPECT_EQ(mistake("motor encoder"), "the line ends too early; write motor encoder broken");
+    EXPECT_EQ(mistake("motor steps 5 per min"),
+              "\"min\" is out of place; write per s, such as motor steps 5000 per s");
     EXPECT_EQ(
         mistake("motor stop -2 rev"),
         "\"-\" is out of place; write above or below and a place, such as motor stop below -2 rev, or motor "

@@ -63,7 +63,14 @@ class Bench final : public Stage {
         did((sensor.on_above ? "sensor above " : "sensor below ") + std::to_string(sensor.counts));
     }
     void set_analogue(double volts) override { did("analogue " + std::to_string(std::lround(10 * volts))); }
-    void set_pulses(int per_second) override { did("pulses " + std::to_string(per_second)); }
+    void set_pulses(const action::MotorPulses& a) override {
+        did((a.with_direction ? "steps " : "pulses ") + std::to_string(a.per_second));
+    }
+    void set_supply(const action::MotorSupply& a) override {
+        did((a.logic ? "logic " : "supply ") + std::to_string(std::lround(10 * a.volts)));
+    }
+    void set_temperature(int celsius) override { did("temperature " + std::to_string(celsius)); }
+    void break_encoder() override { did("encoder"); }
     void gateway(action::Gateway what) override { did("gateway " + std::to_string(static_cast<int>(what))); }
     void log(const std::string& text) override { did(text); }
 
@@ -98,11 +105,17 @@ TEST(ScenarioRunner, DrivesThePlantAroundTheMotor) {
         motor sensor off below 0.5 rev
         motor analogue -7.5 V
         motor pulses -5000 per s
+        motor steps 300 per s
+        motor supply 20.5 V
+        motor logic 15 V
+        motor temperature -10
+        motor encoder broken
     )scn");
     bench.run_to(1ms);
     EXPECT_EQ(bench.done,
               (Done{"0: stop below -8192 spring 0", "0: stop above 500 spring 500", "0: free",
-                    "0: sensor below -4096", "0: sensor above 2048", "0: analogue -75", "0: pulses -5000"}));
+                    "0: sensor below -4096", "0: sensor above 2048", "0: analogue -75", "0: pulses -5000",
+                    "0: steps 300", "0: supply 205", "0: logic 150", "0: temperature -10", "0: encoder"}));
 }
 
 TEST(ScenarioRunner, LooksAtShaftAndTorque) {

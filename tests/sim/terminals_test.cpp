@@ -60,20 +60,61 @@ TEST(Terminals, ASensorSwitchesWhereItStands) {
     EXPECT_EQ(terminals.millivolts(-101), 3'000);
 }
 
+constexpr std::chrono::nanoseconds kSample{1'920'000};
+
+/// As MAC50-141's pins are with `control` in CNTRL_BITS at power-up.
+PulseInput pulse_input(std::int32_t control) {
+    PulseInput input;
+    input.configure(registers::Model::mac140, control, 0);
+    return input;
+}
+
 // 5000 a second x 1.92 ms = 9.6 a sample: 48 in five, none lost.
 TEST(Terminals, PulsesKeepTheirFractions) {
     Terminals terminals;
     terminals.set_pulse_rate(5'000);
     int sum = 0;
     for (int i = 0; i < 5; ++i) {
-        const int pulses = terminals.next_pulses(std::chrono::nanoseconds(1'920'000));
+        const int pulses = terminals.next_pulses(kSample, pulse_input(0));
         EXPECT_TRUE(pulses == 9 || pulses == 10) << pulses;
         sum += pulses;
     }
     EXPECT_EQ(sum, 48);
     terminals.set_pulse_rate(-5'000);
-    for (int i = 0; i < 5; ++i) sum += terminals.next_pulses(std::chrono::nanoseconds(1'920'000));
+    for (int i = 0; i < 5; ++i) sum += terminals.next_pulses(kSample, pulse_input(0));
     EXPECT_EQ(sum, 0);
+}
+
+/// Counts in 100 samples (0.192 s).
+int counted(std::int32_t per_second, PulseFormat format, std::int32_t control) {
+    Terminals terminals;
+    terminals.set_pulse_rate(per_second, format);
+    int sum = 0;
+    for (int i = 0; i < 100; ++i) sum += terminals.next_pulses(kSample, pulse_input(control));
+    return sum;
+}
+
+// 001 §3.2.36 bit 2. R: the wrong setting counts one edge of four, or to and fro. 100,000 / s x 0.192 s.
+TEST(Terminals, PulseFormats) {
+    constexpr std::int32_t kPulseDir = 4, kInpSign = 8;
+    using enum PulseFormat;
+    EXPECT_EQ(counted(100'000, quadrature, 0), 19'200);
+    EXPECT_EQ(counted(30'000, pulse_and_direction, kPulseDir), 5'760);
+    EXPECT_EQ(counted(-30'000, pulse_and_direction, kPulseDir | kInpSign), 5'760);
+    EXPECT_EQ(counted(100'000, quadrature, kPulseDir), 4'800);
+    EXPECT_EQ(counted(30'000, pulse_and_direction, 0), 0);
+}
+
+// 001 §3.2.36 bit 4: 31 kHz, with HICLK 1 MHz. Four counts are a period of a quadrature signal.
+TEST(Terminals, PulseFilter) {
+    constexpr std::int32_t kPulseDir = 4, kHiClk = 0x10;
+    using enum PulseFormat;
+    EXPECT_EQ(counted(124'000, quadrature, 0), 23'808);
+    EXPECT_EQ(counted(124'004, quadrature, 0), 0);
+    EXPECT_EQ(counted(31'000, pulse_and_direction, kPulseDir), 5'952);
+    EXPECT_EQ(counted(31'001, pulse_and_direction, kPulseDir), 0);
+    EXPECT_EQ(counted(1'000'000, pulse_and_direction, kPulseDir | kHiClk), 192'000);
+    EXPECT_EQ(counted(1'000'000, quadrature, kHiClk), 192'000);
 }
 
 /// A motor whose user interface was set up with these bits when it was switched on.

@@ -158,13 +158,13 @@ TEST_F(WorldRun, TheAnalogueInputHasASensorOrAVoltage) {
 
 // MAC140's pins carry FastMAC; a MAC800 counts 77,000 / 770 Hz = 100 a sample.
 TEST_F(WorldRun, PulsesReachOnlyAMotorWithAnInputForThem) {
-    world_.set_pulses(77'000);
+    world_.set_pulses({77'000});
     run_to(100ms);
     EXPECT_EQ(world_.mac().read(registers::V_EXT), 0);
     WorldOptions options;
     options.motor = registers::Model::mac800;
     World big(table(), options);
-    big.set_pulses(77'000);
+    big.set_pulses({77'000});
     while (big.now() < 20ms) big.step(20ms);
     constexpr std::uint8_t kVExt = 163;
     EXPECT_NEAR(big.mac().read(kVExt), 100, 1);

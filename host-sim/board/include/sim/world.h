@@ -77,7 +77,10 @@ class World final : public Stage, private gateway::Observer {
     void free_motor() override;
     void connect_sensor(const action::MotorSensor& sensor) override;
     void set_analogue(double volts) override;
-    void set_pulses(int per_second) override { mac_.terminals().set_pulse_rate(per_second); }
+    void set_pulses(const action::MotorPulses& pulses) override;
+    void set_supply(const action::MotorSupply& supply) override;
+    void set_temperature(int celsius) override { mac_.surroundings().celsius = celsius; }
+    void break_encoder() override { mac_.surroundings().encoder_broken = true; }
     void gateway(action::Gateway what) override;
     void log(const std::string& text) override;
 
@@ -91,7 +94,6 @@ class World final : public Stage, private gateway::Observer {
     void start_gateway(gateway::StartCause cause);
     void move_characters();
     void sample_motor();
-    void fail_in_this_sample();
     void poll_gateway();
     void follow_orders();
 

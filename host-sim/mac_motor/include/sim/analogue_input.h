@@ -6,6 +6,9 @@
 
 namespace nplc::sim {
 
+/// ANINP at 10 V.
+std::int32_t analogue_full_scale(registers::Model model);
+
 /// Millivolts as ANINP has them before ANINP_OFFSET: 10 V are 1023 (001 §3.2.122), on MAC800 2048 (004).
 /// What is beyond +/- 10 V reads as 10 V.
 std::int32_t analogue_register(registers::Model model, std::int32_t millivolts);

@@ -13,9 +13,19 @@ inline constexpr std::uint32_t I2T_ERR = 1U << 0, FLW_ERR = 1U << 1, FNC_ERR = 1
                                DIS_P_LIM = 1U << 14;
 }  // namespace err
 
+/// ERR_STAT bits that only MAC800 has (004).
+namespace err800 {
+inline constexpr std::uint32_t DEGC_ERR = 1U << 8, OV_ERR = 1U << 11, SPEED_ERR = 1U << 13,
+                               INDEX_ERR = 1U << 15, U24V_ERR = 1U << 17;
+}  // namespace err800
+
 /// Bits that the families put in different places. A mask of 0: the family has no such bit.
 struct FamilyBits {
     std::uint32_t frame_err_tx;  ///< ERR_STAT
+    std::uint32_t uv_err;        ///< ERR_STAT
+    std::uint32_t uv_detect;     ///< ERR_STAT
+    std::uint32_t over_current;  ///< ERR_STAT: IX_ERR, MAC800 IPEAK_ERR
+    std::uint32_t uv_v_soll_0;   ///< UV_HANDLE
     std::uint32_t keeps_init;    ///< ERR_STAT: errors that forbid leaving INIT (R)
     std::uint32_t resettable;    ///< ERR_STAT: cleared by "reset error" (R)
     bool relpos_in_cntrl_bits;   ///< else in ERR_STAT
@@ -33,6 +43,10 @@ struct FamilyBits {
 };
 
 inline constexpr FamilyBits kSmallBits{.frame_err_tx = 1U << 8,
+                                       .uv_err = 1U << 12,
+                                       .uv_detect = 1U << 13,
+                                       .over_current = 1U << 11,
+                                       .uv_v_soll_0 = 1U << 3,
                                        .keeps_init = 0x0F | 1U << 7 | 1U << 12,
                                        .resettable = 0x0F | 1U << 7 | 1U << 11 | 1U << 12,
                                        .relpos_in_cntrl_bits = false,
@@ -51,6 +65,10 @@ inline constexpr FamilyBits kSmallBits{.frame_err_tx = 1U << 8,
 /// MAC800's further errors: 8 temperature, 9 undervoltage, 11 overvoltage, 12 current, 13 speed, 15 encoder,
 /// 17 24 V.
 inline constexpr FamilyBits kMac800Bits{.frame_err_tx = 0,
+                                        .uv_err = 1U << 9,
+                                        .uv_detect = 1U << 10,
+                                        .over_current = 1U << 12,
+                                        .uv_v_soll_0 = 1U << 2,
                                         .keeps_init = 0x2BB8F,
                                         .resettable = 0x2BB8F,
                                         .relpos_in_cntrl_bits = true,

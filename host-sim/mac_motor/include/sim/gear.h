@@ -10,17 +10,25 @@ class Gear {
   public:
     void reset() { *this = {}; }
 
-    /// One sample's pulses times GEARF1 / GEARF2 are to be followed. R: the remainder is kept for the next
-    /// sample as long as GEARF2 stays; GEARF2 = 0 gives nothing.
-    void take(std::int32_t v_ext, std::int32_t gearf1, std::int32_t gearf2);
+    static constexpr std::int32_t kOne = 0x10000;
+
+    /// One sample's pulses times GEARF1 / GEARF2 times `factor` / 65536, in 1/16 counts. R: the remainder is
+    /// kept for the next sample as long as GEARF2 stays; GEARF2 = 0 gives nothing.
+    std::int64_t scale(std::int32_t v_ext, std::int32_t gearf1, std::int32_t gearf2,
+                       std::int32_t factor = kOne);
+    /// So much more is to be followed. G_FNC stays within 2^44.
+    void take(std::int64_t counts_16);
     /// The profile went `fnc_out` in this sample, torque correction included.
     void went(std::int32_t fnc_out) { g_fnc_ += fnc_out; }
+
+    /// For a block that knows its target itself.
+    void stand_at(std::int64_t g_fnc) { g_fnc_ = g_fnc; }
 
     std::int64_t g_fnc() const { return g_fnc_; }
 
   private:
     std::int64_t g_fnc_ = 0;
-    std::int64_t remainder_ = 0;  // 1/GEARF2 of 1/16 counts
+    std::int64_t remainder_ = 0;  // 1/GEARF2/65536 of 1/16 counts
     std::int32_t divisor_ = 1;
 };
 

@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <string>
 #include <string_view>
 
 #include "base/time.h"
 #include "registers/mac.h"
 #include "sim/analogue_input.h"
+#include "sim/coil.h"
 #include "sim/error_bits.h"
 #include "sim/fastmac_slave.h"
 #include "sim/gear.h"
@@ -17,10 +17,11 @@
 #include "sim/mactalk_slave.h"
 #include "sim/mode_table.h"
 #include "sim/motor_memory.h"
-#include "sim/plant.h"
 #include "sim/profile.h"
-#include "sim/regulator.h"
+#include "sim/pulse_input.h"
 #include "sim/sample_buffer.h"
+#include "sim/servo.h"
+#include "sim/surroundings.h"
 #include "sim/terminals.h"
 
 namespace nplc::sim {
@@ -31,13 +32,16 @@ struct MacMotorOptions {
     /// The register codes of the example in 001 §5.2.1.5 in place of §5.2.1.4's list.
     bool old_register_codes = false;
     std::size_t order_limit = 100'000;
+    /// How much of the motor is computed. `outer_loop` is some 15 times as fast, and close in position and
+    /// velocity.
+    Servo::Depth depth = Servo::Depth::current_loop;
     Load load{};
 };
 
 /// A virtual MAC motor with its user interface set to FastMAC/FlexMAC. It has no clock: the caller gives it
 /// bytes with their times, fetches bytes when the line is free, and calls `sample` once every
 /// `sample_period`. Deterministic: the same calls give the same motion on every machine.
-class MacMotor final : private LinkTarget, private MacTalkTarget {
+class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerWatcher {
   public:
     explicit MacMotor(registers::Model model, const MacMotorOptions& options = {});
 
@@ -77,9 +81,14 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     bool in_position() const { return (error_status() & err::IN_POS) != 0; }
     std::uint32_t err_stat() const { return error_status(); }
 
-    /// What the motor was asked for and cannot do yet, as a sentence; empty if nothing. Stays until a mode
-    /// that is simulated is asked for.
-    std::string_view unsupported() const { return unsupported_; }
+    /// Why the motor stands in the mode that it was asked for, as a sentence: a gear mode without the pins of
+    /// the pulse input, or TESTTQ, of which the manual says nothing. Empty if all is well.
+    std::string_view note() const { return note_; }
+    /// As if I2T had been above its limit for a moment: I2T_ERR and all that follows from it.
+    void overload() { fail(err::I2T_ERR); }
+    /// The output for a holding brake (004, MAN_NO_BRAKE): on while the motor is passive. R: no brake is
+    /// built in; it holds nothing.
+    bool brake_output() const;
 
     /// 001 §4.4.16: only over MacTalk, so not over the user interface. False: refused (not in INIT, not in
     /// SAFE).
@@ -105,13 +114,17 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     void power_cycle();
 
     /// Load and mechanical stops, changeable in motion.
-    Plant& plant() { return plant_; }
-    const Plant& plant() const { return plant_; }
+    Plant& plant() { return servo_.plant(); }
+    const Plant& plant() const { return servo_.plant(); }
+    /// Changeable at any time; U_SUPPLY (MAC800: U_BUS) follows.
+    Supply& supply() { return servo_.supply(); }
     /// What is wired to the analogue and the pulse input, changeable at any time.
     Terminals& terminals() { return terminals_; }
+    Surroundings& surroundings() { return surroundings_; }
 
   private:
     void set_up_user_interface();
+    std::uint16_t first_mode() const;
 
     // LinkTarget, and what FastMAC commands do: motor_commands.cpp
     void execute(const protocol::fastmac::Command& command) override;
@@ -134,6 +147,9 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     static void clear_volatile(MotorMemory& memory);
     void load_parameters(std::uint16_t command);
     void run_sample_buffer();
+    void rewind_samples();
+    void record();
+    void inner_sample() override;
     SampleBuffer::Sample sampled_registers() const;
     SampleBuffer::Sample next_sample() override;
 
@@ -143,14 +159,33 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     void request_init();
     void enter(std::uint16_t mode);
     void set_mode(std::uint16_t mode) { memory_.set(cell::MODE_REG, mode); }
+    void leave_for(std::uint16_t mode);
+    void go_passive(bool emergency);
     void begin_stop(std::uint16_t then, bool emergency);
+    void begin_at_measured_speed();
+    void end_mode_by_itself();
     bool error_forbids_motion() const;
     const ModeFacts& facts() const;
-    bool is_driven() const { return facts().driven; }
+    bool is_driven() const { return facts().driven(); }
     bool below_300_rpm() const;
     void begin_correction();
+    std::string_view why_it_stands(std::uint16_t mode) const;
+
+    // Monitoring: monitoring.cpp
     void monitor();
     void fail(std::uint32_t error);
+    void watch_limits();
+    void watch_supply();
+    void watch_currents();
+    void watch_mac800();
+    bool exceeds(Cell value, Cell limit) const;
+
+    // MANI, TESTU, TESTA, BREAK, TESTKI: mode_test.cpp
+    void begin_test();
+    Drive test_drive() const;
+    void set_recording(bool on);
+    void end_test();
+    bool is_braked() const;
 
     // Homing: motor_homing.cpp
     void begin_homing();
@@ -163,16 +198,23 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     void measure();
     void read_inputs();
     void resynchronise();
+    bool resynchronises_by_itself() const;
     void stay_passive();
 
     // Profile and regulator: motor_profile.cpp
     void run_profile();
     void run_position();
     void run_gear();
+    void run_coil();
+    Coil::Setup coil_setup() const;
+    void show_gear_error();
+    std::int32_t analogue_v_soll() const;
+    void set_target_by_voltage();
+    void set_target_by_level();
     std::int32_t braking(std::int64_t distance);
     void learn_braking(std::int32_t wanted, std::int32_t correction);
     void regulate(std::int32_t fnc_out);
-    void show_profile(std::int32_t fnc_out, std::int32_t torque);
+    void show_profile(std::int32_t fnc_out);
     void judge_in_position();
     bool within_window() const;
     std::int64_t distance_16() const;
@@ -185,11 +227,14 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     MacMotorOptions options_;
     MotorMemory memory_;
     MotorMemory stored_;
-    Plant plant_;
-    Regulator regulator_;
+    Servo servo_;
     Terminals terminals_;
+    Surroundings surroundings_;
+    PulseInput pulse_input_;
     AnalogueLevel analogue_level_;
+    bool analogue_was_on_ = false;  // in the sample before
     Gear gear_;
+    Coil coil_;
     Homing homing_;
     FastMacSlave link_;
     MacTalkSlave mactalk_;
@@ -197,10 +242,6 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
 
     std::uint32_t flash_writes_ = 0;
     bool link_on_ = true;
-    bool pulse_input_on_ = false;
-    bool pulse_input_inverted_ = false;
-    std::int64_t last_counts_ = 0;
-    std::int32_t torque_ = 0;
     std::int32_t v_old_ = 0;              // V_OLD, 1/16 counts/sample
     std::int64_t follow_error_16_ = 0;    // FLWERR, 1/16 counts
     std::int32_t corrected_braking_ = 0;  // what brakes in torque limit, 1/16 counts/sample^2; 0: A_SOLL does
@@ -208,8 +249,12 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     std::int32_t samples_within_ = 0;
     std::uint16_t mode_after_stop_ = 0;
     bool emergency_ = false;
+    bool coasting_ = false;             // AT on its way to INIT
+    int test_samples_ = 0;              // of TESTU and TESTA
+    std::int32_t brake_direction_ = 0;  // BREAK: the sign of the motion that it ends
+    std::int32_t uv_timer_ = 0;         // UV_TIMER, samples
     std::deque<std::int32_t> v_history_;
-    std::string unsupported_;
+    std::string_view note_;
 };
 
 }  // namespace nplc::sim

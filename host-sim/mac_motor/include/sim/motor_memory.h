@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "registers/mac.h"
 
@@ -55,6 +58,23 @@ inline constexpr Cell PROG_VERSION = word(1, 1), MODE_REG = word(2, 2), P_SOLL =
                       MYADDR = word(156, 202), G_FNC = long_int(0, 165), HW_SETUP = word(0, 39),
                       P_NEW = long_int(163, 4), V_IST_16 = integer(0, 11), SAMPLE1 = word(112, 158),
                       REC_CNT = word(116, 162);
+
+// Filters (001 §3.2.89 - 111; 004 gives FF and VF two more coefficients, VB one)
+inline constexpr Cell KFF = integer(89, 121), KVFX = integer(93, 127), KVFY = integer(97, 133),
+                      GEARB = integer(101, 0), KVB = integer(102, 139), KIFX2 = integer(106, 144),
+                      KIFX1 = integer(107, 145), KIFY1 = integer(108, 146), KIFY0 = integer(109, 147),
+                      KIB1 = integer(110, 148), KIB0 = integer(111, 149), FF_OUT = integer(118, 167),
+                      VB_OUT = integer(119, 168);
+// Current loop and supply (001 §3.2.124 - 152, 004)
+inline constexpr Cell ELDEGN_OFFSET = word(124, 0), ELDEGP_OFFSET = word(125, 0), ELDEG_OFFSET = word(0, 172),
+                      PHASE_COMP = integer(126, 173), AMPLITUDE = integer(127, 174),
+                      MAN_I_NOM = word(128, 175), MAN_ALPHA = word(129, 176), UMEAS = word(130, 177),
+                      I_NOM = word(131, 178), PHI_SOLL = word(132, 179), IA_SOLL = integer(133, 180),
+                      IA_IST = integer(137, 183), IA_OFFSET = word(140, 186), IC_OFFSET = word(142, 0),
+                      KIA = word(148, 188), KIC = word(150, 0), ELDEG_IST = word(143, 190),
+                      V_ELDEG = integer(144, 191), UA_VAL = integer(145, 192), U_SUPPLY = word(151, 198),
+                      EMK_A = integer(0, 195), U_24V = word(0, 21), DEGC = word(0, 29), DEGCMAX = word(0, 31),
+                      OUTLOOPDIV = word(0, 157), U_MIN_SUP = word(152, 0), UV_HANDLE = word(160, 23);
 }  // namespace cell
 
 /// All registers of one motor. MAC50-141: 16-bit words by register number, a LongInt takes its number (low
@@ -67,17 +87,47 @@ class MotorMemory {
     registers::Model model() const { return model_; }
 
     /// Value by the cell's kind; a cell that the model lacks reads 0 and is not written.
-    std::int32_t get(Cell cell) const;
+    std::int32_t get(Cell cell) const {
+        const std::uint8_t number = number_of(cell);
+        if (number == 0) return 0;
+        if (is_wide(cell)) return static_cast<std::int32_t>(read(number, true));
+        const auto word = static_cast<std::uint16_t>(cells_[number]);
+        return cell.kind == Cell::Kind::integer ? static_cast<std::int16_t>(word) : word;
+    }
     /// Cut to the cell's width.
-    void set(Cell cell, std::int32_t value);
+    void set(Cell cell, std::int32_t value) {
+        if (const std::uint8_t number = number_of(cell); number != 0) {
+            write(number, static_cast<std::uint32_t>(value), is_wide(cell));
+        }
+    }
+    /// For what the motor shows: a value beyond the cell's range stands at its end.
+    void show(Cell cell, std::int32_t value) {
+        set(cell, is_wide(cell) ? value : std::clamp(value, -0x8000, 0x7FFF));
+    }
 
     /// As the line sees it: 16 bits, or with `longword` 32. MAC50-141: a longword is `reg` and the number
     /// after it. MAC800: a word is the register's low half.
-    std::uint32_t read(std::uint8_t reg, bool longword) const;
-    void write(std::uint8_t reg, std::uint32_t value, bool longword);
+    std::uint32_t read(std::uint8_t reg, bool longword) const {
+        if (is_mac800(model_)) return longword ? cells_[reg] : cells_[reg] & 0xFFFF;
+        return longword ? cells_[reg] | (cells_[reg + 1U] << 16) : cells_[reg];
+    }
+    void write(std::uint8_t reg, std::uint32_t value, bool longword) {
+        if (is_mac800(model_)) {
+            cells_[reg] = longword ? value : (cells_[reg] & 0xFFFF0000) | (value & 0xFFFF);
+            return;
+        }
+        cells_[reg] = value & 0xFFFF;
+        if (longword) cells_[reg + 1U] = value >> 16;
+    }
+
+    /// The registers from `first` to `last` as they are stored, to see whether one has changed.
+    std::span<const std::uint32_t> stored(std::size_t first, std::size_t last) const {
+        return std::span(cells_).subspan(first, last - first + 1);
+    }
 
   private:
     std::uint8_t number_of(Cell cell) const { return is_mac800(model_) ? cell.big : cell.small; }
+    bool is_wide(Cell cell) const { return is_mac800(model_) || cell.kind == Cell::Kind::long_int; }
 
     registers::Model model_;
     std::array<std::uint32_t, 257> cells_{};  // one more, so that 255 has a next

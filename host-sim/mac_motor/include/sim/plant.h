@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -22,36 +23,68 @@ struct Load {
     std::optional<MechanicalStop> high_stop{};  ///< above which it is
 };
 
-/// Shaft, load and encoder, one motor sample at a time. Integer arithmetic, so every machine computes the
-/// same.
+/// Shaft, load and encoder, one step at a time: an outer sample, or a part of one. Only +, -, * and / on
+/// doubles, so every machine computes the same.
 class Plant {
   public:
-    /// `full_acceleration_16`: what full torque gives the bare motor, 1/16 counts/sample^2.
-    Plant(std::int32_t full_acceleration_16, const Load& load);
+    /// `full_acceleration`: what full torque gives the bare motor, counts/sample^2 of the outer loop;
+    /// `steps`: in an outer sample.
+    Plant(double full_acceleration, int steps, const Load& load);
 
-    /// One sample with the motor's `torque`.
-    void drive(std::int32_t torque);
-    /// One sample with the windings short-circuited, as in INIT mode: brakes in proportion to the velocity.
-    void short_circuit();
+    /// One step with the motor's `torque`, and `brake` of torque against each count/step of velocity.
+    void step(double torque, double brake = 0) {
+        const double of_one = this->of_one();
+        const double push = std::clamp(torque + load_.torque, -kTorqueBound, kTorqueBound) * of_one;
+        const double pushed = brake == 0 ? velocity_ + push : (velocity_ + push) / (1 + brake * of_one);
+        const double before = velocity_;
+        velocity_ = rubbed(pushed, std::max(load_.friction_torque, 0) * of_one);
+        velocity_ = std::clamp(velocity_, -fastest_, fastest_);
+        const std::int64_t from = position_;
+        position_ += static_cast<std::int64_t>((before + velocity_) * (kCount / 2));
+        if (load_.low_stop || load_.high_stop) keep_within_stops(from);
+    }
 
     /// Encoder counts since the motor was built.
-    std::int64_t counts() const;
+    std::int64_t counts() const { return (position_ + kCount / 2) >> kFractionBits; }
+    /// Counts a step.
+    double velocity() const { return velocity_; }
 
     /// May be changed at any time. A rigid stop that the shaft is beyond puts it back there.
     Load& load() { return load_; }
     const Load& load() const { return load_; }
 
   private:
-    void advance(std::int64_t torque);
-    std::int64_t speed_change(std::int64_t torque) const;
-    std::int64_t inertia() const;
+    static constexpr int kFractionBits = 20;
+    static constexpr std::int64_t kCount = std::int64_t{1} << kFractionBits;
+    static constexpr double kTorqueBound = 1'000'000;
+
+    /// Friction works against motion, holds what is slower than it brakes in a step, and never turns a shaft
+    /// round.
+    static double rubbed(double velocity, double friction) {
+        if (velocity > friction) return velocity - friction;
+        if (velocity < -friction) return velocity + friction;
+        return 0;
+    }
+    /// What torque 1 gives motor and load, counts/step^2.
+    double of_one() {
+        if (load_.inertia_256 != inertia_256_) {
+            inertia_256_ = load_.inertia_256;
+            of_one_ = acceleration_of_one_ * 256 / std::max(inertia_256_, 1);
+        }
+        return of_one_;
+    }
+    void keep_within_stops(std::int64_t from);
     const MechanicalStop* stop_beyond() const;
     void press(const MechanicalStop& stop, std::int64_t from);
 
-    std::int64_t full_acceleration_16_;
+    double acceleration_of_one_;  // of torque 1 on the bare motor, counts/step^2
+    double fastest_;
+    double thrown_;  // of the velocity with which a spring throws, what is left after a step
     Load load_;
-    std::int64_t position_ = 0;  // 1/65536 counts
-    std::int64_t velocity_ = 0;  // 1/65536 counts/sample
+    std::int32_t inertia_256_ = -1;  // that of_one_ is for
+    double of_one_ = 0;
+    std::int64_t position_ = 0;  // 1/kCount counts
+    double velocity_ = 0;        // counts/step
 };
 
 }  // namespace nplc::sim

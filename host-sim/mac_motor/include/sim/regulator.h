@@ -1,31 +1,45 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+
+#include "sim/motor_memory.h"
 
 namespace nplc::sim {
 
-/// The speed regulator of 001 §4.2.1 in one step a sample: velocity error, its sum (the lag) and the sum of
-/// that, and the change of FNC_OUT fed forward, together times KVOUT. R: the manual gives no coefficients;
-/// these are ours.
+/// The speed regulator of 001 §4.2.1: filter FF on FNC_OUT, filter VB on V_IST, filter VF on their
+/// difference, times KVOUT, within the torque limit. FIR filters and one IIR filter with the motor's
+/// registers as coefficients (001 §3.2.89 - 105, 004).
 ///
 /// If the torque limit is met, the step also answers by how much FNC_OUT should have been another for the
-/// limit to be kept ("correction", 001 §4.2.1). The regulator goes on from the corrected velocity, so it
-/// never winds up.
+/// limit to be kept ("correction"). The filters go on from the corrected velocity, so nothing winds up.
 class Regulator {
   public:
+    static constexpr std::size_t kOrder = 6;  // MAC800's; the others use four
+    using Taps = std::array<double, kOrder>;
+
+    /// By age, the newest sample first; what a family has not is 0.
+    struct Coefficients {
+        Taps ff{};
+        Taps vb{};
+        Taps vfx{};
+        Taps vfy{};
+    };
     struct Input {
         std::int32_t fnc_out;       ///< wanted velocity, 1/16 counts/sample
         std::int32_t v_ist;         ///< measured velocity, counts/sample
         std::int32_t torque_limit;  ///< 0..1023
-        std::int32_t kvout_256;     ///< KVOUT x 256
+        double kvout;
     };
     struct Output {
         std::int32_t torque = 0;      ///< VF_OUT, within the limit
         std::int32_t correction = 0;  ///< to be added to FNC_OUT, 1/16 counts/sample; 0 within the limit
+        double ff_out = 0;            ///< 1/16 counts/sample, as FNC_OUT
+        double vb_out = 0;
     };
 
-    /// `full_acceleration_16`: of the motor alone at full torque, 1/16 counts/sample^2.
-    explicit Regulator(std::int32_t full_acceleration_16) : full_acceleration_16_(full_acceleration_16) {}
+    void use(const Coefficients& coefficients) { c_ = coefficients; }
 
     Output step(const Input& input);
     void reset();
@@ -36,10 +50,17 @@ class Regulator {
     std::int64_t lag_16() const { return lag_16_; }
 
   private:
-    std::int64_t full_acceleration_16_;
+    std::int32_t correct(double excess, double gain);
+
+    Coefficients c_;
+    Taps fnc_out_{};
+    Taps v_ist_{};
+    Taps error_{};
+    Taps torque_{};
     std::int64_t lag_16_ = 0;
-    std::int64_t integral_ = 0;
-    std::int64_t last_fnc_out_ = 0;
 };
+
+/// The filters as the registers have them.
+Regulator::Coefficients regulator_coefficients(const MotorMemory& memory);
 
 }  // namespace nplc::sim

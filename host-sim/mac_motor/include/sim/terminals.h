@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "sim/pulse_input.h"
+
 namespace nplc::sim {
 
 /// A switch at the axis: 10 V on one side of a place, 0 V on the other.
@@ -22,14 +24,15 @@ class Terminals {
 
     /// Counts a second at the pulse input (all edges of a quadrature signal), negative backwards. At most a
     /// million either way.
-    void set_pulse_rate(std::int32_t per_second);
-    /// The whole counts that come in the next `period`; fractions are kept.
-    std::int32_t next_pulses(std::chrono::nanoseconds period);
+    void set_pulse_rate(std::int32_t per_second, PulseFormat format = PulseFormat::quadrature);
+    /// The whole counts that `input` makes of the next `period`; fractions are kept.
+    std::int32_t next_pulses(std::chrono::nanoseconds period, const PulseInput& input);
 
   private:
     std::int32_t millivolts_ = 0;
     std::optional<PositionSensor> sensor_;
     std::int64_t pulse_rate_ = 0;
+    PulseFormat pulse_format_ = PulseFormat::quadrature;
     std::int64_t fraction_ = 0;  // 1/1'000'000'000 of a count
 };
 

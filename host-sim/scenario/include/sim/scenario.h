@@ -61,7 +61,16 @@ struct MotorAnalogue {
 };
 struct MotorPulses {
     int per_second = 0;
+    bool with_direction = false;  ///< pulse and direction, else quadrature
 };
+struct MotorSupply {
+    double volts = 0;
+    bool logic = false;  ///< the control supply of a MAC800, else the motor's own
+};
+struct MotorTemperature {
+    int celsius = 0;  ///< of a MAC800's surroundings
+};
+struct BreakEncoder {};  ///< of a MAC800, until its power is switched off
 enum class Gateway : std::uint8_t { stop, run, restart };
 struct Log {
     std::string text;
@@ -75,7 +84,8 @@ struct Action {
     std::variant<action::SetInput, action::ToggleInput, action::CutLine, action::SpoilLine, action::Seed,
                  action::FailMotor, action::PowerMotor, action::LoadMotor, action::StopMotor,
                  action::FreeMotor, action::MotorSensor, action::MotorAnalogue, action::MotorPulses,
-                 action::Gateway, action::Log, action::End>
+                 action::MotorSupply, action::MotorTemperature, action::BreakEncoder, action::Gateway,
+                 action::Log, action::End>
         what;
 };
 using Actions = std::vector<Action>;

@@ -21,7 +21,10 @@ class Stage {
     virtual void free_motor() = 0;
     virtual void connect_sensor(const action::MotorSensor& sensor) = 0;
     virtual void set_analogue(double volts) = 0;
-    virtual void set_pulses(int per_second) = 0;
+    virtual void set_pulses(const action::MotorPulses& pulses) = 0;
+    virtual void set_supply(const action::MotorSupply& supply) = 0;
+    virtual void set_temperature(int celsius) = 0;
+    virtual void break_encoder() = 0;
     virtual void gateway(action::Gateway what) = 0;
     virtual void log(const std::string& text) = 0;
 

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <cstdint>
+
+#include "sim/current_regulator.h"
+#include "sim/motor_constants.h"
+#include "sim/plant.h"
+#include "sim/winding.h"
+
+namespace nplc::sim {
+
+/// The current loop at its own rate, with the windings and the rotor that it acts on (001 §1.2, §4.3).
+/// A sample is `sense`, one call that sets voltages, then `move`.
+class InnerLoop {
+  public:
+    struct HallSettings {
+        std::int32_t eldegp_offset = 0;  ///< MAC800: ELDEG_OFFSET
+        std::int32_t eldegn_offset = 0;
+        bool always = false;  ///< HALL_INT: at every mark, not only at the first after power-up
+    };
+
+    explicit InnerLoop(registers::Model model);
+
+    void use(const CurrentRegulator::Settings& settings, const HallSettings& hall);
+    /// As after power-up: no currents. R: the rotor's angle is known at once.
+    void power_up(std::int64_t counts);
+
+    /// Reads currents and encoder.
+    void sense(std::int64_t counts) {
+        v_eldeg_ = static_cast<std::int32_t>(std::clamp<std::int64_t>(counts - counts_, -0x7FFF, 0x7FFF));
+        counts_ = counts;
+        turn(v_eldeg_);
+        PerPhase<std::int32_t> raw;
+        for (std::size_t p = 0; p < kPhases; ++p) raw[p] = converted(winding_.currents()[p], kMiddle[p]);
+        regulator_.measure(raw);
+    }
+    void drive_torque(std::int32_t torque) {
+        regulator_.commutate(torque, eldeg(), v_eldeg_);
+        regulator_.regulate();
+    }
+    void drive_field(std::int32_t i_nom, std::int32_t angle);
+    void drive_voltage(const PerPhase<std::int32_t>& voltage) { regulator_.apply(voltage); }
+    /// The sample itself. Answers the watts that went into the windings.
+    double move(Plant& plant, double supply_volts) {
+        supply_volts_ = supply_volts;
+        const double velocity = plant.velocity();
+        const std::int32_t middle = table_angle(angle_ + static_cast<std::int32_t>(velocity * 0.5));
+        const Winding::Step step =
+            winding_.step(regulator_.voltage(), supply_volts * per_nominal_, middle, velocity);
+        plant.step(step.torque);
+        return step.power * watts_of_one_;
+    }
+
+    const CurrentRegulator& regulator() const { return regulator_; }
+    void clear_at_the_end() { regulator_.clear_at_the_end(); }
+    std::int32_t eldeg() const {  ///< ELDEG_IST
+        const std::int32_t eldeg =
+            mac800_ ? angle_ * SineTable::kTurn / kBigField + hall_.eldegp_offset : angle_ + shift_;
+        return eldeg & (SineTable::kTurn - 1);
+    }
+    std::int32_t v_eldeg() const { return v_eldeg_; }  ///< V_ELDEG
+    std::uint32_t hall_bits() const;                   ///< the three hall elements, bit 0 to 2
+    PerPhase<std::int32_t> emf() const;                ///< EMK_A ..., voltage units
+    double squares() const;                            ///< IA_IST^2 + IB_IST^2 + IC_IST^2
+    double regenerated() const;                        ///< Preg of 001 §3.2.18, watts, 0 at the least
+
+    /// What the converters give without a current is the negative of this (ours): what IA_OFFSET ... find.
+    static constexpr PerPhase<std::int32_t> kMiddle{1021, 1030, 1017};
+
+  private:
+    static constexpr std::int32_t kMarkWidth = 8;    // counts between the hall mark both ways, ours
+    static constexpr std::int32_t kBigField = 2000;  // MAC800's counts_a_field
+
+    /// A converter's half that the motor uses: 0 down to -2047.
+    static std::int32_t converted(double current, std::int32_t middle) {
+        constexpr std::int32_t kSpan = 2047, kFar = 100'000;
+        const double bounded = std::clamp<double>(current + kFar, 0, 2 * kFar) + 0.5;  // a cast rounds down
+        return std::clamp(static_cast<std::int32_t>(bounded) - kFar - middle, -kSpan, 0);
+    }
+    // 001 §3.2.124, §3.2.125, §3.2.36: at the mark the motor takes the register for its angle.
+    void turn(std::int32_t by) {
+        const std::int32_t whole = constants_.counts_a_field;
+        const std::int32_t behind = angle_ >= whole - kMarkWidth ? angle_ - whole : angle_;
+        const bool forwards = angle_ + by >= whole;
+        if (forwards || behind + by < -kMarkWidth) pass_mark(forwards);
+        angle_ += by;
+        if (angle_ >= whole || angle_ < 0) angle_ = ((angle_ % whole) + whole) % whole;
+    }
+    void pass_mark(bool forwards);
+    std::int32_t table_angle(std::int32_t angle) const {
+        const std::int32_t whole = constants_.counts_a_field;
+        const std::int32_t on_turn = angle >= whole ? angle - whole : angle < 0 ? angle + whole : angle;
+        return mac800_ ? on_turn * SineTable::kTurn / kBigField : on_turn;
+    }
+
+    const MotorConstants& constants_;
+    bool mac800_;
+    double per_nominal_;
+    double watts_of_one_;
+    CurrentRegulator regulator_;
+    HallSettings hall_;
+    Winding winding_;
+    double supply_volts_ = 0;
+    std::int64_t counts_ = 0;
+    std::int32_t angle_ = 0;  // of the rotor in its field, encoder counts
+    std::int32_t shift_ = 0;  // from it to ELDEG_IST
+    std::int32_t v_eldeg_ = 0;
+    bool at_mark_ = false;  // has been at the hall elements' mark
+};
+
+}  // namespace nplc::sim

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "sim/drive.h"
+#include "sim/inner_loop.h"
+#include "sim/motor_memory.h"
+#include "sim/plant.h"
+#include "sim/regulator.h"
+#include "sim/supply.h"
+#include "sim/terminals.h"
+
+namespace nplc::sim {
+
+/// Who wants to look at the registers after each sample of the inner loop.
+class InnerWatcher {
+  public:
+    virtual void inner_sample() = 0;
+
+  protected:
+    ~InnerWatcher() = default;
+};
+
+/// Everything below the profile: regulators, windings, supply and shaft. A sample of the outer loop is
+/// `advance`, then the mode makes its Drive, then `carry_out`.
+class Servo {
+  public:
+    enum class Depth : std::uint8_t {
+        current_loop,  ///< every sample of the inner loop
+        outer_loop,    ///< torque as asked, within what the supply can drive; no current registers
+    };
+    struct Result {
+        std::int32_t torque = 0;      ///< VF_OUT
+        std::int32_t correction = 0;  ///< what FNC_OUT should have been less what it was (001 §4.2.1)
+    };
+    static constexpr int kTestSamples = 11;  ///< of the inner loop that a Drive `voltage` lasts (001 §4.4.9)
+
+    Servo(registers::Model model, Depth depth, const Load& load);
+
+    /// One outer sample with what was asked for last. Answers the encoder counts of that sample (V_IST).
+    /// `watcher`, if any, is called in every inner sample when currents are measured and voltages set.
+    std::int32_t advance(MotorMemory& memory, const Terminals& terminals, InnerWatcher* watcher = nullptr);
+    /// What the next sample is to do. Writes VF_OUT, FF_OUT, VB_OUT. Unless the Drive is `velocity` the speed
+    /// regulator forgets what it was at.
+    Result carry_out(const Drive& drive, MotorMemory& memory);
+
+    /// As after power-up: windings shorted, IA_OFFSET ... found. The shaft stays where it is.
+    void power_up(MotorMemory& memory);
+    /// Profile and shaft are at the same place and run at `velocity`, 1/16 counts/sample, in the next sample.
+    void restart(std::int32_t velocity) { regulator_.restart(velocity); }
+
+    std::int32_t torque() const { return torque_; }  ///< VF_OUT
+    const Drive& drive() const { return drive_; }
+    /// How far the shaft is behind the profile, corrections taken off, 1/16 counts.
+    std::int64_t lag_16() const { return regulator_.lag_16(); }
+    /// Encoder counts since the motor was built, as the last sample read them.
+    std::int64_t counts() const { return last_counts_; }
+    /// A phase current was at the end of its measuring range in the last sample (001 §3.2.35, IX_ERR).
+    bool current_at_the_end() const { return inner_.regulator().at_the_end(); }
+    /// Samples of the inner loop since a Drive `voltage` began, kTestSamples at the most.
+    int test_samples() const { return test_samples_; }
+
+    Plant& plant() { return plant_; }
+    const Plant& plant() const { return plant_; }
+    /// The supply voltage can be changed at any time; the registers follow.
+    Supply& supply() { return supply_; }
+    const Supply& supply() const { return supply_; }
+
+  private:
+    void take_settings(const MotorMemory& memory);
+    void run_inner(MotorMemory& memory, const Terminals& terminals, InnerWatcher* watcher);
+    void set_voltages(const MotorMemory& memory, const Terminals& terminals);
+    void run_outer(const MotorMemory& memory, const Terminals& terminals);
+    double reachable(double torque) const;
+    std::int32_t analogue_torque(const MotorMemory& memory, const Terminals& terminals) const;
+    void follow_offsets(MotorMemory& memory) const;
+    void show_currents(MotorMemory& memory) const;
+    void warm(double squares, double regenerated);
+    void show_supply(MotorMemory& memory) const;
+
+    const MotorConstants& constants_;
+    Depth depth_;
+    Plant plant_;
+    Supply supply_;
+    Regulator regulator_;
+    InnerLoop inner_;
+    Drive drive_;
+    std::int32_t man_i_nom_ = 0;
+    std::int32_t man_alpha_ = 0;
+    std::int32_t umeas_ = 0;
+    int test_samples_ = 0;
+    std::int32_t torque_ = 0;
+    double torque_before_ = 0;  // of the sample before, outer_loop only
+    double i2t_ = 0;
+    double uit_ = 0;
+    std::int64_t last_counts_ = 0;
+    std::int32_t v_ist_ = 0;
+    std::array<std::uint32_t, 64> settings_{};  // the registers that were taken
+};
+
+}  // namespace nplc::sim

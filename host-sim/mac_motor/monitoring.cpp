@@ -1,0 +1,93 @@
+// 001 §4.5 and the errors of 004's ERR_STAT: what is watched in every sample and every mode.
+#include "sim/mac_motor.h"
+
+namespace nplc::sim {
+namespace {
+
+// R: 004 names no limits for these.
+constexpr std::int32_t kLowBus = 135;     // U_BUS below 120 V
+constexpr std::int32_t kHighBus = 506;    // U_BUS above 450 V (004), 0.888798 V each
+constexpr std::int32_t kLowLogic = 1340;  // U_24V below 18 V
+constexpr std::int64_t kFastest = 3600;   // rpm (004)
+constexpr std::int32_t kAbove52V = 968;   // U_SUPPLY, 53.7 mV each (001 §3.2.18)
+
+constexpr std::int32_t kSetUvErr = 1, kUvGoPassive = 2;
+
+}  // namespace
+
+void MacMotor::monitor() {
+    watch_limits();
+    watch_supply();
+    watch_currents();
+    if (is_mac800(model())) watch_mac800();
+}
+
+/// Every error of the monitoring ends in INIT, through STOP where the motor may be turning.
+void MacMotor::fail(std::uint32_t error) {
+    set_error_bits(error, true);
+    go_passive(true);
+}
+
+/// A limit of 0 is none.
+bool MacMotor::exceeds(Cell value, Cell limit) const {
+    const std::int64_t v = memory_.get(value);
+    const std::int64_t most = memory_.get(limit);
+    return most > 0 && (v < 0 ? -v : v) > most;
+}
+
+// 001 §4.5.1 to §4.5.5
+void MacMotor::watch_limits() {
+    if (exceeds(cell::I2T, cell::I2TLIM)) fail(err::I2T_ERR);
+    const bool feeds_back = is_mac800(model()) || memory_.get(cell::U_SUPPLY) > kAbove52V;
+    if (exceeds(cell::UIT, cell::UITLIM) && feeds_back) fail(err::UIT_ERR);
+    if (exceeds(cell::FLWERR, cell::FLWERRMAX)) fail(err::FLW_ERR);
+    if (exceeds(cell::FNCERR, cell::FNCERRMAX)) fail(err::FNC_ERR);
+    const std::int32_t low = memory_.get(cell::MIN_P_IST);
+    const std::int32_t high = memory_.get(cell::MAX_P_IST);
+    const bool limited = (low != 0 || high != 0) && (error_status() & err::DIS_P_LIM) == 0;
+    if (limited && (p_ist() < low || p_ist() > high)) fail(err::PLIM_ERR);
+}
+
+// 001 §4.5.6. R: UV_V_SOLL0 acts if the bit is set; MAC800, whose UVMIN is "not used", has a limit of its
+// own.
+void MacMotor::watch_supply() {
+    const std::int64_t voltage = memory_.get(cell::U_SUPPLY);
+    const std::int64_t least = is_mac800(model()) ? kLowBus : memory_.get(cell::U_MIN_SUP);
+    const bool low = voltage < least;
+    const bool well = is_mode(MotorMode::init) ? 4 * voltage >= 5 * least : 4 * voltage > 5 * least;
+    if (uv_timer_ > 0) --uv_timer_;
+    if (low || (!well && is_mode(MotorMode::init))) {
+        constexpr std::int64_t kSecond = 1'000'000'000;
+        uv_timer_ =
+            static_cast<std::int32_t>((kSecond + sample_period().count() - 1) / sample_period().count());
+        set_error_bits(bits().uv_detect, true);
+    } else if (well && uv_timer_ == 0) {
+        set_error_bits(bits().uv_detect, false);
+    }
+    if (!low) return;
+    const std::int32_t handle = memory_.get(cell::UV_HANDLE);
+    if ((handle & kSetUvErr) != 0) set_error_bits(bits().uv_err, true);
+    if ((static_cast<std::uint32_t>(handle) & bits().uv_v_soll_0) != 0) memory_.set(cell::V_SOLL, 0);
+    if ((handle & kUvGoPassive) != 0) go_passive(true);
+}
+
+// 001 §3.2.35 bit 11: IX_ERR is shown and stops nothing. MAC800's IPEAK_ERR does (R).
+void MacMotor::watch_currents() {
+    if (!servo_.current_at_the_end()) return;
+    if (is_mac800(model())) return fail(bits().over_current);
+    set_error_bits(bits().over_current, true);
+}
+
+void MacMotor::watch_mac800() {
+    constexpr std::int64_t kNanosecondsInMinute = 60'000'000'000;
+    const std::int64_t v = v_ist();
+    const bool too_fast = (v < 0 ? -v : v) * kNanosecondsInMinute >
+                          kFastest * counts_per_revolution() * sample_period().count();
+    if (too_fast) fail(err800::SPEED_ERR);
+    if (exceeds(cell::DEGC, cell::DEGCMAX)) fail(err800::DEGC_ERR);
+    if (memory_.get(cell::U_SUPPLY) > kHighBus) fail(err800::OV_ERR);
+    if (memory_.get(cell::U_24V) < kLowLogic) fail(err800::U24V_ERR);
+    if (surroundings_.encoder_broken) fail(err800::INDEX_ERR);
+}
+
+}  // namespace nplc::sim
