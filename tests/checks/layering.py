@@ -34,10 +34,11 @@ MODULES = [
     Module("firmware/protocol", "protocol", ("base",), core=True),
     Module("firmware/registers", "registers", ("base",), core=True),
     Module("firmware/motor", "motor", ("base", "ports", "protocol", "registers"), core=True),
+    Module("firmware/store", "store", ("base", "ports", "sequencer"), core=True),
     Module(
         "firmware/gateway",
         "gateway",
-        ("base", "ports", "sequencer", "protocol", "registers", "motor"),
+        ("base", "ports", "sequencer", "protocol", "registers", "motor", "store"),
         core=True,
     ),
     Module("firmware/boards", None, ANY, os=True, clock=True),
