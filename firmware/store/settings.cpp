@@ -7,7 +7,7 @@ namespace {
 
 // R: the manuals name none of these; ranges are what the firmware can do.
 constexpr std::array<SettingInfo, kSettings> kAll{{
-    {Setting::gateway_address, "gateway_address", "", 254, 1, 254, false, "address on the user's port"},
+    {Setting::gateway_address, "gateway_address", "", 128, 1, 254, false, "address on the user's port"},
     {Setting::user_baud, "user_baud", "Bd", 19'200, 1'200, 921'600, false, "speed of the user's port"},
     {Setting::motor_baud, "motor_baud", "Bd", 19'200, 1'200, 921'600, false,
      "speed of the line to the motor"},
@@ -29,6 +29,14 @@ constexpr std::array<SettingInfo, kSettings> kAll{{
      "forcing ends after so long a silence"},
     {Setting::status_output, "status_output", "", kNone, 0, 3, true,
      "output that shows the gateway's state; 255: none"},
+    {Setting::motor_address, "motor_address", "", 254, 1, 254, false,
+     "the motor's address on the user's port"},
+    {Setting::motor_is_mac800, "motor_is_mac800", "", 0, 0, 1, false,
+     "1: the motor is a MAC800, whose registers have 32 bits"},
+    {Setting::safe_communication, "safe_communication", "", 1, 0, 1, false,
+     "1: the line to the motor uses safe communication"},
+    {Setting::old_register_codes, "old_register_codes", "", 0, 0, 1, false,
+     "1: the motor has the older FlexMAC register codes"},
 }};
 
 }  // namespace

@@ -28,6 +28,10 @@ enum class Setting : std::uint8_t {
     virtual_motor = 11,
     force_timeout = 12,
     status_output = 13,
+    motor_address = 14,
+    motor_is_mac800 = 15,
+    safe_communication = 16,
+    old_register_codes = 17,
 };
 
 /// `none` in enable_input and status_output.
@@ -44,7 +48,7 @@ struct SettingInfo {
     std::string_view help;
 };
 
-inline constexpr std::size_t kSettings = 13;
+inline constexpr std::size_t kSettings = 17;
 const std::array<SettingInfo, kSettings>& all_settings();
 /// nullptr if there is none.
 const SettingInfo* find_setting(std::uint8_t id);
