@@ -7,7 +7,7 @@ namespace {
 
 // R: the manuals name none of these; ranges are what the firmware can do.
 constexpr std::array<SettingInfo, kSettings> kAll{{
-    {Setting::gateway_address, "gateway_address", "", 128, 1, 254, false, "address on the user's port"},
+    {Setting::gateway_address, "gateway_address", "", 128, 1, 253, false, "address on the user's port"},
     {Setting::user_baud, "user_baud", "Bd", 19'200, 1'200, 921'600, false, "speed of the user's port"},
     {Setting::motor_baud, "motor_baud", "Bd", 19'200, 1'200, 921'600, false,
      "speed of the line to the motor"},
@@ -21,8 +21,8 @@ constexpr std::array<SettingInfo, kSettings> kAll{{
     {Setting::longest_wait, "longest_wait", "ms", 1'000, 1, 60'000, false,
      "of a scan for the motor, then the safe state"},
     {Setting::enable_input, "enable_input", "", kNone, 0, 5, true, "input that must be on to run; 255: none"},
-    {Setting::motor_writes, "motor_writes", "", 0, 0, 1, false,
-     "1: the user may write the motor while the sequence runs"},
+    {Setting::motor_writes, "motor_writes", "", 0, 0, 2, false,
+     "while the sequence runs the user may 1: write motor registers, 2: send 54h to 57h too"},
     {Setting::virtual_motor, "virtual_motor", "", 0, 0, 1, false,
      "1: the motor is virtual; holding does not stop it"},
     {Setting::force_timeout, "force_timeout", "ms", 5'000, 100, 60'000, false,
@@ -30,13 +30,15 @@ constexpr std::array<SettingInfo, kSettings> kAll{{
     {Setting::status_output, "status_output", "", kNone, 0, 3, true,
      "output that shows the gateway's state; 255: none"},
     {Setting::motor_address, "motor_address", "", 254, 1, 254, false,
-     "the motor's address on the user's port"},
+     "the motor's address on the user's port, beside 255"},
     {Setting::motor_is_mac800, "motor_is_mac800", "", 0, 0, 1, false,
      "1: the motor is a MAC800, whose registers have 32 bits"},
     {Setting::safe_communication, "safe_communication", "", 1, 0, 1, false,
      "1: the line to the motor uses safe communication"},
     {Setting::old_register_codes, "old_register_codes", "", 0, 0, 1, false,
      "1: the motor has the older FlexMAC register codes"},
+    {Setting::read_pause, "read_pause", "ms", 20, 0, 1'000, false,
+     "least time between two reads of the motor for the user while the sequence runs"},
 }};
 
 }  // namespace

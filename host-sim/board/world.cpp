@@ -127,7 +127,7 @@ void World::poll_gateway() {
 
 /// The driver executes in the order given, and gives up all that waits behind the one under way, or all.
 void World::follow_orders() {
-    const motor::JvlMotor::Counters& counters = driver_->counters();
+    const motor::Counters& counters = driver_->counters();
     for (; followed_.orders != counters.orders && !on_their_way_.empty(); ++followed_.orders) {
         on_their_way_.pop_front();
     }

@@ -32,6 +32,7 @@ enum class Setting : std::uint8_t {
     motor_is_mac800 = 15,
     safe_communication = 16,
     old_register_codes = 17,
+    read_pause = 18,
 };
 
 /// `none` in enable_input and status_output.
@@ -48,7 +49,7 @@ struct SettingInfo {
     std::string_view help;
 };
 
-inline constexpr std::size_t kSettings = 17;
+inline constexpr std::size_t kSettings = 18;
 const std::array<SettingInfo, kSettings>& all_settings();
 /// nullptr if there is none.
 const SettingInfo* find_setting(std::uint8_t id);

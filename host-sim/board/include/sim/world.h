@@ -113,7 +113,7 @@ class World final : public Stage, private gateway::Observer {
     std::vector<SentOrder> orders_;
     std::size_t orders_given_ = 0;
     std::deque<std::size_t> on_their_way_;
-    motor::JvlMotor::Counters followed_;  ///< the driver's, as on_their_way_ stands
+    motor::Counters followed_;  ///< the driver's, as on_their_way_ stands
     std::function<void(const std::string&)> on_log_;
 };
 
