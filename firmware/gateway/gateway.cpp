@@ -23,7 +23,7 @@ Gateway::Gateway(const Ports& ports, const Settings& settings, StartCause cause)
     : ports_(ports),
       settings_(settings),
       debouncer_(settings.debounce),
-      autostart_(settings.autostart && cause == StartCause::power_up) {
+      starting_up_(cause == StartCause::power_up) {
     show_outputs();
     if (cause == StartCause::watchdog) {
         safe_reason_ = SafeReason::watchdog;
@@ -40,10 +40,10 @@ sequencer::Table::LoadResult Gateway::load(std::span<const std::uint8_t> bytes, 
     engine_.reset();
     if (!result.ok) {
         enter_safe_state(SafeReason::bad_table, now);
-    } else if (autostart_) {
+    } else if (starting_up_ && settings_.autostart) {
         static_cast<void>(run());
     }
-    autostart_ = false;
+    starting_up_ = false;
     return result;
 }
 

@@ -59,21 +59,24 @@ void SettingsKeeper::start(const store::SettingValues& initial) {
     values_ = initial;
     const auto mounted = store_.mount();
     damaged_ = !mounted;
-    if (damaged_) gateway_.note(Event::store_damaged);
     if (mounted && store_.slots().has_current()) values_ = mounted.value();
     stored_ = values_;
-    static_cast<void>(gateway_.change(settings_of(values_)));
+}
+
+void SettingsKeeper::attach(Gateway& gateway) {
+    gateway_ = &gateway;
+    if (damaged_) gateway.note(Event::store_damaged);
 }
 
 Result SettingsKeeper::set(std::uint8_t id, std::uint32_t value) {
     const store::SettingInfo* info = store::find_setting(id);
     if (info == nullptr) return Result::no_register;
-    if (gateway_.run_state() != RunState::stopped) return Result::not_stopped;
+    if (gateway_->run_state() != RunState::stopped) return Result::not_stopped;
     store::SettingValues values = values_;
     if (!values.set(info->id, value)) return Result::bad_value;
     if (values.get(Setting::gateway_address) == values.get(Setting::motor_address)) return Result::bad_value;
     values_ = values;
-    static_cast<void>(gateway_.change(settings_of(values_)));
+    static_cast<void>(gateway_->change(settings_of(values_)));
     return Result::done;
 }
 
@@ -88,7 +91,7 @@ Progress SettingsKeeper::poll_keeping() {
     if (store_.phase() != store::Phase::done) return std::nullopt;
     stored_ = saving_;
     damaged_ = false;
-    gateway_.note(Event::settings_kept);
+    gateway_->note(Event::settings_kept);
     return Outcome{};
 }
 

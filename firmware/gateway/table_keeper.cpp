@@ -8,14 +8,16 @@ namespace nplc::gateway {
 
 using store::Phase;
 
-bool TableKeeper::start(base::Instant now) {
-    if (!slots_.mount()) {
-        gateway_.note(Event::store_damaged);
-        return false;
-    }
-    if (slots_.is_fallback()) gateway_.note(Event::store_damaged);
-    if (!slots_.has_current()) return false;
-    return load_stored(now).result == Result::done;
+base::Status TableKeeper::mount() {
+    const base::Status status = slots_.mount();
+    if (!status || slots_.is_fallback()) gateway_.note(Event::store_damaged);
+    return status;
+}
+
+/// A store that held a table and has none that is whole is a bad table, not a new board.
+void TableKeeper::start(base::Instant now) {
+    if (slots_.has_current() || slots_.is_fallback()) static_cast<void>(load_stored(now));
+    gateway_.end_start_up();
 }
 
 sequencer::Table::LoadResult TableKeeper::use(std::span<const std::uint8_t> table, base::Instant now) {
@@ -72,6 +74,7 @@ std::uint32_t TableKeeper::upload_state() const {
 }
 
 void TableKeeper::begin_activation(base::Instant now) {
+    gateway_.end_start_up();
     standstill_.begin(now);
 }
 

@@ -65,6 +65,9 @@ class Gateway {
     /// safe state is entered with bad_table, and nothing can run until a good table is loaded.
     sequencer::Table::LoadResult load(std::span<const std::uint8_t> bytes, base::Instant now);
 
+    /// The start-up is over: no table starts by itself any more.
+    void end_start_up() { starting_up_ = false; }
+
     /// Has the motor the order of this term, if it has one?
     bool motor_takes(sequencer::TermView term) const;
 
@@ -164,7 +167,7 @@ class Gateway {
     RunState run_state_ = RunState::stopped;
     SafeReason safe_reason_ = SafeReason::not_started;
     base::Instant safe_since_{};
-    bool autostart_;
+    bool starting_up_;              ///< the first table may start by itself
     bool stop_ordered_ = false;     ///< since run()
     bool stop_after_loss_ = false;  ///< the motor is to be stopped once the link delivers again
 

@@ -13,15 +13,16 @@ store::SettingValues values_of(const Settings& settings);
 /// The settings in force and the stored ones.
 class SettingsKeeper {
   public:
-    SettingsKeeper(Gateway& gateway, ports::Storage& storage, const store::Area& area)
-        : gateway_(gateway), store_(storage, area) {}
+    SettingsKeeper(ports::Storage& storage, const store::Area& area) : store_(storage, area) {}
 
-    /// For the start-up: the stored settings are in force, or `initial` if there are none.
+    /// For the start-up, before there is a Gateway: the stored settings, or `initial` if there are none.
     void start(const store::SettingValues& initial);
+    /// Whom settings written from now on are for; it has the present ones already.
+    void attach(Gateway& gateway);
 
     const store::SettingValues& values() const { return values_; }
     std::uint32_t get(store::Setting setting) const { return values_.get(setting); }
-    /// Only while stopped; not 255 or the motor's address for the gateway.
+    /// All below need attach(). Only while stopped; not 255 or the motor's address for the gateway.
     Result set(std::uint8_t id, std::uint32_t value);
 
     void begin_keeping();
@@ -31,7 +32,7 @@ class SettingsKeeper {
     bool were_damaged() const { return damaged_; }
 
   private:
-    Gateway& gateway_;
+    Gateway* gateway_ = nullptr;
     store::SettingsStore store_;
     store::SettingValues values_;
     store::SettingValues stored_;

@@ -22,9 +22,12 @@ class TableKeeper final : private store::TermCheck {
           standstill_(motor),
           slots_(storage, area, store::Kind::table, check_) {}
 
-    /// For the start-up: looks at the store and makes its table the active one. True if it could.
-    bool start(base::Instant now);
-    /// The same without a store's table: `table` becomes the active one.
+    /// For the start-up: looks at the store. Error as Slots::mount.
+    base::Status mount();
+    /// Then: the stored table, if there is one, becomes the active one. It needs no question to the motor,
+    /// since run() stops it before the first scan.
+    void start(base::Instant now);
+    /// Or: `table` becomes the active one.
     sequencer::Table::LoadResult use(std::span<const std::uint8_t> table, base::Instant now);
 
     void poll();
