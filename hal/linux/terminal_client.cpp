@@ -50,8 +50,7 @@ bool has_open(const fs::path& process, dev_t device) {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(process / "fd", error)) {
         struct stat status {};
-        if (::stat(entry.path().c_str(), &status) == 0 && S_ISCHR(status.st_mode) &&
-            status.st_rdev == device)
+        if (::stat(entry.path().c_str(), &status) == 0 && S_ISCHR(status.st_mode) && status.st_rdev == device)
             return true;
     }
     return false;
