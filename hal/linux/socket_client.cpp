@@ -29,7 +29,7 @@ std::string cannot_connect(const std::string& name, int reason) {
 }
 
 /// 0, or the reason.
-int connect(int socket, const sockaddr* address, socklen_t size) {
+int join(int socket, const sockaddr* address, socklen_t size) {
     if (::connect(socket, address, size) == 0) return 0;
     if (errno != EINPROGRESS) return errno;
     pollfd state{.fd = socket, .events = POLLOUT, .revents = 0};
@@ -51,7 +51,7 @@ ByteClient::Opened open_unix_client(const std::string& path) {
     path.copy(address.sun_path, path.size());
     FileDescriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
     const int reason =
-        socket ? connect(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) : errno;
+        socket ? join(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) : errno;
     if (reason != 0) return {nullptr, cannot_connect(name, reason)};
     return {std::make_unique<DescriptorClient>(std::move(socket), name), {}};
 }
@@ -71,7 +71,7 @@ ByteClient::Opened open_tcp_client(const std::string& where) {
     int reason = ECONNREFUSED;
     for (const addrinfo* one = found; one != nullptr; one = one->ai_next) {
         FileDescriptor socket(::socket(one->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-        reason = socket ? connect(socket.get(), one->ai_addr, one->ai_addrlen) : errno;
+        reason = socket ? join(socket.get(), one->ai_addr, one->ai_addrlen) : errno;
         if (reason != 0) continue;
         const int on = 1;
         ::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
