@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
-#include "flash_file.h"
 #include "hal_linux/byte_server.h"
+#include "hal_linux/file_storage.h"
 #include "hal_linux/terminal.h"
 #include "input_file.h"
 #include "output_check.h"
@@ -143,6 +143,14 @@ void run_realtime(Session& session, Door& door, const volatile std::sig_atomic_t
     if (live) fmt::print("\r\033[K");
 }
 
+/// None unless asked for.
+std::unique_ptr<hal_linux::FileStorage> open_flash(const RunOptions& options) {
+    if (!options.flash) return nullptr;
+    auto opened = hal_linux::FileStorage::open(*options.flash, World::kFlash);
+    if (!opened.storage) throw InputError("--flash " + opened.error);
+    return std::move(opened.storage);
+}
+
 Program stored_program() {
     Program program;
     program.file = "the stored table";
@@ -163,10 +171,9 @@ int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted
     if (options.motor) program.names.motor = *options.motor;
     const Scenario scenario = load_scenario(options, program.names);
     if (!program.remark.empty()) fmt::print(stderr, "{}\n", program.remark);
-    std::optional<FlashFile> flash;
-    if (options.flash) flash.emplace(*options.flash, World::kFlash);
+    const auto flash = open_flash(options);
     Door door(options);
-    Session session(options, program, scenario, Palette(wants_colour()), flash ? &*flash : nullptr);
+    Session session(options, program, scenario, Palette(wants_colour()), flash.get());
     session.heading();
     if (options.realtime) {
         run_realtime(session, door, interrupted);

@@ -64,19 +64,24 @@ class GatewayUnit final : public mactalk_client::Unit {
 
     struct Parts {
         explicit Parts(GatewayUnit& unit)
-            : gateway(unit.board.ports(), {}, gateway::StartCause::power_up),
+            : settings(unit.storage, {.begin = 18 * 1024, .slot_bytes = 1024}),
+              gateway(unit.board.ports(), stored(settings), gateway::StartCause::power_up),
               tables(gateway, unit.board, unit.storage, {.begin = 0, .slot_bytes = 9 * 1024}, memory),
-              settings(gateway, unit.storage, {.begin = 18 * 1024, .slot_bytes = 1024}),
               own(gateway, tables, settings),
               user(unit.port_, nullptr, gateway, unit.board, own, settings) {
-            settings.start({});
+            settings.attach(gateway);
+            static_cast<void>(tables.mount());
             tables.start(unit.board.now);
+        }
+        static gateway::Settings stored(gateway::SettingsKeeper& settings) {
+            settings.start({});
+            return gateway::settings_of(settings.values());
         }
 
         std::array<std::uint8_t, 8200> memory{};
+        gateway::SettingsKeeper settings;
         gateway::Gateway gateway;
         gateway::TableKeeper tables;
-        gateway::SettingsKeeper settings;
         gateway::OwnRegisters own;
         gateway::UserPort user;
     };

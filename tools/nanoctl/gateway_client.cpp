@@ -16,7 +16,8 @@ constexpr unsigned kAttempts = 12;
 constexpr base::Milliseconds kBusyPause{50};
 constexpr unsigned kBusyTries = 100;
 constexpr base::Milliseconds kStartPause{200};
-constexpr unsigned kStartTries = 50;
+constexpr unsigned kStillTries = 50;
+constexpr unsigned kStartLooks = 5;
 
 }  // namespace
 
@@ -104,36 +105,41 @@ void GatewayClient::activate() {
         try {
             return command(gw::Command::activate, base::Milliseconds{2'000});
         } catch (const Refused& refused) {
-            if (refused.result() != gw::Result::moving || i == kStartTries) throw;
+            if (refused.result() != gw::Result::moving || i == kStillTries) throw;
         }
         master_.pause(kStartPause);
     }
 }
 
-/// The gateway answers nothing to a reset, and its UPTIME begins anew.
+/// The gateway answers nothing to a reset; RESULT, which named a register before, is 0 afterwards.
 void GatewayClient::reset() {
-    const std::uint32_t before = read(gw::UPTIME);
     const std::uint32_t bytes = read(gw::UPLOAD_BYTES);
-    for (unsigned i = 0; i < kStartTries; ++i) {
-        if (i % 10 == 0) {
-            write(gw::UPLOAD_BYTES, bytes);
-            static_cast<void>(master_.try_write(
-                address_, gw::COMMAND, static_cast<std::uint32_t>(gw::Command::reset), Width::longword));
-        }
-        master_.pause(kStartPause);
-        try {
-            const Block block = read_block(gw::STATUS);
-            if (block[gw::UPTIME - gw::STATUS] < before) return;
-            const std::uint32_t result = block[gw::RESULT - gw::STATUS];
-            const LastResult last{static_cast<gw::Result>(result & 0xFF),
-                                  static_cast<std::uint8_t>(result >> 8),
-                                  static_cast<std::uint16_t>(result >> 16)};
-            if (last.reg == gw::COMMAND && last.result != gw::Result::done) refuse(last, "reset");
-        } catch (const LineError& error) {
-            if (error.kind() != LineError::Kind::no_answer) throw;
+    for (unsigned i = 0; i < kAttempts; ++i) {
+        write(gw::UPLOAD_BYTES, bytes);
+        static_cast<void>(master_.try_write(address_, gw::COMMAND,
+                                            static_cast<std::uint32_t>(gw::Command::reset), Width::longword));
+        for (unsigned look = 0; look < kStartLooks; ++look) {
+            master_.pause(kStartPause);
+            const auto last = try_last_result();
+            if (!last) continue;
+            if (last->reg == 0) return;
+            if (last->reg == gw::COMMAND && last->result != gw::Result::done) refuse(*last, "reset");
+            break;
         }
     }
-    lost("reset");
+    throw LineError(LineError::Kind::no_answer,
+                    fmt::format("{}: no answer after the reset; if address or speed were changed, name the "
+                                "new ones",
+                                master_.wire().name()));
+}
+
+std::optional<GatewayClient::LastResult> GatewayClient::try_last_result() {
+    try {
+        return last_result();
+    } catch (const LineError& error) {
+        if (error.kind() != LineError::Kind::no_answer) throw;
+        return std::nullopt;
+    }
 }
 
 }  // namespace nplc::nanoctl

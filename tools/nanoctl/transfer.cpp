@@ -31,9 +31,9 @@ struct UploadStatus {
 };
 
 UploadStatus upload_status(GatewayClient& gateway) {
-    const Block block = gateway.read_block(gw::UPLOAD_STATE);
-    return {static_cast<std::uint8_t>(block[0]), static_cast<gw::Result>((block[0] >> 8) & 0xFF),
-            static_cast<std::uint16_t>(block[0] >> 16), block[1]};
+    const std::uint32_t state = gateway.read(gw::UPLOAD_STATE);
+    return {static_cast<std::uint8_t>(state), static_cast<gw::Result>((state >> 8) & 0xFF),
+            static_cast<std::uint16_t>(state >> 16), gateway.read(gw::UPLOAD_RECEIVED)};
 }
 
 [[noreturn]] void upload_failed(const UploadStatus& status) {

@@ -40,7 +40,7 @@ Session::Session(const Common& common)
     : common_(common),
       wire_(open(common)),
       master_(*wire_,
-              {.baud = common.baud, .patience = base::Milliseconds{common.patience_ms}, .attempts = 6}),
+              {.baud = common.baud, .patience = base::Milliseconds{common.patience_ms}, .attempts = 10}),
       gateway_(master_, static_cast<std::uint8_t>(common.address)) {
     gateway_.identify();
     if (common.symbols.empty()) return;

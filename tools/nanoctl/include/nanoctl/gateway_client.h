@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -54,7 +55,7 @@ class GatewayClient {
     /// Carried out exactly once. `more_patience`: how long it may take. For a `busy` gateway it waits up to 5
     /// s.
     void command(gw::Command command, base::Microseconds more_patience = {});
-    /// Restarts the gateway and waits until it answers, up to 10 s.
+    /// Restarts the gateway and waits until it answers.
     void reset();
     /// The stored table becomes the active one; waits up to 10 s for the motor to stand still.
     void activate();
@@ -69,6 +70,7 @@ class GatewayClient {
         std::uint16_t detail;
     };
     LastResult last_result();
+    std::optional<LastResult> try_last_result();
     [[noreturn]] static void refuse(const LastResult& last, const std::string& what);
     [[noreturn]] void lost(const std::string& what) const;
     void command_once(gw::Command command, base::Microseconds more_patience);
