@@ -32,7 +32,8 @@ int main() {
     std::printf("worst added delay of an order until the scan gives it: %.2f ms\n",
                 static_cast<double>(worst.count()) / 1e6);
     std::printf("worst time from one scan to the next, orders and all: %.2f ms; without reads %.2f ms\n",
-                static_cast<double>(scan_beside.count()) / 1e3, static_cast<double>(scan_alone.count()) / 1e3);
+                static_cast<double>(scan_beside.count()) / 1e3,
+                static_cast<double>(scan_alone.count()) / 1e3);
     std::printf("worst added delay until the motor executes it: %.2f ms\n",
                 static_cast<double>(worst_executed.count()) / 1e6);
     return 0;
