@@ -4,7 +4,6 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -19,11 +18,10 @@ namespace fs = std::filesystem;
 
 class DiskStorage final : public FileStorage {
   public:
-    DiskStorage(FileDescriptor file, std::uint32_t size) : file_(std::move(file)), size_(size) {}
+    DiskStorage(FileDescriptor file, const ports::StorageGeometry& geometry)
+        : file_(std::move(file)), geometry_(geometry) {}
 
-    ports::StorageGeometry geometry() const override {
-        return {.size = size_, .erase_block = kEraseBlock, .program_page = kPage, .program_unit = 1};
-    }
+    ports::StorageGeometry geometry() const override { return geometry_; }
 
     base::Status read(std::uint32_t address, std::span<std::uint8_t> out) override {
         if (!inside(address, out.size())) return base::Error::bad_geometry;
@@ -33,20 +31,21 @@ class DiskStorage final : public FileStorage {
     }
 
     base::Status program(std::uint32_t address, std::span<const std::uint8_t> bytes) override {
-        if (!inside(address, bytes.size()) || bytes.empty() || address % kPage + bytes.size() > kPage)
+        const bool whole_units =
+            address % geometry_.program_unit == 0 && bytes.size() % geometry_.program_unit == 0;
+        const bool in_page = address % geometry_.program_page + bytes.size() <= geometry_.program_page;
+        if (!inside(address, bytes.size()) || bytes.empty() || !whole_units || !in_page)
             return base::Error::bad_geometry;
-        std::array<std::uint8_t, kPage> page{};
-        const auto kept = std::span(page).first(bytes.size());
+        std::vector<std::uint8_t> kept(bytes.size());
         if (const auto status = read(address, kept); !status) return status;
         for (std::size_t i = 0; i < bytes.size(); ++i) kept[i] = kept[i] & bytes[i];
         return write(address, kept);
     }
 
     base::Status erase(std::uint32_t address) override {
-        if (!inside(address, kEraseBlock) || address % kEraseBlock != 0) return base::Error::bad_geometry;
-        std::array<std::uint8_t, kEraseBlock> blank{};
-        blank.fill(0xFF);
-        return write(address, blank);
+        if (!inside(address, geometry_.erase_block) || address % geometry_.erase_block != 0)
+            return base::Error::bad_geometry;
+        return write(address, std::vector<std::uint8_t>(geometry_.erase_block, 0xFF));
     }
 
     ports::StorageState state() override {
@@ -55,7 +54,7 @@ class DiskStorage final : public FileStorage {
 
   private:
     bool inside(std::uint32_t address, std::size_t count) const {
-        return address <= size_ && count <= size_ - address;
+        return address <= geometry_.size && count <= geometry_.size - address;
     }
 
     base::Status write(std::uint32_t address, std::span<const std::uint8_t> bytes) {
@@ -65,7 +64,7 @@ class DiskStorage final : public FileStorage {
     }
 
     FileDescriptor file_;
-    std::uint32_t size_;
+    ports::StorageGeometry geometry_;
     bool failed_ = false;
 };
 
@@ -90,20 +89,20 @@ bool make_blank(const std::string& path, std::uint32_t size) {
 
 }  // namespace
 
-FileStorage::Opened FileStorage::open(const std::string& path, std::uint32_t size) {
+FileStorage::Opened FileStorage::open(const std::string& path, const ports::StorageGeometry& geometry) {
     std::error_code error;
-    if (!fs::exists(path, error) && !make_blank(path, size))
+    if (!fs::exists(path, error) && !make_blank(path, geometry.size))
         return {nullptr, path + ": cannot be made: " + std::strerror(errno)};
     FileDescriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
     struct stat status {};
     if (!file || ::fstat(file.get(), &status) != 0)
         return {nullptr, path + ": cannot be opened: " + std::strerror(errno)};
-    if (!S_ISREG(status.st_mode) || status.st_size != static_cast<off_t>(size))
-        return {nullptr, path + ": this is not a memory of " + std::to_string(size) +
+    if (!S_ISREG(status.st_mode) || status.st_size != static_cast<off_t>(geometry.size))
+        return {nullptr, path + ": this is not a memory of " + std::to_string(geometry.size) +
                              " bytes; name another file, or remove it"};
     if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0)
         return {nullptr, path + ": another program uses this memory; end it first"};
-    return {std::make_unique<DiskStorage>(std::move(file), size), {}};
+    return {std::make_unique<DiskStorage>(std::move(file), geometry), {}};
 }
 
 }  // namespace nplc::hal_linux

@@ -13,7 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 using store::Bytes;
 
-constexpr std::uint32_t kSize = 8 * FileStorage::kEraseBlock;
+constexpr std::uint32_t kSize = 8 * 4096;
+constexpr ports::StorageGeometry kGeometry{
+    .size = kSize, .erase_block = 4096, .program_page = 256, .program_unit = 1};
 
 struct FileStorageTest : testing::Test {
     FileStorageTest() {
@@ -24,7 +26,7 @@ struct FileStorageTest : testing::Test {
     ~FileStorageTest() override { fs::remove_all(folder_); }
 
     std::unique_ptr<FileStorage> open() const {
-        auto opened = FileStorage::open(path, kSize);
+        auto opened = FileStorage::open(path, kGeometry);
         EXPECT_EQ(opened.error, "");
         return std::move(opened.storage);
     }
@@ -56,7 +58,7 @@ TEST_F(FileStorageTest, IsBlankAtFirstAndKeepsWhatWasProgrammed) {
 }
 
 TEST_F(FileStorageTest, HoldsAStoreOfTables) {
-    const store::Area area{.begin = 0, .slot_bytes = 3 * FileStorage::kEraseBlock};
+    const store::Area area{.begin = 0, .slot_bytes = 3 * 4096};
     const Bytes table = store::table_of(1000, 7);
     for (int start = 0; start < 2; ++start) {
         const auto storage = open();
@@ -94,13 +96,15 @@ TEST_F(FileStorageTest, RefusesWhatDoesNotFit) {
 
 TEST_F(FileStorageTest, WhatIsNoMemoryOrInUseIsLeftAsItIs) {
     std::ofstream(path) << "precious";
-    EXPECT_NE(FileStorage::open(path, kSize).error.find("not a memory of 32768 bytes"), std::string::npos);
+    EXPECT_NE(FileStorage::open(path, kGeometry).error.find("not a memory of 32768 bytes"),
+              std::string::npos);
     EXPECT_EQ(fs::file_size(path), 8U);
-    EXPECT_NE(FileStorage::open(folder_, kSize).error, "");
-    EXPECT_NE(FileStorage::open(folder_ / "no/such", kSize).error.find("cannot be made"), std::string::npos);
+    EXPECT_NE(FileStorage::open(folder_, kGeometry).error, "");
+    EXPECT_NE(FileStorage::open(folder_ / "no/such", kGeometry).error.find("cannot be made"),
+              std::string::npos);
     fs::remove(path);
     const auto first = open();
-    EXPECT_NE(FileStorage::open(path, kSize).error.find("another program uses"), std::string::npos);
+    EXPECT_NE(FileStorage::open(path, kGeometry).error.find("another program uses"), std::string::npos);
 }
 
 }  // namespace

@@ -7,14 +7,11 @@
 
 namespace nplc::hal_linux {
 
-/// A file in the place of flash: erase blocks of 4096 bytes, pages of 256, programmed a byte at least. Each
-/// operation is on the disk when it ends (fdatasync), so a power cut leaves what a cut in flash would: the
-/// bytes of one operation in doubt. One program at a time holds the file.
+/// A file in the place of flash of any sizes. Each operation is on the disk when it ends (fdatasync), so a
+/// power cut leaves what a cut in flash would: the bytes of one operation in doubt. One program at a time
+/// holds the file.
 class FileStorage : public ports::Storage {
   public:
-    static constexpr std::uint32_t kEraseBlock = 4096;
-    static constexpr std::uint32_t kPage = 256;
-
     struct Opened {
         std::unique_ptr<FileStorage> storage;
         std::string error;  ///< what went wrong and what to do, in one line; empty when it was opened
