@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kRegisterBytes = 4;
 
 constexpr std::uint32_t bit(bool on, StatusBit which) {
-    return on ? which : 0U;
+    return on ? std::uint32_t{which} : 0U;
 }
 
 std::uint32_t in_milliseconds(base::Microseconds time) {
