@@ -15,10 +15,6 @@ std::optional<base::Error> fault_of(TermView bytes) {
     return std::nullopt;
 }
 
-Table::LoadResult refuse(base::Error error, std::size_t term) {
-    return {.ok = false, .table = {}, .fault = {error, static_cast<std::uint16_t>(term)}};
-}
-
 }  // namespace
 
 std::string_view describe(base::Error table_error) {
@@ -45,21 +41,33 @@ void Table::note(std::uint8_t step, std::uint16_t index) {
     end_[step] = static_cast<std::uint16_t>(index + 1);
 }
 
+std::optional<TableFault> TableRules::take(TermView term) {
+    ended_ = is_end(term);
+    if (ended_) return std::nullopt;
+    if (terms_ == kMaxTerms) return TableFault{base::Error::no_space, terms_};
+    if (const auto fault = fault_of(term)) return TableFault{*fault, terms_};
+    ++terms_;
+    return std::nullopt;
+}
+
+std::optional<TableFault> TableRules::finish(std::size_t rest) const {
+    if (ended_) return std::nullopt;
+    return TableFault{rest == 0 ? base::Error::table_no_end : base::Error::table_ragged, terms_};
+}
+
 Table::LoadResult Table::load(std::span<const std::uint8_t> bytes) {
     LoadResult result{.ok = true, .table = {}, .fault = {}};
     Table& table = result.table;
     table.bytes_ = bytes.data();
-    for (std::size_t offset = 0;; offset += kTermBytes) {
-        const std::size_t index = offset / kTermBytes;
-        if (offset == bytes.size()) return refuse(base::Error::table_no_end, index);
-        if (bytes.size() - offset < kTermBytes) return refuse(base::Error::table_ragged, index);
-        const TermView term = bytes.subspan(offset).first<kTermBytes>();
-        if (is_end(term)) return result;
-        if (index == kMaxTerms) return refuse(base::Error::no_space, index);
-        if (const auto fault = fault_of(term)) return refuse(*fault, index);
-        table.note(step_of(term), static_cast<std::uint16_t>(index));
-        table.size_ = static_cast<std::uint16_t>(index + 1);
+    TableRules rules;
+    for (; bytes.size() >= kTermBytes; bytes = bytes.subspan(kTermBytes)) {
+        const TermView term = bytes.first<kTermBytes>();
+        if (const auto fault = rules.take(term)) return {.ok = false, .table = {}, .fault = *fault};
+        if (rules.ended()) return result;
+        table.note(step_of(term), table.size_);
+        table.size_ = rules.terms();
     }
+    return {.ok = false, .table = {}, .fault = *rules.finish(bytes.size())};
 }
 
 }  // namespace nplc::sequencer

@@ -1,9 +1,13 @@
 #include "gateway/gateway.h"
 
-namespace nplc::gateway {
-namespace {
+#include <algorithm>
+#include <utility>
 
-motor::Order to_motor(const sequencer::MotorOrder& order) {
+#include "gateway/status_light.h"
+
+namespace nplc::gateway {
+
+motor::Order Gateway::to_motor(const sequencer::MotorOrder& order) {
     return {.is_register_write = order.is_flex,
             .command = order.command,
             .reg = order.reg,
@@ -11,14 +15,16 @@ motor::Order to_motor(const sequencer::MotorOrder& order) {
             .value = order.value};
 }
 
-}  // namespace
+bool Gateway::motor_takes(sequencer::TermView term) const {
+    return !sequencer::has_order(term) || ports_.motor.can_execute(to_motor(sequencer::order_of(term)));
+}
 
 Gateway::Gateway(const Ports& ports, const Settings& settings, StartCause cause)
     : ports_(ports),
       settings_(settings),
       debouncer_(settings.debounce),
-      autostart_(settings.autostart && cause == StartCause::power_up) {
-    write_outputs(settings_.safe_outputs);
+      starting_up_(cause == StartCause::power_up) {
+    show_outputs();
     if (cause == StartCause::watchdog) {
         safe_reason_ = SafeReason::watchdog;
         ports_.motor.stop();
@@ -34,37 +40,32 @@ sequencer::Table::LoadResult Gateway::load(std::span<const std::uint8_t> bytes, 
     engine_.reset();
     if (!result.ok) {
         enter_safe_state(SafeReason::bad_table, now);
-    } else if (autostart_) {
+    } else if (starting_up_ && settings_.autostart) {
         static_cast<void>(run());
     }
-    autostart_ = false;
+    starting_up_ = false;
     return result;
 }
 
 sequencer::Table::LoadResult Gateway::checked_for_motor(const sequencer::Table::LoadResult& loaded) const {
     for (std::size_t i = 0; i < loaded.table.size(); ++i) {
-        const sequencer::TermView term = loaded.table.term(i);
-        if (!sequencer::has_order(term) || ports_.motor.can_execute(to_motor(sequencer::order_of(term))))
-            continue;
+        if (motor_takes(loaded.table.term(i))) continue;
         return {
             .ok = false, .table = {}, .fault = {base::Error::not_for_motor, static_cast<std::uint16_t>(i)}};
     }
     return loaded;
 }
 
-base::Status Gateway::run() {
-    if (run_state_ != RunState::stopped) return base::Error::not_stopped;
-    if (table_.empty()) return base::Error::no_table;
-    engine_.reset();
-    quiet_key_.reset();
-    stop_ordered_ = false;
-    run_state_ = RunState::waiting_for_motor;
-    return {};
-}
-
 void Gateway::poll(base::Instant now) {
     ports_.motor.poll(now);
+    uptime_.advance(now);
     debouncer_.update(ports_.inputs.read(), now);
+    expire_forces(now);
+    serve_sequence(now);
+    show_outputs();
+}
+
+void Gateway::serve_sequence(base::Instant now) {
     switch (run_state_) {
         case RunState::stopped:
             ports_.watchdog.feed();
@@ -74,12 +75,13 @@ void Gateway::poll(base::Instant now) {
             ports_.watchdog.feed();
             break;
         case RunState::running:
+        case RunState::holding:
+        case RunState::held:
+            if (run_state_ != RunState::running) ports_.watchdog.feed();
             watch_link(now);
-            if (enabled()) {
-                work(now);
-            } else {
-                enter_safe_state(SafeReason::enable_lost, now);
-            }
+            if (!enabled()) return enter_safe_state(SafeReason::enable_lost, now);
+            if (run_state_ == RunState::running) return work(now);
+            if (run_state_ == RunState::holding) return hold_when_settled(now);
             break;
     }
 }
@@ -104,6 +106,10 @@ void Gateway::start_when_ready(base::Instant now) {
     stop_after_loss_ = false;
     in_scan_ = false;
     progress_ = ticked_ = now;
+    scan_ended_.reset();
+    worst_scan_time_ = {};
+    note(Event::started);
+    if (breaks_at(engine_.state().step)) begin_hold(true, now);
 }
 
 /// A lost link is a safe state in which the sequence runs on, with ERROR, until it has acknowledged.
@@ -120,26 +126,37 @@ void Gateway::watch_link(base::Instant now) {
     }
     if (link == motor::Link::up && safe_reason_ == SafeReason::link_down) {
         safe_reason_ = SafeReason::none;
-        write_outputs(engine_.state().outputs);
+        note(Event::link_up);
     }
 }
 
 void Gateway::set_safe_reason(SafeReason reason, base::Instant now) {
-    if (safe_reason_ != reason) safe_since_ = now;
+    uptime_.advance(now);
+    if (safe_reason_ != reason) {
+        safe_since_ = now;
+        safe_since_uptime_ = uptime_.milliseconds();
+        log_.add({safe_since_uptime_, static_cast<std::uint8_t>(reason), engine_.state().step, 0});
+    }
     safe_reason_ = reason;
-    write_outputs(settings_.safe_outputs);
+    show_outputs();
 }
 
 void Gateway::enter_safe_state(SafeReason reason, base::Instant now) {
     run_state_ = RunState::stopped;
     in_scan_ = false;
     held_.reset();
+    hold_after_ = HoldAfter::never;
     set_safe_reason(reason, now);
     ports_.motor.stop();
 }
 
 void Gateway::work(base::Instant now) {
+    if (std::exchange(resumes_, false)) {
+        progress_ = ticked_ = now;
+        scan_ended_.reset();
+    }
     count_timer(now);
+    if (!in_scan_ && hold_after_ == HoldAfter::at_once) return begin_hold(false, now);
     if ((in_scan_ || begin_scan(now)) && send_orders(now)) {
         finish_scan(now);
     } else if (now - progress_ > settings_.longest_wait) {
@@ -151,12 +168,12 @@ void Gateway::work(base::Instant now) {
 bool Gateway::begin_scan(base::Instant now) {
     if (!ports_.motor.settled()) return false;
     progress_ = now;
-    image_ = static_cast<sequencer::InputImage>(debouncer_.levels() |
-                                                (ports_.motor.in_position() ? sequencer::kInPos : 0) |
-                                                (ports_.motor.error() ? sequencer::kError : 0));
+    image_ =
+        static_cast<sequencer::InputImage>(inputs() | (ports_.motor.in_position() ? sequencer::kInPos : 0) |
+                                           (ports_.motor.error() ? sequencer::kError : 0));
     if (quiet_key_ == engine_.key(image_)) {
-        ++scans_;
-        ports_.watchdog.feed();
+        note_scan_end(now);
+        hold_if_due(false, now);
         return false;
     }
     quiet_key_ = engine_.key(image_);
@@ -185,11 +202,11 @@ void Gateway::finish_scan(base::Instant now) {
     if (effect.timer_preset) ticked_ = now;
     if (safe_reason_ != SafeReason::link_down) {
         safe_reason_ = SafeReason::none;
-        write_outputs(engine_.state().outputs);
+        show_outputs();
     }
     in_scan_ = false;
-    ++scans_;
-    ports_.watchdog.feed();
+    note_scan_end(now);
+    hold_if_due(engine_.state().step != before_.step, now);
     if (observer_ != nullptr) observer_->scanned(now, before_, image_, engine_.state());
 }
 
@@ -200,6 +217,38 @@ void Gateway::count_timer(base::Instant now) {
     if (milliseconds == 0) return;
     ticked_ += base::Milliseconds(milliseconds);
     engine_.elapse(milliseconds);
+}
+
+void Gateway::note_scan_end(base::Instant now) {
+    ++scans_;
+    ports_.watchdog.feed();
+    scan_time_ = scan_ended_ ? now - *scan_ended_ : base::Microseconds{};
+    worst_scan_time_ = std::max(worst_scan_time_, scan_time_);
+    scan_ended_ = now;
+}
+
+void Gateway::note(Event event, std::uint16_t detail) {
+    log_.add({uptime_.milliseconds(), static_cast<std::uint8_t>(event), engine_.state().step, detail});
+}
+
+base::Status Gateway::change(const Settings& settings) {
+    if (run_state_ != RunState::stopped) return base::Error::not_stopped;
+    settings_ = settings;
+    debouncer_.set_steady(settings.debounce);
+    show_outputs();
+    return {};
+}
+
+/// The safe values, or what the sequence wrote under what is forced; and the lamp, if there is one.
+void Gateway::show_outputs() {
+    unsigned levels = safe_reason_ == SafeReason::none ? forces_.outputs().over(engine_.state().outputs)
+                                                       : settings_.safe_outputs;
+    if (settings_.status_output && *settings_.status_output < 4) {
+        const unsigned lamp = 1U << *settings_.status_output;
+        const bool on = status_light(run_state_, safe_reason_, uptime_.milliseconds());
+        levels = (levels & ~lamp) | (on ? lamp : 0U);
+    }
+    write_outputs(static_cast<std::uint8_t>(levels));
 }
 
 void Gateway::write_outputs(std::uint8_t levels) {

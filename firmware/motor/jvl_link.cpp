@@ -35,6 +35,16 @@ void JvlLink::send_flexmac(const protocol::flexmac::Message& message, base::Inst
     start(protocol::flexmac::encode(message).view(), Expect::toggle, now);
 }
 
+void JvlLink::send_read(const protocol::flexmac::Message& request, base::Instant now) {
+    send_flexmac(request, now);
+    request_ = request;
+    reads_ = true;
+}
+
+std::optional<std::uint32_t> JvlLink::take_reply() {
+    return std::exchange(reply_, std::nullopt);
+}
+
 void JvlLink::leave_flexmac(base::Instant now) {
     send_flexmac(protocol::flexmac::kUseFastMac, now);
     expect_ = Expect::leave_flexmac;
@@ -50,6 +60,8 @@ void JvlLink::start(std::span<const std::uint8_t> bytes, Expect expect, base::In
     expect_ = expect;
     resends_ = 0;
     started_ = now;
+    reads_ = false;
+    reply_.reset();
     rewind(now);
 }
 
@@ -77,6 +89,8 @@ void JvlLink::forget(base::Instant now) {
     accepted_ = adopted_ = false;
     size_ = sent_ = 0;
     strange_shown_ = 0;
+    reads_ = false;
+    reply_.reset();
     last_status_ = now;
 }
 
@@ -122,12 +136,27 @@ void JvlLink::read_all(base::Instant now) {
                 replies_.abandon();
                 continue;
             }
-            const auto event = replies_.receive(byte.value);
-            if (event.kind == protocol::flexmac::ReplyDecoder::Event::Kind::status)
-                on_status(event.status, now);
+            on_byte(byte.value, now);
         }
         if (count < bytes.size()) return;
     }
+}
+
+void JvlLink::on_byte(std::uint8_t byte, base::Instant now) {
+    using Kind = protocol::flexmac::ReplyDecoder::Event::Kind;
+    const auto event = replies_.receive(byte);
+    if (reads_) last_status_ = now;  // a slow motor's answer takes longer than `silence`
+    if (event.kind == Kind::status) on_status(event.status, now);
+    if (event.kind == Kind::reply) on_reply(event.reply);
+}
+
+/// An answer repeats its request, so that of a read given up before is told apart, unless it asked the same.
+void JvlLink::on_reply(const protocol::flexmac::Message& reply) {
+    protocol::flexmac::Message request = reply;
+    request.value = 0;
+    if (!reads_ || request != request_) return;
+    reads_ = false;
+    reply_ = reply.value;
 }
 
 void JvlLink::on_status(std::uint8_t byte, base::Instant now) {

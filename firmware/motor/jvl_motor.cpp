@@ -12,6 +12,8 @@ using protocol::fastmac::Number;
 
 constexpr std::uint8_t kModeReg = 2;
 constexpr base::Microseconds kBlindPause{100'000};
+/// For an answer that comes after the motor's acceptance: two answers' length at 19200 baud, sent slowly.
+constexpr base::Microseconds kLateReply{40'000};
 
 }  // namespace
 
@@ -33,6 +35,8 @@ void JvlMotor::poll(base::Instant now) {
     }
     update_hold(now);
     if (link_.busy()) return;
+    follow_access(now);
+    if (reply_until_ && !stop_wanted_ && orders_.empty()) return;
     if (phase_ == Phase::up) {
         work(now);
     } else {
@@ -48,7 +52,10 @@ void JvlMotor::lose_link(base::Instant now) {
         link_error_ = true;
         ++counters_.link_losses;
     }
-    was_up_ = safe_now_ = slowed_ = holds_ = false;
+    if (access_state_ == AccessState::waiting || access_state_ == AccessState::under_way)
+        end_access(AccessState::failed);
+    was_up_ = safe_now_ = slowed_ = holds_ = for_access_ = false;
+    reply_until_.reset();
     sending_ = Sending::nothing;
     phase_ = Phase::down;
     link_.forget(now);
@@ -69,6 +76,14 @@ void JvlMotor::on_accepted(base::Instant now) {
         case Sending::stop:
             stop_wanted_ = false;
             hold_in_position(now);
+            break;
+        case Sending::access:
+            if (access_.is_write) {
+                hold_in_position(now);
+                end_access(AccessState::done);
+            } else {
+                reply_until_ = now + kLateReply;
+            }
             break;
     }
     if (phase_ == Phase::up && !was_up_) {
@@ -140,7 +155,8 @@ void JvlMotor::free_the_line(base::Instant now) {
 void JvlMotor::work(base::Instant now) {
     const bool in_flexmac = link_.flexmac();
     const bool writes = stop_wanted_ || (!orders_.empty() && orders_.front().is_register_write);
-    if (in_flexmac && !writes) {
+    const bool accesses = !stop_wanted_ && orders_.empty() && access_state_ == AccessState::waiting;
+    if (in_flexmac && !writes && !accesses) {
         sending_ = Sending::link_command;
         return link_.leave_flexmac(now);
     }
@@ -148,12 +164,15 @@ void JvlMotor::work(base::Instant now) {
         slowed_ = true;
         return command(Sending::link_command, command_byte(Number::transmit_slowly), now);
     }
-    if (!in_flexmac && writes) return command(Sending::link_command, command_byte(Number::use_flexmac), now);
+    for_access_ = accesses;
+    if (!in_flexmac && (writes || accesses))
+        return command(Sending::link_command, command_byte(Number::use_flexmac), now);
     if (stop_wanted_) {
         return write_register(
             Sending::stop,
             {.is_register_write = true, .reg = kModeReg, .longword = settings_.registers_are_32_bit}, now);
     }
+    if (accesses) return send_access(now);
     if (orders_.empty()) return;
     current_ = orders_.front();
     orders_.pop();
@@ -168,6 +187,45 @@ void JvlMotor::write_register(Sending what, const Order& order, base::Instant no
                         .target = order.reg,
                         .value = order.value},
                        now);
+}
+
+void JvlMotor::send_access(base::Instant now) {
+    access_state_ = AccessState::under_way;
+    sending_ = Sending::access;
+    const protocol::flexmac::Message message{.read = !access_.is_write,
+                                             .longword = access_.longword,
+                                             .level = protocol::flexmac::Level::reg,
+                                             .target = access_.reg,
+                                             .value = access_.is_write ? access_.value : 0};
+    access_.is_write ? link_.send_flexmac(message, now) : link_.send_read(message, now);
+}
+
+void JvlMotor::end_access(AccessState state) {
+    ++(state == AccessState::done ? counters_.accesses : counters_.access_fails);
+    access_state_ = state;
+}
+
+/// The answer to a read that the motor has accepted.
+void JvlMotor::follow_access(base::Instant now) {
+    if (!reply_until_) return;
+    const auto value = link_.take_reply();
+    if (!value && now < *reply_until_) return;
+    reply_until_.reset();
+    if (access_state_ != AccessState::under_way) return;
+    access_value_ = value.value_or(0);
+    end_access(value ? AccessState::done : AccessState::failed);
+}
+
+bool JvlMotor::begin_access(const Access& access) {
+    if (phase_ != Phase::up) return false;
+    if (access_state_ == AccessState::waiting || access_state_ == AccessState::under_way) return false;
+    access_ = access;
+    access_state_ = AccessState::waiting;
+    return true;
+}
+
+void JvlMotor::drop_access() {
+    if (access_state_ != AccessState::under_way) access_state_ = AccessState::none;
 }
 
 void JvlMotor::command(Sending what, std::uint8_t command, base::Instant now) {
@@ -192,13 +250,21 @@ bool JvlMotor::can_execute(const Order& order) const {
 void JvlMotor::stop() {
     counters_.discarded += static_cast<std::uint32_t>(orders_.size());
     orders_.clear();
+    if (access_state_ == AccessState::waiting) end_access(AccessState::failed);
     stop_wanted_ = true;
 }
 
 bool JvlMotor::settled() const {
     if (phase_ != Phase::up) return true;
     const bool wants_slow = link_.framing_error_seen() && !slowed_;
+    if (for_access_) return orders_.empty() && !stop_wanted_;
     return !link_.busy() && orders_.empty() && !stop_wanted_ && !link_.flexmac() && !wants_slow;
+}
+
+Counters JvlMotor::counters() const {
+    Counters counters = counters_;
+    counters.resent = link_.resent();
+    return counters;
 }
 
 bool JvlMotor::in_position() const {

@@ -25,6 +25,10 @@ bool is_write_length(std::uint8_t length) {
     return length == 2 || length == 4;
 }
 
+bool is_long_length(std::size_t length) {
+    return length >= 4 && length <= kMaxLongWrite && length % 4 == 0;
+}
+
 /// Byte number `index` of the protected ones.
 std::uint8_t protected_byte(std::span<const std::uint8_t> bytes, std::size_t index) {
     return bytes[kSync + 2 * index];
@@ -51,7 +55,7 @@ Progress framing(std::span<const std::uint8_t> bytes, std::size_t pairs) {
     return bytes.size() == end + kEnds ? Progress::whole : Progress::partial;
 }
 
-Progress request_progress(std::span<const std::uint8_t> bytes) {
+Progress request_progress(std::span<const std::uint8_t> bytes, std::uint8_t long_address) {
     if (bytes[0] < kFirstKind || bytes[0] > kLastKind) return Progress::wrong;
     const Kind kind = static_cast<Kind>(bytes[0]);
     std::size_t pairs = has_register(kind) ? 2 : 1;
@@ -61,7 +65,9 @@ Progress request_progress(std::span<const std::uint8_t> bytes) {
         pairs = kHeaderPairs;
         if (has_protected_byte(bytes, 2)) {
             const std::uint8_t length = protected_byte(bytes, 2);
-            if (!is_write_length(length)) return Progress::wrong;
+            const bool takes_long =
+                long_address != kMasterAddress && protected_byte(bytes, 0) == long_address;
+            if (!is_write_length(length) && !(takes_long && is_long_length(length))) return Progress::wrong;
             pairs += length;
         }
     }
@@ -88,7 +94,7 @@ Request request_of(std::span<const std::uint8_t> bytes) {
     if (has_register(request.kind)) request.reg = protected_byte(bytes, 1);
     if (request.kind != Kind::write) return request;
     request.length = protected_byte(bytes, 2);
-    for (std::size_t i = 0; i < request.length; ++i) {
+    for (std::size_t i = 0; i < std::min<std::size_t>(request.length, 4); ++i) {
         request.value |= static_cast<std::uint32_t>(protected_byte(bytes, kHeaderPairs + i)) << (8 * i);
     }
     return request;
@@ -105,8 +111,8 @@ Reply reply_of(std::span<const std::uint8_t> bytes, Answer answer, std::size_t d
 }
 
 /// Takes bytes off the front until what is left may still become a message, or is one.
-template <std::size_t N, class Judge>
-Progress settle(std::array<std::uint8_t, N>& bytes, std::uint8_t& count, Judge judge) {
+template <std::size_t N, class Count, class Judge>
+Progress settle(std::array<std::uint8_t, N>& bytes, Count& count, Judge judge) {
     while (count > 0) {
         const Progress progress = judge(std::span<const std::uint8_t>(bytes.data(), count));
         if (progress != Progress::wrong) return progress;
@@ -139,7 +145,8 @@ void end(Encoded<N>& out) {
     for (std::size_t i = 0; i < kEnds; ++i) put(out, kEnd);
 }
 
-void put_data(EncodedReply& out, std::span<const std::uint8_t> data) {
+template <std::size_t N>
+void put_data(Encoded<N>& out, std::span<const std::uint8_t> data) {
     put_protected(out, static_cast<std::uint8_t>(data.size()));
     for (const std::uint8_t byte : data) put_protected(out, byte);
     end(out);
@@ -160,6 +167,16 @@ EncodedRequest encode(const Request& request) {
             put_protected(out, static_cast<std::uint8_t>(request.value >> (8 * i)));
     }
     end(out);
+    return out;
+}
+
+EncodedLongWrite encode_long_write(std::uint8_t address, std::uint8_t reg,
+                                   std::span<const std::uint8_t> data) {
+    if (reg == 0 || !is_long_length(data.size())) return {};
+    EncodedLongWrite out;
+    begin(out, Kind::write, address);
+    put_protected(out, reg);
+    put_data(out, data);
     return out;
 }
 
@@ -189,8 +206,14 @@ EncodedReply encode_samples(std::span<const std::uint8_t> data) {
 std::optional<Request> RequestDecoder::receive(std::uint8_t byte) {
     bytes_[count_] = byte;
     ++count_;
-    if (settle(bytes_, count_, request_progress) != Progress::whole) return std::nullopt;
+    data_size_ = 0;
+    const auto judge = [this](std::span<const std::uint8_t> bytes) {
+        return request_progress(bytes, long_address_);
+    };
+    if (settle(bytes_, count_, judge) != Progress::whole) return std::nullopt;
     const Request request = request_of({bytes_.data(), count_});
+    data_size_ = request.length;
+    for (std::size_t i = 0; i < data_size_; ++i) bytes_[i] = protected_byte(bytes_, kHeaderPairs + i);
     count_ = 0;
     return request;
 }

@@ -8,10 +8,12 @@
 #include <sys/stat.h>
 #include <sys/un.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <optional>
+#include <vector>
 
 #include "file_descriptor.h"
 
@@ -38,54 +40,59 @@ class BoundPath {
 
 class SocketServer final : public ByteServer {
   public:
-    SocketServer(FileDescriptor listener, std::string name, BoundPath path)
-        : listener_(std::move(listener)), path_(std::move(path)), name_(std::move(name)) {}
+    SocketServer(FileDescriptor listener, std::string name, BoundPath path, std::size_t seats)
+        : listener_(std::move(listener)), clients_(seats), path_(std::move(path)), name_(std::move(name)) {}
 
     const std::string& name() const override { return name_; }
 
     bool has_client() override {
         accept_clients();
-        return static_cast<bool>(client_);
+        return std::any_of(clients_.begin(), clients_.end(),
+                           [](const FileDescriptor& client) { return static_cast<bool>(client); });
     }
+    std::size_t seats() const override { return clients_.size(); }
 
-    std::size_t read(std::span<std::uint8_t> out) override {
+    std::size_t read_seat(std::size_t seat, std::span<std::uint8_t> out) override {
         accept_clients();
-        if (!client_ || out.empty()) return 0;
-        const ssize_t count = ::recv(client_.get(), out.data(), out.size(), 0);
+        FileDescriptor& client = clients_[seat];
+        if (!client || out.empty()) return 0;
+        const ssize_t count = ::recv(client.get(), out.data(), out.size(), 0);
         if (count > 0) return static_cast<std::size_t>(count);
-        if (count == 0 || (errno != EAGAIN && errno != EINTR)) client_.close();
+        if (count == 0 || (errno != EAGAIN && errno != EINTR)) client.close();
         return 0;
     }
 
-    void write(std::span<const std::uint8_t> bytes) override {
+    void write_seat(std::size_t seat, std::span<const std::uint8_t> bytes) override {
         accept_clients();
-        if (!client_) return;
-        const ssize_t taken = ::send(client_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
-        if (taken < 0 && errno != EAGAIN && errno != EINTR) client_.close();
+        FileDescriptor& client = clients_[seat];
+        if (!client) return;
+        const ssize_t taken = ::send(client.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+        if (taken < 0 && errno != EAGAIN && errno != EINTR) client.close();
     }
 
-    int descriptor() const override { return client_ ? client_.get() : listener_.get(); }
+    int descriptor() const override { return clients_.front() ? clients_.front().get() : listener_.get(); }
 
   private:
     void accept_clients() {
         for (;;) {
             FileDescriptor next(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
             if (!next) return;
-            if (client_ && !is_gone()) continue;  // turned away
+            const auto seat = std::find_if(clients_.begin(), clients_.end(), is_free);
+            if (seat == clients_.end()) continue;  // turned away
             const int on = 1;
             ::setsockopt(next.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-            client_ = std::move(next);
+            *seat = std::move(next);
         }
     }
 
     /// A client that hung up makes room at once, even if nobody has read since.
-    bool is_gone() const {
+    static bool is_free(const FileDescriptor& client) {
         char byte = 0;
-        return ::recv(client_.get(), &byte, 1, MSG_PEEK) == 0;
+        return !client || ::recv(client.get(), &byte, 1, MSG_PEEK) == 0;
     }
 
     FileDescriptor listener_;
-    FileDescriptor client_;
+    std::vector<FileDescriptor> clients_;
     BoundPath path_;
     std::string name_;
 };
@@ -138,7 +145,7 @@ std::string tcp_name(int listener) {
 
 }  // namespace
 
-ByteServer::Opened open_unix_server(const std::string& path) {
+ByteServer::Opened open_unix_server(const std::string& path, std::size_t seats) {
     const std::string name = "unix:" + path;
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
@@ -157,10 +164,10 @@ ByteServer::Opened open_unix_server(const std::string& path) {
     }
     BoundPath bound(path);
     if (::listen(listener.get(), 1) != 0) return {nullptr, name + ": " + reason()};
-    return {std::make_unique<SocketServer>(std::move(listener), name, std::move(bound)), {}};
+    return {std::make_unique<SocketServer>(std::move(listener), name, std::move(bound), seats), {}};
 }
 
-ByteServer::Opened open_tcp_server(const std::string& where) {
+ByteServer::Opened open_tcp_server(const std::string& where, std::size_t seats) {
     const auto address = tcp_address(where);
     if (!address)
         return {nullptr, "tcp:" + where + ": write tcp:127.0.0.1:PORT (this machine only), PORT 0..65535"};
@@ -172,7 +179,7 @@ ByteServer::Opened open_tcp_server(const std::string& where) {
         return {nullptr, "tcp:" + where + ": " + reason()};
     }
     const std::string name = tcp_name(listener.get());
-    return {std::make_unique<SocketServer>(std::move(listener), name, BoundPath(std::string())), {}};
+    return {std::make_unique<SocketServer>(std::move(listener), name, BoundPath(std::string()), seats), {}};
 }
 
 }  // namespace nplc::hal_linux

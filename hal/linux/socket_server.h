@@ -6,8 +6,8 @@
 
 namespace nplc::hal_linux {
 
-ByteServer::Opened open_unix_server(const std::string& path);
+ByteServer::Opened open_unix_server(const std::string& path, std::size_t seats);
 /// `where`: ADDRESS:PORT
-ByteServer::Opened open_tcp_server(const std::string& where);
+ByteServer::Opened open_tcp_server(const std::string& where, std::size_t seats);
 
 }  // namespace nplc::hal_linux

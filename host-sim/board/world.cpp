@@ -43,6 +43,8 @@ World::World(std::vector<std::uint8_t> table, const WorldOptions& options)
       options_(options),
       line_(options.baud, options.seed),
       mac_(options.motor, motor_options(options)),
+      user_line_(options.user_baud, options.seed),
+      mactalk_line_(19'200, options.seed),
       next_sample_(mac_.sample_period()) {
     line_.to_motor().set_faults(options.faults);
     line_.from_motor().set_faults(options.faults);
@@ -50,14 +52,46 @@ World::World(std::vector<std::uint8_t> table, const WorldOptions& options)
 }
 
 void World::start_gateway(gateway::StartCause cause) {
+    const bool first = !gateway_;
+    const bool uploaded =
+        tables_ && tables_->upload_state() == static_cast<std::uint32_t>(store::Phase::done);
+    if (uploaded) table_.clear();
+    user_port_.reset();
+    own_registers_.reset();
+    tables_.reset();
     gateway_.reset();
     on_their_way_.clear();
     followed_ = {};
     driver_.emplace(line_.port(), driver_settings(options_, mac_.sample_period()));
     const gateway::Gateway::Ports ports{board_, board_, board_, *driver_};
-    gateway_.emplace(ports, options_.gateway, cause);
+    ports::Storage& storage = options_.storage != nullptr ? *options_.storage : flash_;
+    store::SettingValues initial = gateway::values_of(options_.gateway);
+    static_cast<void>(initial.set(store::Setting::motor_address, motor_options(options_).address));
+    settings_.emplace(storage, kSettingsArea);
+    settings_->start(initial);
+    gateway_.emplace(ports, gateway::settings_of(settings_->values()), cause);
+    settings_->attach(*gateway_);
     gateway_->observe(this);
-    load_result_ = gateway_->load(table_, instant());
+    tables_.emplace(*gateway_, *driver_, storage, kTableArea, table_memory_);
+    own_registers_.emplace(*gateway_, *tables_, *settings_);
+    user_port_.emplace(user_line_.port(), options_.motor_mactalk_wired ? &mactalk_line_.port() : nullptr,
+                       *gateway_, *driver_, *own_registers_, *settings_);
+    start_table(first);
+}
+
+void World::start_table(bool first) {
+    static_cast<void>(tables_->mount());
+    if (!table_.empty()) {
+        const auto result = tables_->use(table_, instant());
+        if (first) load_result_ = result;
+        return;
+    }
+    tables_->start(instant());
+    load_result_.ok = true;
+}
+
+std::uint8_t World::gateway_address() const {
+    return static_cast<std::uint8_t>(settings_->get(store::Setting::gateway_address));
 }
 
 base::Instant World::instant() const {
@@ -73,6 +107,12 @@ Time World::next_event() const {
     consider(line_.from_motor().next_arrival());
     if (line_.has_waiting()) next = std::min(next, line_.to_motor().busy_until());
     if (motor_powered_) next = std::min(next, motor_asks_);
+    for (const VirtualSerialLine* line : {&user_line_, &mactalk_line_}) {
+        consider(line->to_motor().next_arrival());
+        consider(line->from_motor().next_arrival());
+        if (line->has_waiting()) next = std::min(next, line->to_motor().busy_until());
+    }
+    if (!user_waiting_.empty()) next = std::min(next, user_line_.from_motor().busy_until());
     return std::max(next, now_);
 }
 
@@ -82,6 +122,8 @@ void World::step(Time limit) {
     if (event > limit) return;
     if (now_ >= next_sample_) sample_motor();
     move_characters();
+    move_user_characters();
+    move_mactalk_characters();
     if (now_ >= next_poll_) poll_gateway();
 }
 
@@ -99,6 +141,26 @@ void World::move_characters() {
     }
 }
 
+/// The firmware looks at this line when it polls anyway, so that a person changes nothing in its timing.
+void World::move_user_characters() {
+    if (!user_waiting_.empty() && user_line_.from_motor().free(now_)) {
+        user_line_.from_motor().start(user_waiting_.front(), now_);
+        user_waiting_.pop_front();
+    }
+    user_line_.service(now_);
+    while (const auto byte = user_line_.to_motor().take(now_)) user_received_.push_back(byte->value);
+}
+
+void World::move_mactalk_characters() {
+    if (!options_.motor_mactalk_wired) return;
+    mactalk_line_.service(now_);
+    while (const auto byte = mactalk_line_.to_motor().take(now_)) {
+        if (motor_powered_) mac_.receive_mactalk(byte->value, byte->framing_error);
+    }
+    if (!motor_powered_ || !mactalk_line_.from_motor().free(now_)) return;
+    if (const auto byte = mac_.transmit_mactalk()) mactalk_line_.from_motor().start(*byte, now_);
+}
+
 void World::sample_motor() {
     next_sample_ += mac_.sample_period();
     if (!motor_powered_) return;
@@ -108,15 +170,19 @@ void World::sample_motor() {
 
 void World::poll_gateway() {
     gateway_->poll(instant());
+    user_port_->poll(instant());
     follow_orders();
     line_.service(now_);
+    user_line_.service(now_);
+    mactalk_line_.service(now_);
     next_poll_ = now_ + kPollPeriod;
     if (board_.watchdog_bites(instant())) start_gateway(gateway::StartCause::watchdog);
+    if (own_registers_->reset_asked()) start_gateway(gateway::StartCause::power_up);
 }
 
 /// The driver executes in the order given, and gives up all that waits behind the one under way, or all.
 void World::follow_orders() {
-    const motor::JvlMotor::Counters& counters = driver_->counters();
+    const motor::Counters& counters = driver_->counters();
     for (; followed_.orders != counters.orders && !on_their_way_.empty(); ++followed_.orders) {
         on_their_way_.pop_front();
     }

@@ -79,8 +79,9 @@ void add_line_options(CLI::App& app, RunOptions& options) {
 void add_run(CLI::App& parent, RunOptions& options) {
     CLI::App& app = *parent.add_subcommand(
         "run", "Run a sequence on the simulated gateway with a virtual motor; prints a timeline");
-    app.add_option("program", options.program, "F.seq (compiled on the way), or a table: F.bin or F.hex")
-        ->required();
+    app.add_option("program", options.program,
+                   "F.seq (compiled on the way), or a table: F.bin or F.hex; "
+                   "without it the table in the flash");
     app.add_option("--symbols", options.symbols,
                    "names for a table (F.sym beside F.bin, as `seqc build` writes it, if it fits)")
         ->type_name("F.sym");
@@ -98,6 +99,12 @@ void add_run(CLI::App& parent, RunOptions& options) {
              "MAC50, MAC95, MAC140, MAC141 or MAC800",
              into(options.motor, [](const std::string& text) { return registers::model_of(text); }));
     app.add_flag("--realtime", options.realtime, "wall-clock time; keys 0-5 toggle inputs, q ends");
+    app.add_option(
+           "--mactalk", options.mactalk,
+           "open the gateway's MacTalk port: pty:PATH, unix:PATH or tcp:127.0.0.1:PORT; with --realtime")
+        ->type_name("EP");
+    app.add_option("--flash", options.flash, "file that keeps the gateway's flash: stored table and settings")
+        ->type_name("FILE");
     app.add_flag("--quiet", options.quiet, "only the summary");
     app.add_flag("--rapid", options.rapid, "rapid communication with the motor in place of safe");
     app.add_flag("--old-codes", options.old_register_codes, "the older register codes, driver and motor");
@@ -125,6 +132,16 @@ void add_scan(CLI::App& parent, ScanOptions& options) {
         "Prints scan,step,timer,counter,outputs,fastmac,flexmac: scans count from 1, all values as "
         "they stand after\nthe scan and after dt_ms was taken off the timer.\n{}",
         kExitCodes));
+}
+
+void check_run(const RunOptions& run) {
+    if (run.mactalk && !run.realtime)
+        throw InputError("nanoplc-sim: --mactalk needs --realtime: outside programs live in real time");
+    if (run.program.empty() && !run.flash && !run.mactalk)
+        throw InputError(
+            "nanoplc-sim: run what? name a program, or --flash or --mactalk; see nanoplc-sim --help");
+    if (run.program.empty() && run.symbols)
+        throw InputError("nanoplc-sim: --symbols without a table; name the table that they are for");
 }
 
 std::string one_line(std::string text) {
@@ -156,6 +173,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         throw InputError(fmt::format("nanoplc-sim: {}; see nanoplc-sim --help", one_line(error.what())));
     }
     if (app.got_subcommand("scan")) return scan;
+    check_run(run);
     return run;
 }
 

@@ -46,6 +46,8 @@ void check(const Output& output, const RunOptions& options) {
             fmt::format("{} \"{}\": this is no file's name; write one, or /dev/stdout for standard output",
                         output.option, output.path));
     }
+    if (options.flash) output.check_against(*options.flash, "flash file");
+    if (options.program.empty()) return;
     output.check_against(options.program, "program");
     const std::string symbols = symbols_of(options.program, options.symbols);
     if (!symbols.empty()) output.check_against(symbols, "symbol file");

@@ -5,13 +5,18 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 
+#include "hal_linux/byte_server.h"
+#include "hal_linux/file_storage.h"
 #include "hal_linux/terminal.h"
 #include "input_file.h"
 #include "output_check.h"
 #include "session.h"
+#include "shared_line.h"
 
 namespace nplc::sim {
 namespace {
@@ -21,6 +26,9 @@ using Clock = std::chrono::steady_clock;
 constexpr Time kSlice = std::chrono::milliseconds{50};
 constexpr auto kRefresh = std::chrono::milliseconds{100};
 constexpr std::chrono::milliseconds kKeyWait{5};
+/// A program at the port waits for each answer.
+constexpr std::chrono::milliseconds kPortWait{1};
+constexpr std::size_t kMostClients = 8;
 
 Scenario load_scenario(const RunOptions& options, const Names& names) {
     if (!options.scenario) return {};
@@ -74,6 +82,33 @@ void run_fast(Session& session, const RunOptions& options, const volatile std::s
     }
 }
 
+/// The gateway's port for programs outside; nothing without --mactalk.
+class Door {
+  public:
+    explicit Door(const RunOptions& options) {
+        if (!options.mactalk) return;
+        auto opened = hal_linux::ByteServer::open(*options.mactalk, kMostClients);
+        if (!opened.server) throw InputError("--mactalk " + opened.error);
+        server_ = std::move(opened.server);
+        line_.emplace(*server_);
+    }
+    bool is_open() const { return line_.has_value(); }
+    void announce() const {
+        if (is_open()) fmt::print("mactalk: {}\nready\n", server_->name());
+        std::fflush(stdout);
+    }
+    void take_in(Session& session) {
+        if (is_open()) session.user_sends(line_->to_line(session.now(), session.gateway_address()));
+    }
+    void hand_out(Session& session) {
+        if (is_open()) line_->from_line(session.user_received(), session.now());
+    }
+
+  private:
+    std::unique_ptr<hal_linux::ByteServer> server_;
+    std::optional<SharedLine> line_;
+};
+
 void handle_key(Session& session, char key) {
     if (key == 'q' || key == 'Q') session.stop();
     if (key >= '0' && key < '0' + static_cast<char>(kInputs)) session.press(static_cast<unsigned>(key - '0'));
@@ -86,30 +121,48 @@ void show_status(const Session& session) {
 }
 
 /// Virtual time follows the wall clock. The status line is rewritten in place below the timeline.
-void run_realtime(Session& session, const volatile std::sig_atomic_t& interrupted) {
+void run_realtime(Session& session, Door& door, const volatile std::sig_atomic_t& interrupted) {
     hal_linux::KeyReader keys;
     const bool live = hal_linux::stdout_is_terminal();
     if (live && keys.has_keys()) fmt::print("{}\n", session.keys());
     if (live) session.clear_line_before_each("\r\033[K");
+    door.announce();
     const auto start = Clock::now();
     auto next_status = start;
     while (!session.ended() && interrupted == 0) {
+        door.take_in(session);
         session.advance(std::chrono::duration_cast<Time>(Clock::now() - start));
+        door.hand_out(session);
         if (Clock::now() >= next_status) {
             next_status = Clock::now() + kRefresh;
             if (live) show_status(session);
             std::fflush(stdout);
         }
-        if (const auto key = keys.key(kKeyWait)) handle_key(session, *key);
+        if (const auto key = keys.key(door.is_open() ? kPortWait : kKeyWait)) handle_key(session, *key);
     }
     if (live) fmt::print("\r\033[K");
+}
+
+/// None unless asked for.
+std::unique_ptr<hal_linux::FileStorage> open_flash(const RunOptions& options) {
+    if (!options.flash) return nullptr;
+    auto opened = hal_linux::FileStorage::open(*options.flash, World::kFlash);
+    if (!opened.storage) throw InputError("--flash " + opened.error);
+    return std::move(opened.storage);
+}
+
+Program stored_program() {
+    Program program;
+    program.file = "the stored table";
+    return program;
 }
 
 }  // namespace
 
 int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted) {
     check_outputs(options);
-    Program program = load_program(options.program, options.symbols);
+    Program program =
+        options.program.empty() ? stored_program() : load_program(options.program, options.symbols);
     if (!program.nameless.empty()) fmt::print(stderr, "{}\n", program.nameless);
     if (options.motor && *options.motor != program.names.motor && !program.names.steps.empty()) {
         fmt::print(stderr, "{}: was compiled for {} and runs on {}; its register values may not fit\n",
@@ -118,10 +171,12 @@ int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted
     if (options.motor) program.names.motor = *options.motor;
     const Scenario scenario = load_scenario(options, program.names);
     if (!program.remark.empty()) fmt::print(stderr, "{}\n", program.remark);
-    Session session(options, program, scenario, Palette(wants_colour()));
+    const auto flash = open_flash(options);
+    Door door(options);
+    Session session(options, program, scenario, Palette(wants_colour()), flash.get());
     session.heading();
     if (options.realtime) {
-        run_realtime(session, interrupted);
+        run_realtime(session, door, interrupted);
     } else {
         run_fast(session, options, interrupted);
     }

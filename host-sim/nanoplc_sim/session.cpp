@@ -14,9 +14,10 @@ namespace {
 
 constexpr Time kDefaultLength = std::chrono::seconds{10};
 
-WorldOptions world_options(const RunOptions& options, const Names& names) {
+WorldOptions world_options(const RunOptions& options, const Names& names, ports::Storage* storage) {
     WorldOptions world;
     world.motor = names.motor;
+    world.storage = storage;
     world.baud = options.baud;
     world.seed = options.seed;
     world.faults = options.faults;
@@ -45,6 +46,8 @@ std::string_view in_words(gateway::SafeReason reason) {
             return "outputs safe: watchdog reset";
         case gateway::SafeReason::enable_lost:
             return "outputs safe: enable lost";
+        case gateway::SafeReason::safe_command:
+            return "outputs safe: a person's command";
     }
     return "";
 }
@@ -73,13 +76,13 @@ std::string list(const std::vector<SentOrder>& orders, const Names& names) {
 }  // namespace
 
 Session::Session(const RunOptions& options, const Program& program, const Scenario& scenario,
-                 const Palette& palette)
+                 const Palette& palette, ports::Storage* storage)
     : program_(program),
       options_(options),
       scenario_(scenario),
       palette_(palette),
       timeline_(program.names, palette),
-      world_(program.table, world_options(options, program.names)),
+      world_(program.table, world_options(options, program.names, storage)),
       runner_(scenario, program.names, world_),
       length_(options.length) {
     if (const auto& loaded = world_.load_result(); !loaded.ok) {
@@ -101,9 +104,9 @@ void Session::heading() const {
         options_.faults == LineFaults{} ? "" : fmt::format(", faults with seed {}", options_.seed);
     const std::string names =
         program_.symbols.empty() ? "" : fmt::format(", names from {}", program_.symbols);
-    fmt::print("{}: {} terms, {}, {} baud, {} communication{}{}\n\n", program_.file, program_.terms,
-               registers::name_of(program_.names.motor), options_.baud, options_.rapid ? "rapid" : "safe",
-               seed, names);
+    fmt::print("{}: {} terms, {}, {} baud, {} communication{}{}\n\n", program_.file,
+               world_.gateway().table().size(), registers::name_of(program_.names.motor), options_.baud,
+               options_.rapid ? "rapid" : "safe", seed, names);
     if (!options_.quiet) timeline_.heading();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace nplc::sim {
 class Session {
   public:
     Session(const RunOptions& options, const Program& program, const Scenario& scenario,
-            const Palette& palette);
+            const Palette& palette, ports::Storage* storage = nullptr);
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
@@ -28,6 +29,11 @@ class Session {
     void stop() { ended_ = true; }
     Time now() const { return world_.now(); }
     std::optional<Time> length() const { return length_; }
+
+    /// The user's port, as a program that is wired to it.
+    void user_sends(std::span<const std::uint8_t> bytes) { world_.user_sends(bytes); }
+    std::vector<std::uint8_t> user_received() { return world_.user_received(); }
+    std::uint8_t gateway_address() const { return world_.gateway_address(); }
 
     void press(unsigned input);  ///< toggles it
 

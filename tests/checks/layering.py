@@ -34,10 +34,11 @@ MODULES = [
     Module("firmware/protocol", "protocol", ("base",), core=True),
     Module("firmware/registers", "registers", ("base",), core=True),
     Module("firmware/motor", "motor", ("base", "ports", "protocol", "registers"), core=True),
+    Module("firmware/store", "store", ("base", "ports", "sequencer"), core=True),
     Module(
         "firmware/gateway",
         "gateway",
-        ("base", "ports", "sequencer", "protocol", "registers", "motor"),
+        ("base", "ports", "sequencer", "protocol", "registers", "motor", "store"),
         core=True,
     ),
     Module("firmware/boards", None, ANY, os=True, clock=True),
@@ -45,9 +46,16 @@ MODULES = [
     Module("host-sim/board", "sim", ANY, os=True, clock=True),
     Module("host-sim/macsim", None, ("base", "ports", "protocol", "registers", "hal_linux", "sim"), os=True),
     Module("host-sim/nanoplc_sim", None, ANY, os=True, clock=True),
+    Module("tools/mactalk_client", "mactalk_client", ("base", "protocol", "hal_linux")),
+    Module(
+        "tools/nanoctl",
+        "nanoctl",
+        ("base", "sequencer", "protocol", "registers", "store", "seqc", "mactalk_client"),
+        os=True,
+    ),
     Module("tools/registers_reference", "registers_reference", ("base", "registers"), os=True),
     Module("tools/seqc", "seqc", ("base", "sequencer", "protocol", "registers"), os=True),
-    Module("tools/macreg", "macreg", ("base", "sequencer", "protocol", "registers"), os=True),
+    Module("tools/macreg", "macreg", ("base", "sequencer", "protocol", "registers", "mactalk_client"), os=True),
     Module("tests", None, ANY, os=True),
 ]
 

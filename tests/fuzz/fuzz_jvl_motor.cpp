@@ -82,6 +82,14 @@ class Run {
                 return poll(base::Microseconds(100));
             default:
                 if (value % 8 == 0) driver_.stop();
+                if (value % 8 == 4) driver_.drop_access();
+                if (value % 8 < 4 && value % 8 > 0) {
+                    const bool taken = driver_.begin_access({.is_write = value % 8 == 3,
+                                                             .reg = static_cast<std::uint8_t>(value | 1),
+                                                             .longword = value % 8 == 2,
+                                                             .value = value});
+                    require(!taken || motor::delivers(driver_.link()));
+                }
                 return poll(base::Microseconds(100));
         }
     }

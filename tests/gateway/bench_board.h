@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "gateway/gateway.h"
@@ -30,6 +31,22 @@ struct BenchBoard final : ports::DigitalInputs,
         if (room > 0) --room;
     }
     void stop() override { ++stops; }
+    bool begin_access(const motor::Access& wanted) override {
+        if (access != motor::AccessState::none && access != motor::AccessState::done &&
+            access != motor::AccessState::failed)
+            return false;
+        accesses.push_back(wanted);
+        access = access_answers;
+        return true;
+    }
+    motor::AccessState access_state() const override { return access; }
+    std::uint32_t access_value() const override {
+        const auto found = motor_registers.find(accesses.back().reg);
+        return found == motor_registers.end() ? 0 : found->second;
+    }
+    void drop_access() override { access = motor::AccessState::none; }
+    motor::Counters counters() const override { return motor_counters; }
+    bool longwords_only() const override { return is_mac800; }
     bool in_position() const override { return in_pos; }
     bool error() const override { return err || link_state != motor::Link::up; }
     motor::Link link() const override { return link_state; }
@@ -72,6 +89,12 @@ struct BenchBoard final : ports::DigitalInputs,
     bool err = false;
     motor::Link link_state = motor::Link::up;
     std::vector<motor::Order> sent;
+    motor::AccessState access = motor::AccessState::none;
+    motor::AccessState access_answers = motor::AccessState::done;  ///< at once
+    std::vector<motor::Access> accesses;
+    std::map<int, std::uint32_t> motor_registers;
+    motor::Counters motor_counters;
+    bool is_mac800 = false;
     std::vector<Scan> scans_seen;
 };
 

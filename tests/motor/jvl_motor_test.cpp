@@ -77,6 +77,75 @@ TEST_F(MotorTest, AMotorLeftInFlexMacIsBroughtBackFirst) {
     EXPECT_EQ(driver.link(), Link::up);
 }
 
+// 001 §5.2.2: header 70h, a word read by register, three times; register 05h with its inverse. The motor
+// repeats it and adds the data with inverses, low byte first.
+const Bytes kReadV{0x70, 0x70, 0x70, 0x05, 0xFA};
+const Bytes kReplyV{0x70, 0x70, 0x70, 0x05, 0xFA, 0x34, 0xCB, 0x12, 0xED};
+
+TEST_F(MotorTest, ReadsARegisterBetweenOrders) {
+    start();
+    ASSERT_TRUE(driver.begin_access({.reg = 5}));
+    EXPECT_FALSE(driver.begin_access({.reg = 6})) << "one at a time";
+    EXPECT_TRUE(driver.settled()) << "a scan does not wait for it";
+    exchange({0x7F, 0x7F}, 0x80, 0x08);
+    exchange(kReadV, 0x08, 0x08);
+    EXPECT_EQ(driver.access_state(), AccessState::under_way);
+    for (const std::uint8_t byte : kReplyV) motor.hear(byte);
+    motor.hear_times(2, 0x88);
+    EXPECT_EQ(driver.access_state(), AccessState::done);
+    EXPECT_EQ(driver.access_value(), 0x1234U);
+    EXPECT_TRUE(driver.settled());
+    exchange({0x7E, 0x7E, 0x7E}, 0x88, 0x00);
+    EXPECT_EQ(driver.counters().accesses, 1U);
+    EXPECT_EQ(driver.link(), Link::up);
+}
+
+TEST_F(MotorTest, AnAnswerMayComeAfterTheEcho) {
+    start();
+    ASSERT_TRUE(driver.begin_access({.reg = 5}));
+    exchange({0x7F, 0x7F}, 0x80, 0x08);
+    exchange(kReadV, 0x08, 0x88);
+    EXPECT_EQ(driver.access_state(), AccessState::under_way);
+    for (const std::uint8_t byte : kReplyV) motor.hear(byte);
+    EXPECT_EQ(driver.access_state(), AccessState::done);
+    EXPECT_EQ(driver.access_value(), 0x1234U);
+}
+
+TEST_F(MotorTest, AReadWithoutAnAnswerFailsAndTheLinkStays) {
+    start();
+    ASSERT_TRUE(driver.begin_access({.reg = 5}));
+    exchange({0x7F, 0x7F}, 0x80, 0x08);
+    exchange(kReadV, 0x08, 0x88);
+    motor.hear_times(100, 0x88);
+    EXPECT_EQ(driver.access_state(), AccessState::failed);
+    EXPECT_EQ(driver.link(), Link::up);
+    EXPECT_EQ(driver.counters().access_fails, 1U);
+}
+
+TEST_F(MotorTest, OrdersComeBeforeAWaitingAccess) {
+    start();
+    driver.send(command(0x40));
+    ASSERT_TRUE(driver.begin_access({.reg = 5}));
+    exchange({0x40, 0x40}, 0x80, 0x00);
+    EXPECT_EQ(driver.access_state(), AccessState::waiting);
+}
+
+TEST_F(MotorTest, AStopDropsAWaitingAccess) {
+    start();
+    ASSERT_TRUE(driver.begin_access({.is_write = true, .reg = 5, .value = 1}));
+    driver.stop();
+    EXPECT_EQ(driver.access_state(), AccessState::failed);
+}
+
+TEST_F(MotorTest, ALostLinkFailsTheAccessAndTakesNoNewOne) {
+    start();
+    ASSERT_TRUE(driver.begin_access({.reg = 5}));
+    for (int i = 0; i < 60; ++i) motor.silence();
+    EXPECT_EQ(driver.link(), Link::down);
+    EXPECT_EQ(driver.access_state(), AccessState::failed);
+    EXPECT_FALSE(driver.begin_access({.reg = 5}));
+}
+
 TEST_F(MotorTest, RapidCommunicationIsASetting) {
     JvlMotor rapid(line, {.safe_communication = false});
     Script<JvlMotor> peer{line, rapid};

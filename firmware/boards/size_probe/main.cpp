@@ -2,8 +2,11 @@
 // the core. A new part of the core gets an object and a call here.
 
 #include "gateway/gateway.h"
+#include "gateway/own_registers.h"
+#include "gateway/user_port.h"
 #include "motor/jvl_motor.h"
 #include "ports/clock.h"
+#include "ports/storage.h"
 
 namespace nplc {
 namespace {
@@ -16,8 +19,8 @@ struct Chip {
     volatile std::uint8_t line;
     volatile std::uint8_t line_status;
     volatile std::uint8_t watchdog;
-    volatile std::uint8_t user_order;
-    volatile std::uint8_t user_status;
+    volatile std::uint8_t flash;
+    volatile std::uint8_t flash_order;
 };
 Chip chip;
 
@@ -59,35 +62,56 @@ Inputs inputs;
 Outputs outputs;
 Watchdog watchdog;
 Line line;
+Line user_line;
+Line motor_line;
+
+class Flash final : public ports::Storage {
+  public:
+    ports::StorageGeometry geometry() const override {
+        return {.size = 24 * 1024, .erase_block = 2048, .program_page = 256, .program_unit = 8};
+    }
+    base::Status read(std::uint32_t, std::span<std::uint8_t> out) override {
+        for (auto& byte : out) byte = chip.flash;
+        return {};
+    }
+    base::Status program(std::uint32_t, std::span<const std::uint8_t> bytes) override {
+        for (const std::uint8_t byte : bytes) chip.flash = byte;
+        return {};
+    }
+    base::Status erase(std::uint32_t) override {
+        chip.flash_order = 1;
+        return {};
+    }
+    ports::StorageState state() override {
+        return chip.flash_order != 0 ? ports::StorageState::busy : ports::StorageState::ready;
+    }
+};
+Flash flash;
 
 std::array<std::uint8_t, (sequencer::kMaxTerms + 1) * sequencer::kTermBytes> table;
 motor::JvlMotor drive(line, {});
+gateway::SettingsKeeper settings(flash, {.begin = 10 * 2048, .slot_bytes = 2048});
 gateway::Gateway sequence({inputs, outputs, watchdog, drive}, {}, gateway::StartCause::power_up);
+gateway::TableKeeper tables(sequence, drive, flash, {.begin = 0, .slot_bytes = 5 * 2048}, table);
+gateway::OwnRegisters registers(sequence, tables, settings);
+gateway::UserPort user_port(user_line, &motor_line, sequence, drive, registers, settings);
 
-void serve_user(base::Instant now) {
-    switch (chip.user_order) {
-        case 1:
-            chip.user_status = sequence.load(table, now).ok;
-            break;
-        case 2:
-            chip.user_status = sequence.run().ok();
-            break;
-        case 3:
-            sequence.stop(now);
-            break;
-        default:
-            table[chip.user_order] = chip.user_order;
-    }
+void start(base::Instant now) {
+    settings.start({});
+    static_cast<void>(sequence.change(gateway::settings_of(settings.values())));
+    settings.attach(sequence);
+    static_cast<void>(tables.mount());
+    tables.start(now);
 }
 
 }  // namespace
 }  // namespace nplc
 
 void run_firmware() {
+    nplc::start(nplc::chip_clock.now());
     for (;;) {
         const nplc::base::Instant now = nplc::chip_clock.now();
-        nplc::serve_user(now);
-        nplc::drive.poll(now);
         nplc::sequence.poll(now);
+        nplc::user_port.poll(now);
     }
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -20,6 +21,23 @@ struct TableFault {
 };
 
 std::string_view describe(base::Error table_error);
+
+/// What makes a table acceptable, a term at a time: for tables that do not lie in memory as a whole.
+/// Faults as of Table::load.
+class TableRules {
+  public:
+    /// Not to be called again once ended().
+    std::optional<TableFault> take(TermView term);
+    bool ended() const { return ended_; }           ///< the end term has come
+    std::uint16_t terms() const { return terms_; }  ///< taken, the end term not counted
+
+    /// The bytes end here, `rest` of them behind the last whole term.
+    std::optional<TableFault> finish(std::size_t rest) const;
+
+  private:
+    std::uint16_t terms_ = 0;
+    bool ended_ = false;
+};
 
 /// A validated sequence table, used where it lies: the bytes must outlive the Table and stay as they are.
 /// A small index by step (256 bytes) leads a scan to the span from the step's first term to its last; terms

@@ -14,6 +14,7 @@ class Debouncer {
     explicit Debouncer(base::Microseconds steady) : steady_(steady) {}
 
     std::uint8_t update(std::uint8_t raw, base::Instant now);
+    void set_steady(base::Microseconds steady) { steady_ = steady; }
     std::uint8_t levels() const { return levels_; }
 
   private:

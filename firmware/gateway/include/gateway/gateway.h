@@ -7,7 +7,11 @@
 #include "base/result.h"
 #include "base/time.h"
 #include "gateway/debouncer.h"
+#include "gateway/event_log.h"
+#include "gateway/forces.h"
 #include "gateway/observer.h"
+#include "gateway/run_state.h"
+#include "gateway/uptime.h"
 #include "motor/motor.h"
 #include "ports/digital_io.h"
 #include "ports/watchdog.h"
@@ -29,28 +33,13 @@ struct Settings {
     /// An input counts once it has been steady for this long. Over 9 ms the safe state takes more than 10 ms
     /// from the loss of the enable input.
     base::Microseconds debounce{3'000};
-    base::Microseconds longest_wait{1'000'000};  ///< of a scan for the motor to take or finish its orders
+    base::Microseconds longest_wait{1'000'000};   ///< of a scan for the motor to take or finish its orders
+    bool virtual_motor = false;                   ///< holding the sequence does not stop the motor
+    base::Microseconds force_time{5'000'000};     ///< forced signals end when nobody renews them for so long
+    std::optional<std::uint8_t> status_output{};  ///< output 0..3 that shows status_light()
 };
 
 enum class StartCause : std::uint8_t { power_up, watchdog };
-
-enum class RunState : std::uint8_t {
-    stopped,            ///< no table, not started, or in the safe state after a reason that needs run() again
-    waiting_for_motor,  ///< started; the link is not up yet, or the motor has not yet taken the stop order
-    running,
-};
-
-/// Why the outputs have their safe values (and, where the line works, the motor was told to stop).
-enum class SafeReason : std::uint8_t {
-    none,
-    not_started,
-    stop_command,
-    link_down,    ///< ends when the link is up again and the sequence has sent "reset error"
-    motor_stuck,  ///< a scan waited longer than Settings::longest_wait
-    bad_table,
-    watchdog,
-    enable_lost,
-};
 
 /// The loop of the NanoPLC (001 §6.1.9) on ports: debounced inputs, scan, orders, outputs, timer. `poll`
 /// never blocks; a scan that waits for the motor goes on at a later poll.
@@ -76,9 +65,40 @@ class Gateway {
     /// safe state is entered with bad_table, and nothing can run until a good table is loaded.
     sequencer::Table::LoadResult load(std::span<const std::uint8_t> bytes, base::Instant now);
 
-    /// Errors: no_table; not_stopped when it runs already.
+    /// The start-up is over: no table starts by itself any more.
+    void end_start_up() { starting_up_ = false; }
+
+    /// Has the motor the order of this term, if it has one?
+    bool motor_takes(sequencer::TermView term) const;
+
+    /// From the beginning, or on from where it is held. Errors: no_table; not_stopped when it runs already.
     base::Status run();
+    /// One scan, or scans until the step changes, from where it is held or from the beginning; then it is
+    /// held. Errors as run().
+    base::Status scan_once() { return run_until(HoldAfter::scan); }
+    base::Status step_once() { return run_until(HoldAfter::step); }
+    /// Holds it at the end of the scan: its orders are executed and the motor is told to stop first, unless
+    /// Settings::virtual_motor says otherwise. The timer stands meanwhile, the outputs stay. Error: no_table
+    /// if it is stopped.
+    base::Status hold();
     void stop(base::Instant now) { enter_safe_state(SafeReason::stop_command, now); }
+    /// Ends forces and breakpoints too.
+    void make_safe(base::Instant now);
+
+    /// Bit n: it is held when it enters step n, before the first scan there.
+    void set_breakpoints(std::uint64_t steps) { breakpoints_ = steps; }
+    std::uint64_t breakpoints() const { return breakpoints_; }
+    bool at_breakpoint() const { return run_state_ == RunState::held && broke_; }
+
+    void force_inputs(const Forced& forced, base::Instant now);
+    void force_outputs(const Forced& forced, base::Instant now);
+    void renew_forces(base::Instant now) { forces_.renew(now); }
+    void end_forces();
+    const Forces& forces() const { return forces_; }
+
+    /// Error: not_stopped.
+    base::Status change(const Settings& settings);
+    const Settings& settings() const { return settings_; }
 
     /// To be called at least once a millisecond.
     void poll(base::Instant now);
@@ -93,14 +113,43 @@ class Gateway {
     std::uint32_t scans() const {
         return scans_;
     }  ///< finished, those skipped because nothing could change included
+    const sequencer::Table& table() const { return table_; }
+    /// Of the last scan: its step, and what its conditions saw.
+    std::uint8_t scanned_step() const { return before_.step; }
+    sequencer::Key scanned_key() const { return sequencer::key_of(image_, before_); }
+    base::Microseconds scan_time() const { return scan_time_; }  ///< between the last two scans' ends
+    base::Microseconds worst_scan_time() const { return worst_scan_time_; }  ///< since run()
+    void clear_worst_scan_time() { worst_scan_time_ = {}; }
+    std::uint8_t terminals() const { return debouncer_.levels(); }
+    std::uint8_t inputs() const { return forces_.inputs().over(debouncer_.levels()); }
+    std::uint8_t outputs() const { return written_.value_or(0); }
+    bool enabled() const;
+    const motor::Motor& motor() const { return ports_.motor; }
+
+    std::uint32_t uptime() const { return uptime_.milliseconds(); }
+    std::uint32_t safe_since_uptime() const { return safe_since_uptime_; }
+    const EventLog& log() const { return log_; }
+    void clear_log() { log_.clear(); }
+    void note(Event event, std::uint16_t detail = 0);
 
   private:
+    enum class HoldAfter : std::uint8_t { never, scan, step, at_once };
+
+    base::Status run_until(HoldAfter hold_after);
+    void begin_hold(bool breakpoint, base::Instant now);
+    void hold_when_settled(base::Instant now);
+    void hold_if_due(bool entered_step, base::Instant now);
+    bool breaks_at(std::uint8_t step) const { return ((breakpoints_ >> step) & 1U) != 0; }
+    void serve_sequence(base::Instant now);
+    void expire_forces(base::Instant now);
+    void show_outputs();
+    void note_scan_end(base::Instant now);
     void enter_safe_state(SafeReason reason, base::Instant now);
     void set_safe_reason(SafeReason reason, base::Instant now);
+    static motor::Order to_motor(const sequencer::MotorOrder& order);
     sequencer::Table::LoadResult checked_for_motor(const sequencer::Table::LoadResult& loaded) const;
     void start_when_ready(base::Instant now);
     void watch_link(base::Instant now);
-    bool enabled() const;
     void work(base::Instant now);
     bool begin_scan(base::Instant now);
     bool send_orders(base::Instant now);
@@ -118,7 +167,7 @@ class Gateway {
     RunState run_state_ = RunState::stopped;
     SafeReason safe_reason_ = SafeReason::not_started;
     base::Instant safe_since_{};
-    bool autostart_;
+    bool starting_up_;              ///< the first table may start by itself
     bool stop_ordered_ = false;     ///< since run()
     bool stop_after_loss_ = false;  ///< the motor is to be stopped once the link delivers again
 
@@ -131,6 +180,20 @@ class Gateway {
     std::optional<sequencer::Key> quiet_key_;  ///< a scan with this key would do nothing
     std::uint32_t scans_ = 0;
     std::optional<std::uint8_t> written_;
+
+    HoldAfter hold_after_ = HoldAfter::never;
+    bool broke_ = false;  ///< held, or about to be, by a breakpoint
+    bool stop_ordered_to_hold_ = false;
+    bool resumes_ = false;  ///< the next scan is the first after having been held
+    std::uint64_t breakpoints_ = 0;
+    Forces forces_;
+    Uptime uptime_;
+    std::uint32_t safe_since_uptime_ = 0;
+    EventLog log_;
+    motor::Link last_link_ = motor::Link::down;
+    std::optional<base::Instant> scan_ended_;
+    base::Microseconds scan_time_{};
+    base::Microseconds worst_scan_time_{};
 };
 
 }  // namespace nplc::gateway

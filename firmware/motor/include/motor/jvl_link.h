@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "base/time.h"
@@ -45,6 +46,10 @@ class JvlLink {
     /// `copies`: 2 for safe communication.
     void send_command(std::uint8_t command, int copies, base::Instant now);
     void send_flexmac(const protocol::flexmac::Message& message, base::Instant now);
+    /// Accepted as every message; the answer may come before or after that, see take_reply().
+    void send_read(const protocol::flexmac::Message& request, base::Instant now);
+    /// The answer to the last send_read(), once.
+    std::optional<std::uint32_t> take_reply();
     /// 7Eh three times; done when status bit 3 is clear, with the toggle read anew.
     void leave_flexmac(base::Instant now);
     /// Bytes without any expectation.
@@ -73,6 +78,8 @@ class JvlLink {
     void transmit(base::Instant now);
     void receive(base::Instant now);
     void read_all(base::Instant now);
+    void on_byte(std::uint8_t byte, base::Instant now);
+    void on_reply(const protocol::flexmac::Message& reply);
     void on_status(std::uint8_t byte, base::Instant now);
     bool shows_old(const protocol::fastmac::Status& seen) const;
     bool is_done() const;
@@ -98,6 +105,9 @@ class JvlLink {
     std::uint8_t old_shown_ = 0;      ///< status bytes in a row that show the message was not taken
     std::uint8_t strange_shown_ = 0;  ///< status bytes in a row that no message explains
     bool accepted_ = false;
+    bool reads_ = false;  ///< an answer to request_ is still to come
+    protocol::flexmac::Message request_;
+    std::optional<std::uint32_t> reply_;
     bool adopted_ = false;
     bool toggle_ = false;
     bool flexmac_ = false;

@@ -22,12 +22,6 @@ class JvlMotor final : public Motor {
         base::Microseconds sample_period{1'920};  ///< of the motor's outer loop; MAC800: 1'299
     };
 
-    struct Counters {
-        std::uint32_t orders = 0;     ///< executed
-        std::uint32_t discarded = 0;  ///< not delivered because the link was not up
-        std::uint32_t link_losses = 0;
-    };
-
     JvlMotor(ports::SerialPort& port, const Settings& settings);
 
     void poll(base::Instant now) override;
@@ -36,15 +30,20 @@ class JvlMotor final : public Motor {
     void send(const Order& order) override;
     bool can_execute(const Order& order) const override;
     void stop() override;
+    bool begin_access(const Access& access) override;
+    AccessState access_state() const override { return access_state_; }
+    std::uint32_t access_value() const override { return access_value_; }
+    void drop_access() override;
     bool in_position() const override;
     bool error() const override;
     Link link() const override;
     std::uint32_t resent() const { return link_.resent(); }
-    const Counters& counters() const { return counters_; }
+    Counters counters() const override;
+    bool longwords_only() const override { return settings_.registers_are_32_bit; }
 
   private:
     enum class Phase : std::uint8_t { down, look, first_safety, second_safety, first_nop, second_nop, up };
-    enum class Sending : std::uint8_t { nothing, start_up, link_command, order, stop };
+    enum class Sending : std::uint8_t { nothing, start_up, link_command, order, stop, access };
 
     void lose_link(base::Instant now);
     void on_accepted(base::Instant now);
@@ -54,6 +53,9 @@ class JvlMotor final : public Motor {
     void free_the_line(base::Instant now);
     void work(base::Instant now);
     void write_register(Sending what, const Order& order, base::Instant now);
+    void send_access(base::Instant now);
+    void end_access(AccessState state);
+    void follow_access(base::Instant now);
     void command(Sending what, std::uint8_t command, base::Instant now);
     std::uint8_t on_the_wire(std::uint8_t command) const;
     void hold_in_position(base::Instant now);
@@ -75,6 +77,11 @@ class JvlMotor final : public Motor {
     bool hold_counts_ = false;
     std::uint32_t hold_count_ = 0;
     base::Instant next_blind_{};
+    Access access_;
+    AccessState access_state_ = AccessState::none;
+    std::uint32_t access_value_ = 0;
+    bool for_access_ = false;  ///< in FlexMAC, or on the way there and back, for accesses only
+    std::optional<base::Instant> reply_until_;
     Counters counters_;
 };
 

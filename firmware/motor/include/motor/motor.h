@@ -17,6 +17,32 @@ struct Order {
     bool operator==(const Order&) const = default;
 };
 
+/// A register that a person reads or writes between the sequence's orders.
+struct Access {
+    bool is_write = false;
+    std::uint8_t reg = 0;
+    bool longword = false;
+    std::uint32_t value = 0;  ///< to write
+    bool operator==(const Access&) const = default;
+};
+
+enum class AccessState : std::uint8_t {
+    none,
+    waiting,    ///< dropped without a trace if the link is lost or a stop comes
+    under_way,  ///< on the line
+    done,
+    failed,  ///< a read that was not answered; a write that may have been executed or not
+};
+
+struct Counters {
+    std::uint32_t orders = 0;     ///< executed
+    std::uint32_t discarded = 0;  ///< not delivered because the link was not up
+    std::uint32_t link_losses = 0;
+    std::uint32_t accesses = 0;  ///< done
+    std::uint32_t access_fails = 0;
+    std::uint32_t resent = 0;  ///< messages sent again
+};
+
 enum class Link : std::uint8_t {
     down,            ///< no answer; orders are discarded
     starting,        ///< the drive answers and is being brought in step; orders are discarded
@@ -54,12 +80,25 @@ class Motor {
     /// delivers.
     virtual void stop() = 0;
 
+    /// Takes an access, unless there is one that waits or is under way, or the link does not deliver. It
+    /// comes after all orders, and settled() does not wait for it.
+    virtual bool begin_access(const Access& access) = 0;
+    virtual AccessState access_state() const = 0;
+    virtual std::uint32_t access_value() const = 0;  ///< of a read that is done
+    /// Forgets the access. One that still waits is never executed; one under way stays until it has ended.
+    virtual void drop_access() = 0;
+
     virtual bool in_position() const = 0;
 
     /// The drive's own error, or a link that went down and is not acknowledged yet.
     virtual bool error() const = 0;
 
     virtual Link link() const = 0;
+
+    virtual Counters counters() const = 0;
+
+    /// Registers are longwords only (MAC800), one a number; else words, of which a longword takes two.
+    virtual bool longwords_only() const = 0;
 
   protected:
     ~Motor() = default;

@@ -29,13 +29,16 @@ struct Request {
     Kind kind = Kind::read;
     std::uint8_t address = 0;
     std::uint8_t reg = 0;     ///< 1..255 for read, read_block and write, else 0
-    std::uint8_t length = 0;  ///< bytes of a write: 2 or 4, else 0
-    std::uint32_t value = 0;  ///< what to write, else 0
+    std::uint8_t length = 0;  ///< bytes of a write, else 0: 2 or 4, more in a long write
+    std::uint32_t value = 0;  ///< what to write, else 0; of a long write its first four bytes
     bool operator==(const Request&) const = default;
 };
 
 /// Three sync bytes; address, register and length; four data bytes; two end bytes.
 inline constexpr std::size_t kMaxRequestBytes = 19;
+/// The gateway's table window takes more in one write; no motor does. In whole longwords.
+inline constexpr std::size_t kMaxLongWrite = 128;
+inline constexpr std::size_t kMaxLongRequestBytes = 3 + 2 * (3 + kMaxLongWrite) + 2;
 inline constexpr std::size_t kMaxReplyData = 64;
 inline constexpr std::size_t kMaxReplyBytes = 3 + 2 * (3 + kMaxReplyData) + 2;
 
@@ -51,10 +54,16 @@ struct Encoded {
     std::span<const std::uint8_t> view() const { return {bytes.data(), size}; }
 };
 using EncodedRequest = Encoded<kMaxRequestBytes>;
+using EncodedLongWrite = Encoded<kMaxLongRequestBytes>;
 using EncodedReply = Encoded<kMaxReplyBytes>;
 
 /// Empty for what no message can say: register 0 in a read or write, a write of another length than 2 or 4.
 EncodedRequest encode(const Request& request);
+
+/// A write of 4 to kMaxLongWrite bytes, a multiple of 4, for the gateway's table window. Empty for other
+/// lengths and for register 0.
+EncodedLongWrite encode_long_write(std::uint8_t address, std::uint8_t reg,
+                                   std::span<const std::uint8_t> data);
 
 /// 11h x3: after writes, 54h and 55h; nothing is answered to 56h and 57h (001 §5.1).
 EncodedReply encode_accept();
@@ -71,13 +80,19 @@ class RequestDecoder {
   public:
     /// The message that this byte completes.
     std::optional<Request> receive(std::uint8_t byte);
+    /// Long writes to this unit are messages too; 0: none are.
+    void take_long_writes(std::uint8_t address) { long_address_ = address; }
+    /// Of the write that receive() reported last, until the next call.
+    std::span<const std::uint8_t> data() const { return {bytes_.data(), data_size_}; }
     /// To be called at a framing error or an overrun. A pause is no fault: the manuals bound none.
     void abandon() { count_ = 0; }
     bool in_message() const { return count_ != 0; }
 
   private:
-    std::array<std::uint8_t, kMaxRequestBytes> bytes_{};
-    std::uint8_t count_ = 0;
+    std::array<std::uint8_t, kMaxLongRequestBytes> bytes_{};
+    std::uint16_t count_ = 0;
+    std::uint8_t data_size_ = 0;
+    std::uint8_t long_address_ = 0;
 };
 
 struct Reply {

@@ -6,14 +6,22 @@ namespace nplc::base {
 
 /// What can go wrong in the firmware. A partial message is a state of its decoder, never an error.
 enum class Error : std::uint8_t {
-    no_space,       ///< the caller's storage or a queue is full
-    table_no_end,   ///< sequence table without a term whose STATE is 3Fh
-    table_ragged,   ///< sequence table cut inside a term
-    bad_next_step,  ///< NEXT_STATE 3Fh
-    bad_register,   ///< FlexMAC-format term for register 0
-    not_for_motor,  ///< sequence table with an order that the motor does not have
-    not_stopped,    ///< only possible while the sequence is stopped
-    no_table,       ///< nothing loaded
+    no_space,        ///< the caller's storage or a queue is full
+    table_no_end,    ///< sequence table without a term whose STATE is 3Fh
+    table_ragged,    ///< sequence table cut inside a term
+    bad_next_step,   ///< NEXT_STATE 3Fh
+    bad_register,    ///< FlexMAC-format term for register 0
+    not_for_motor,   ///< sequence table with an order that the motor does not have
+    not_stopped,     ///< only possible while the sequence is stopped
+    no_table,        ///< nothing loaded
+    busy,            ///< not now: an operation is under way; ask again
+    bad_geometry,    ///< sizes or addresses that do not fit the storage
+    bad_offset,      ///< a piece that neither follows what came nor repeats it
+    not_begun,       ///< needs a writing that was begun
+    wrong_check,     ///< length or check sum is not what was announced
+    storage_failed,  ///< what was written does not read back, or the storage said no
+    damaged,         ///< stored bytes have changed
+    bad_setting,     ///< no such setting, or not one of its values
 };
 
 }  // namespace nplc::base

@@ -1,18 +1,24 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gateway/gateway.h"
+#include "gateway/own_registers.h"
+#include "gateway/user_port.h"
 #include "motor/jvl_motor.h"
 #include "sim/mac_motor.h"
 #include "sim/serial_line.h"
 #include "sim/sim_board.h"
+#include "sim/sim_storage.h"
 #include "sim/snapshot.h"
 #include "sim/stage.h"
 
@@ -25,7 +31,10 @@ struct WorldOptions {
     LineFaults faults;  ///< both directions
     bool safe_communication = true;
     bool old_register_codes = false;
-    gateway::Settings gateway{};
+    gateway::Settings gateway{};  ///< where nothing is stored
+    std::uint32_t user_baud = 19'200;
+    bool motor_mactalk_wired = false;   ///< the motor's own MacTalk port, to the gateway's second user port
+    ports::Storage* storage = nullptr;  ///< for tables and settings; the board's own without it
 };
 
 /// The simulated board with the firmware on it, its motor and the line between them, in virtual time. From
@@ -36,7 +45,14 @@ class World final : public Stage, private gateway::Observer {
     static constexpr Time kPollPeriod = std::chrono::microseconds{250};
     static constexpr base::Microseconds kWatchdogTime{2'000'000};
 
-    /// `table` must be one that Table::load takes.
+    /// As flash pages of 2 KiB: two table slots of five, two settings slots of one.
+    static constexpr ports::StorageGeometry kFlash{
+        .size = 32 * 1024, .erase_block = 2048, .program_page = 256, .program_unit = 8};
+    static constexpr store::Area kTableArea{.begin = 0, .slot_bytes = 5 * 2048};
+    static constexpr store::Area kSettingsArea{.begin = 10 * 2048, .slot_bytes = 2048};
+
+    /// `table` must be one that Table::load takes; an empty one is the stored one, or none. After an upload
+    /// the stored one is what a restart runs.
     World(std::vector<std::uint8_t> table, const WorldOptions& options);
     World(const World&) = delete;
     World& operator=(const World&) = delete;
@@ -60,6 +76,15 @@ class World final : public Stage, private gateway::Observer {
     const MacMotor& mac() const { return mac_; }
     const VirtualSerialLine& line() const { return line_; }
     const SimBoard& board() const { return board_; }
+
+    /// What a person's program puts on the gateway's port; it waits for the line.
+    void user_sends(std::span<const std::uint8_t> bytes) {
+        user_waiting_.insert(user_waiting_.end(), bytes.begin(), bytes.end());
+    }
+    /// What has arrived there since the last call.
+    std::vector<std::uint8_t> user_received() { return std::exchange(user_received_, {}); }
+    std::uint8_t gateway_address() const;
+    const gateway::TableKeeper& tables() const { return *tables_; }
     bool motor_powered() const { return motor_powered_; }
 
     /// What `log` actions say.
@@ -92,7 +117,10 @@ class World final : public Stage, private gateway::Observer {
     Time next_event() const;
     base::Instant instant() const;
     void start_gateway(gateway::StartCause cause);
+    void start_table(bool first);
     void move_characters();
+    void move_user_characters();
+    void move_mactalk_characters();
     void sample_motor();
     void poll_gateway();
     void follow_orders();
@@ -103,7 +131,17 @@ class World final : public Stage, private gateway::Observer {
     SimBoard board_{kWatchdogTime};
     MacMotor mac_;
     std::optional<motor::JvlMotor> driver_;
+    std::optional<gateway::SettingsKeeper> settings_;
     std::optional<gateway::Gateway> gateway_;
+    std::array<std::uint8_t, (sequencer::kMaxTerms + 1) * sequencer::kTermBytes> table_memory_{};
+    std::optional<gateway::TableKeeper> tables_;
+    std::optional<gateway::OwnRegisters> own_registers_;
+    std::optional<gateway::UserPort> user_port_;
+    VirtualSerialLine user_line_;     ///< its "motor" is the person
+    VirtualSerialLine mactalk_line_;  ///< to the motor's own MacTalk port
+    std::deque<std::uint8_t> user_waiting_;
+    std::vector<std::uint8_t> user_received_;
+    SimStorage flash_{kFlash};
     sequencer::Table::LoadResult load_result_;
 
     Time now_{0};
@@ -115,7 +153,7 @@ class World final : public Stage, private gateway::Observer {
     std::vector<SentOrder> orders_;
     std::size_t orders_given_ = 0;
     std::deque<std::size_t> on_their_way_;
-    motor::JvlMotor::Counters followed_;  ///< the driver's, as on_their_way_ stands
+    motor::Counters followed_;  ///< the driver's, as on_their_way_ stands
     std::function<void(const std::string&)> on_log_;
 };
 

@@ -1,0 +1,94 @@
+// Holding the sequence and forcing signals: what a person does to a running table.
+#include "gateway/gateway.h"
+
+namespace nplc::gateway {
+
+base::Status Gateway::run() {
+    return run_until(HoldAfter::never);
+}
+
+base::Status Gateway::run_until(HoldAfter hold_after) {
+    if (table_.empty()) return base::Error::no_table;
+    if (run_state_ != RunState::stopped && run_state_ != RunState::held) return base::Error::not_stopped;
+    quiet_key_.reset();
+    hold_after_ = hold_after;
+    broke_ = false;
+    if (run_state_ == RunState::stopped) {
+        engine_.reset();
+        stop_ordered_ = false;
+        run_state_ = RunState::waiting_for_motor;
+    } else {
+        resumes_ = true;
+        run_state_ = RunState::running;
+    }
+    return {};
+}
+
+base::Status Gateway::hold() {
+    if (run_state_ == RunState::stopped) return base::Error::no_table;
+    if (run_state_ != RunState::holding && run_state_ != RunState::held) hold_after_ = HoldAfter::at_once;
+    return {};
+}
+
+void Gateway::hold_if_due(bool entered_step, base::Instant now) {
+    const bool breakpoint = entered_step && breaks_at(engine_.state().step);
+    const bool due = hold_after_ == HoldAfter::scan || (hold_after_ == HoldAfter::step && entered_step);
+    if (breakpoint || due) begin_hold(breakpoint, now);
+}
+
+void Gateway::begin_hold(bool breakpoint, base::Instant now) {
+    hold_after_ = HoldAfter::never;
+    broke_ = breakpoint;
+    stop_ordered_to_hold_ = settings_.virtual_motor;
+    run_state_ = RunState::holding;
+    progress_ = now;
+}
+
+/// The orders of the last scan first, then the stop, which would drop them.
+void Gateway::hold_when_settled(base::Instant now) {
+    if (!ports_.motor.settled()) {
+        if (now - progress_ > settings_.longest_wait) enter_safe_state(SafeReason::motor_stuck, now);
+        return;
+    }
+    if (!stop_ordered_to_hold_) {
+        ports_.motor.stop();
+        stop_ordered_to_hold_ = true;
+        progress_ = now;
+        return;
+    }
+    run_state_ = RunState::held;
+    note(broke_ ? Event::breakpoint : Event::held);
+}
+
+void Gateway::make_safe(base::Instant now) {
+    end_forces();
+    breakpoints_ = 0;
+    enter_safe_state(SafeReason::safe_command, now);
+}
+
+void Gateway::force_inputs(const Forced& forced, base::Instant now) {
+    forces_.set_inputs(forced, now);
+    note(Event::forced, registers::gateway::FORCE_IN);
+}
+
+void Gateway::force_outputs(const Forced& forced, base::Instant now) {
+    forces_.set_outputs(forced, now);
+    note(Event::forced, registers::gateway::FORCE_OUT);
+    show_outputs();
+}
+
+void Gateway::end_forces() {
+    if (!forces_.any()) return;
+    forces_.end();
+    note(Event::forces_ended);
+    show_outputs();
+}
+
+void Gateway::expire_forces(base::Instant now) {
+    if (!forces_.any() || forces_.left(now, settings_.force_time).count() != 0) return;
+    forces_.end();
+    constexpr std::uint16_t kBySilence = 1;
+    note(Event::forces_ended, kBySilence);
+}
+
+}  // namespace nplc::gateway

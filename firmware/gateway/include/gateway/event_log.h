@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "registers/gateway.h"
+
+namespace nplc::gateway {
+
+using registers::gateway::Event;
+
+/// What happened lately. Entry number n, counted from 0, stands in slot n modulo the number of slots.
+class EventLog {
+  public:
+    static constexpr std::size_t kSlots = registers::gateway::kLogEntries;
+
+    struct Entry {
+        std::uint32_t milliseconds = 0;  ///< of uptime
+        std::uint8_t event = 0;          ///< a SafeReason below 16, else an Event
+        std::uint8_t step = 0;
+        std::uint16_t detail = 0;
+    };
+
+    void add(const Entry& entry) {
+        entries_[count_ % kSlots] = entry;
+        ++count_;
+    }
+    std::uint32_t count() const { return count_; }
+    const Entry& slot(std::size_t index) const { return entries_[index]; }
+    void clear() {
+        entries_ = {};
+        count_ = 0;
+    }
+
+  private:
+    std::array<Entry, kSlots> entries_{};
+    std::uint32_t count_ = 0;
+};
+
+}  // namespace nplc::gateway

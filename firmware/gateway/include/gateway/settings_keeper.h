@@ -1,0 +1,44 @@
+#pragma once
+
+#include "gateway/gateway.h"
+#include "gateway/outcome.h"
+#include "store/settings_store.h"
+
+namespace nplc::gateway {
+
+/// A gateway's settings among those that are stored, and back.
+Settings settings_of(const store::SettingValues& values);
+store::SettingValues values_of(const Settings& settings);
+
+/// The settings in force and the stored ones.
+class SettingsKeeper {
+  public:
+    SettingsKeeper(ports::Storage& storage, const store::Area& area) : store_(storage, area) {}
+
+    /// For the start-up, before there is a Gateway: the stored settings, or `initial` if there are none.
+    void start(const store::SettingValues& initial);
+    /// Whom settings written from now on are for; it has the present ones already.
+    void attach(Gateway& gateway);
+
+    const store::SettingValues& values() const { return values_; }
+    std::uint32_t get(store::Setting setting) const { return values_.get(setting); }
+    /// All below need attach(). Only while stopped; not 255 or the motor's address for the gateway.
+    Result set(std::uint8_t id, std::uint32_t value);
+
+    void begin_keeping();
+    Progress poll_keeping();
+    void poll();
+    bool differ() const { return values_ != stored_; }
+    bool were_damaged() const { return damaged_; }
+
+  private:
+    Gateway* gateway_ = nullptr;
+    store::SettingsStore store_;
+    store::SettingValues values_;
+    store::SettingValues stored_;
+    store::SettingValues saving_;
+    base::Status begun_;
+    bool damaged_ = false;
+};
+
+}  // namespace nplc::gateway

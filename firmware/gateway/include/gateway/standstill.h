@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+
+#include "base/time.h"
+#include "gateway/outcome.h"
+#include "motor/motor.h"
+
+namespace nplc::gateway {
+
+/// Asks the motor whether it stands still. R: V_IST is 0 and P_IST, read twice at least 50 ms apart, differs
+/// by one count at the most; V_IST alone counts whole counts a sample, over 7 rpm.
+class Standstill {
+  public:
+    explicit Standstill(motor::Motor& motor) : motor_(motor) {}
+
+    void begin(base::Instant now);
+    /// done, moving, or link_down (also without an answer).
+    Progress poll(base::Instant now);
+    void drop() { motor_.drop_access(); }
+
+  private:
+    enum class Phase : std::uint8_t { first_position, speed, second_position };
+
+    Progress take(std::uint32_t value, base::Instant now);
+    std::uint8_t register_of_phase() const;
+    bool is_word() const { return phase_ == Phase::speed && !motor_.longwords_only(); }
+
+    motor::Motor& motor_;
+    Phase phase_ = Phase::first_position;
+    bool asked_ = false;
+    std::uint32_t position_ = 0;
+    base::Instant begun_{};
+    base::Instant position_at_{};
+};
+
+}  // namespace nplc::gateway

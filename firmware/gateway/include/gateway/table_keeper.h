@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "gateway/gateway.h"
+#include "gateway/outcome.h"
+#include "gateway/standstill.h"
+#include "store/slots.h"
+#include "store/table_check.h"
+
+namespace nplc::gateway {
+
+/// The table that the sequence runs, in the caller's memory; the stored one; and a new one on its way into
+/// the store. Uploading never touches the active table.
+class TableKeeper final : private store::TermCheck {
+  public:
+    TableKeeper(Gateway& gateway, motor::Motor& motor, ports::Storage& storage, const store::Area& area,
+                std::span<std::uint8_t> memory)
+        : gateway_(gateway),
+          memory_(memory),
+          standstill_(motor),
+          slots_(storage, area, store::Kind::table, check_) {}
+
+    /// For the start-up: looks at the store. Error as Slots::mount.
+    base::Status mount();
+    /// Then: the stored table, if there is one, becomes the active one. It needs no question to the motor,
+    /// since run() stops it before the first scan.
+    void start(base::Instant now);
+    /// Or: `table` becomes the active one.
+    sequencer::Table::LoadResult use(std::span<const std::uint8_t> table, base::Instant now);
+
+    void poll();
+
+    base::Status begin_upload();
+    /// The piece for `offset`. Error busy: no room yet, the same again later.
+    base::Status upload(std::uint32_t offset, std::span<const std::uint8_t> piece) {
+        return slots_.write(offset, piece);
+    }
+    base::Status commit(std::uint32_t length, std::uint32_t crc) { return slots_.finish(length, crc); }
+    void abandon_upload() { slots_.abandon(); }
+    bool uploads() const;
+    std::uint32_t upload_state() const;  ///< register UPLOAD_STATE
+    std::uint32_t uploaded() const { return slots_.received(); }
+
+    /// The stored table becomes the active one if the sequence is stopped and the motor stands still.
+    void begin_activation(base::Instant now);
+    Progress poll_activation(base::Instant now);
+    void drop_activation() { standstill_.drop(); }
+
+    std::span<const std::uint8_t> active() const {
+        return active_;
+    }  ///< end term included; empty without one
+    std::uint32_t active_crc() const { return active_crc_; }
+    store::Header stored() const { return slots_.current(); }
+    std::uint32_t capacity() const;
+    bool fell_back() const { return slots_.is_fallback(); }
+    bool stored_is_active() const;
+
+  private:
+    bool accepts(sequencer::TermView term) const override { return gateway_.motor_takes(term); }
+    Outcome load_stored(base::Instant now);
+    sequencer::Table::LoadResult take(std::size_t length, base::Instant now);
+
+    Gateway& gateway_;
+    std::span<std::uint8_t> memory_;
+    Standstill standstill_;
+    store::TableCheck check_{this};
+    store::Slots slots_;
+    std::span<const std::uint8_t> active_;
+    std::uint32_t active_crc_ = 0;
+    store::Phase last_phase_ = store::Phase::idle;
+};
+
+}  // namespace nplc::gateway

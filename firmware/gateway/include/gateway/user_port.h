@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "gateway/motor_bridge.h"
+#include "gateway/own_registers.h"
+#include "ports/serial.h"
+#include "protocol/mactalk.h"
+
+namespace nplc::gateway {
+
+/// The person's port: MacTalk (001 §5.1) for the gateway's own address (REGISTERS.md), and for the motor's
+/// and 255, which are answered as the motor would. One message at a time; a new one ends the wait for the
+/// answer to the one before. Refused messages get no answer.
+class UserPort {
+  public:
+    /// `motor_line`: the motor's own MacTalk port if it is wired, for what FlexMAC cannot carry; or null.
+    UserPort(ports::SerialPort& line, ports::SerialPort* motor_line, Gateway& gateway, motor::Motor& motor,
+             OwnRegisters& own, SettingsKeeper& settings)
+        : line_(line),
+          motor_line_(motor_line),
+          gateway_(gateway),
+          bridge_(motor),
+          own_(own),
+          settings_(settings) {}
+
+    void poll(base::Instant now);
+
+  private:
+    enum class Serving : std::uint8_t { nothing, own_write, motor, motor_line };
+
+    void receive(base::Instant now);
+    void begin(const protocol::mactalk::Request& request, base::Instant now);
+    void begin_own(const protocol::mactalk::Request& request, base::Instant now);
+    void begin_motor(const protocol::mactalk::Request& request, base::Instant now);
+    bool motor_allows(const protocol::mactalk::Request& request) const;
+    bool is_for_motor(std::uint8_t address) const;
+    void pass_on(const protocol::mactalk::Request& request, base::Instant now);
+    void drop();
+    void go_on(base::Instant now);
+    void serve_motor(base::Instant now);
+    void pass_back(base::Instant now);
+    void refuse();
+    void answer(const protocol::mactalk::EncodedReply& reply);
+    void transmit();
+    void transmit_to_motor();
+
+    ports::SerialPort& line_;
+    ports::SerialPort* motor_line_;
+    Gateway& gateway_;
+    MotorBridge bridge_;
+    OwnRegisters& own_;
+    SettingsKeeper& settings_;
+
+    protocol::mactalk::RequestDecoder decoder_;
+    Serving serving_ = Serving::nothing;
+    base::Instant begun_{};
+    protocol::mactalk::EncodedReply out_;
+    std::size_t sent_ = 0;
+    protocol::mactalk::EncodedRequest passed_;
+    std::size_t passed_sent_ = 0;
+    /// Of a write that is not done yet; the decoder may be receiving already.
+    std::array<std::uint8_t, protocol::mactalk::kMaxLongWrite> data_{};
+    std::size_t data_size_ = 0;
+};
+
+}  // namespace nplc::gateway

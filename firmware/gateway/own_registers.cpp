@@ -1,0 +1,219 @@
+#include "gateway/own_registers.h"
+
+#include <algorithm>
+
+#include "base/bytes.h"
+#include "gateway/version.h"
+
+namespace nplc::gateway {
+
+using namespace registers::gateway;
+
+static_assert(static_cast<int>(registers::gateway::RunState::held) == static_cast<int>(RunState::held));
+
+namespace {
+
+constexpr std::size_t kRegisterBytes = 4;
+
+constexpr std::uint32_t bit(bool on, StatusBit which) {
+    return on ? std::uint32_t{which} : 0U;
+}
+
+std::uint32_t in_milliseconds(base::Microseconds time) {
+    return (static_cast<std::uint32_t>(time.count()) + 999U) / 1000U;
+}
+
+}  // namespace
+
+void OwnRegisters::read(std::uint8_t reg, std::span<std::uint8_t> out, base::Instant now) {
+    if (reg == TABLE_DATA && out.size() > kRegisterBytes) return read_table(out);
+    for (std::size_t i = 0; i * kRegisterBytes < out.size(); ++i) {
+        const std::size_t number = reg + i;
+        if (number == FIRED_SCAN) take_fired();
+        base::store_u32(&out[i * kRegisterBytes],
+                        number > 255 ? 0 : value(static_cast<std::uint8_t>(number), now));
+    }
+}
+
+void OwnRegisters::read_table(std::span<std::uint8_t> out) {
+    const std::span<const std::uint8_t> table = tables_.active();
+    const std::size_t begin = std::min<std::size_t>(pointer_, table.size());
+    const auto part = table.subspan(begin, std::min(out.size(), table.size() - begin));
+    std::fill(out.begin(), out.end(), std::uint8_t{0});
+    std::copy(part.begin(), part.end(), out.begin());
+    pointer_ += static_cast<std::uint32_t>(out.size());
+}
+
+std::uint32_t OwnRegisters::value(std::uint8_t reg, base::Instant now) const {
+    if (reg >= FIRED && reg < FIRED + kFiredWords) return fired(reg - std::size_t{FIRED});
+    if (reg >= LOG && reg < LOG + 2 * kLogEntries) return log_value(reg);
+    if (reg >= STATUS && reg <= RESULT) return live_value(reg, now);
+    if (reg >= LINK_LOSSES && reg <= REFUSED) return count_value(reg);
+    if (reg >= SETTINGS) {
+        const store::SettingInfo* info = store::find_setting(static_cast<std::uint8_t>(reg - SETTINGS));
+        return info == nullptr ? 0 : settings_.get(info->id);
+    }
+    return table_value(reg);
+}
+
+std::uint32_t OwnRegisters::table_value(std::uint8_t reg) const {
+    switch (reg) {
+        case IDENTITY:
+            return kIdentity;
+        case FW_VERSION:
+            return kFirmwareVersion;
+        case MAP_VERSION:
+            return kMapVersion;
+        case TABLE_CRC:
+            return tables_.active_crc();
+        case TABLE_BYTES:
+            return static_cast<std::uint32_t>(tables_.active().size());
+        case STORED_CRC:
+            return tables_.stored().crc;
+        case STORED_BYTES:
+            return tables_.stored().length;
+        case STORED_MAX:
+            return tables_.capacity();
+        case STORE_FLAGS:
+            return (tables_.fell_back() ? 1U : 0U) | (settings_.were_damaged() ? 2U : 0U);
+        case COMMAND:
+            return last_command_;
+        case FORCE_IN:
+            return gateway_.forces().inputs().levels |
+                   (static_cast<std::uint32_t>(gateway_.forces().inputs().mask) << 8);
+        case FORCE_OUT:
+            return gateway_.forces().outputs().levels |
+                   (static_cast<std::uint32_t>(gateway_.forces().outputs().mask) << 8);
+        case BREAK_LOW:
+            return static_cast<std::uint32_t>(gateway_.breakpoints());
+        case BREAK_HIGH:
+            return static_cast<std::uint32_t>(gateway_.breakpoints() >> 32);
+        case UPLOAD_STATE:
+            return tables_.upload_state();
+        case UPLOAD_RECEIVED:
+            return tables_.uploaded();
+        case UPLOAD_BYTES:
+            return upload_bytes_;
+        case UPLOAD_CRC:
+            return upload_crc_;
+        case TABLE_POINTER:
+            return pointer_;
+        case FIRED_SCAN:
+            return fired_.scan;
+        case FIRED_STEP:
+            return fired_.step;
+        case FIRED_KEY:
+            return fired_.key;
+        default:
+            return 0;
+    }
+}
+
+std::uint32_t OwnRegisters::live_value(std::uint8_t reg, base::Instant now) const {
+    const sequencer::State& state = gateway_.state();
+    const Forces& forces = gateway_.forces();
+    switch (reg) {
+        case STATUS:
+            return status();
+        case SAFE_REASON:
+            return static_cast<std::uint32_t>(gateway_.safe_reason());
+        case SAFE_SINCE:
+            return gateway_.safe_since_uptime();
+        case UPTIME:
+            return gateway_.uptime();
+        case STEP:
+            return state.step;
+        case TIMER:
+            return state.timer;
+        case COUNTER:
+            return state.counter;
+        case INPUTS:
+            return gateway_.inputs() | (gateway_.motor().in_position() ? 0x40U : 0U) |
+                   (gateway_.motor().error() ? 0x80U : 0U) |
+                   (static_cast<std::uint32_t>(gateway_.terminals()) << 8) |
+                   (static_cast<std::uint32_t>(gateway_.image()) << 16);
+        case OUTPUTS:
+            return gateway_.outputs() | (static_cast<std::uint32_t>(state.outputs) << 8) |
+                   (static_cast<std::uint32_t>(forces.outputs().mask) << 16);
+        case SCANS:
+            return gateway_.scans();
+        case SCAN_TIME:
+            return static_cast<std::uint32_t>(gateway_.scan_time().count());
+        case SCAN_WORST:
+            return static_cast<std::uint32_t>(gateway_.worst_scan_time().count());
+        case LINK:
+            return static_cast<std::uint32_t>(gateway_.motor().link());
+        case FORCE_LEFT:
+            return in_milliseconds(forces.left(now, gateway_.settings().force_time));
+        case LOG_COUNT:
+            return gateway_.log().count();
+        default:
+            return result_;
+    }
+}
+
+std::uint32_t OwnRegisters::count_value(std::uint8_t reg) const {
+    const motor::Counters counters = gateway_.motor().counters();
+    switch (reg) {
+        case LINK_LOSSES:
+            return counters.link_losses;
+        case RESENT:
+            return counters.resent;
+        case ORDERS:
+            return counters.orders;
+        case DISCARDED:
+            return counters.discarded;
+        case ACCESSES:
+            return counters.accesses;
+        case ACCESS_FAILS:
+            return counters.access_fails;
+        case MESSAGES:
+            return port_.messages;
+        default:
+            return port_.refused;
+    }
+}
+
+std::uint32_t OwnRegisters::status() const {
+    const motor::Motor& motor = gateway_.motor();
+    const bool has_stored = tables_.stored().length != 0;
+    return static_cast<std::uint32_t>(gateway_.run_state()) |
+           bit(motor::delivers(motor.link()), kLinkDelivers) | bit(motor.error(), kMotorError) |
+           bit(motor.in_position(), kInPosition) | bit(gateway_.safe_reason() != SafeReason::none, kSafe) |
+           bit(gateway_.forces().inputs().mask != 0, kForcedInputs) |
+           bit(gateway_.forces().outputs().mask != 0, kForcedOutputs) |
+           bit(gateway_.breakpoints() != 0, kBreakpoints) | bit(gateway_.at_breakpoint(), kAtBreakpoint) |
+           bit(!gateway_.table().empty(), kTable) | bit(tables_.uploads(), kUpload) |
+           bit(has_stored && !tables_.stored_is_active(), kStoredDiffers) |
+           bit(settings_.differ(), kSettingsDiffer) | bit(gateway_.enabled(), kEnabled) |
+           bit(gateway_.settings().virtual_motor, kVirtualMotor);
+}
+
+void OwnRegisters::take_fired() {
+    fired_ = {.scan = gateway_.scans(),
+              .step = gateway_.scanned_step(),
+              .key = gateway_.scanned_key(),
+              .any = gateway_.scans() != 0};
+}
+
+std::uint32_t OwnRegisters::fired(std::size_t word) const {
+    const sequencer::Table& table = gateway_.table();
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; fired_.any && i < 32; ++i) {
+        const std::size_t number = 32 * word + i;
+        if (number >= table.size()) break;
+        const sequencer::TermView term = table.term(number);
+        if (sequencer::step_of(term) == fired_.step && sequencer::is_true(term, fired_.key)) bits |= 1U << i;
+    }
+    return bits;
+}
+
+std::uint32_t OwnRegisters::log_value(std::uint8_t reg) const {
+    const unsigned index = reg - unsigned{LOG};
+    const EventLog::Entry& entry = gateway_.log().slot(index / 2);
+    if (index % 2 == 0) return entry.milliseconds;
+    return entry.event | (static_cast<std::uint32_t>(entry.step) << 8) |
+           (static_cast<std::uint32_t>(entry.detail) << 16);
+}
+
+}  // namespace nplc::gateway

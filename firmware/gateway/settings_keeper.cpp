@@ -1,0 +1,102 @@
+#include "gateway/settings_keeper.h"
+
+namespace nplc::gateway {
+
+using store::Setting;
+
+namespace {
+
+std::optional<std::uint8_t> pin(const store::SettingValues& values, Setting setting) {
+    const std::uint32_t value = values.get(setting);
+    if (value == store::kNone) return std::nullopt;
+    return static_cast<std::uint8_t>(value);
+}
+
+std::uint32_t number(std::optional<std::uint8_t> pin) {
+    return pin ? *pin : store::kNone;
+}
+
+base::Milliseconds milliseconds(const store::SettingValues& values, Setting setting) {
+    return base::Milliseconds(values.get(setting));
+}
+
+std::uint32_t in_milliseconds(base::Microseconds time) {
+    return static_cast<std::uint32_t>(time.count()) / 1000U;
+}
+
+}  // namespace
+
+Settings settings_of(const store::SettingValues& values) {
+    return {.safe_outputs = static_cast<std::uint8_t>(values.get(Setting::safe_outputs)),
+            .on_start = values.is_on(Setting::on_start) ? OnStart::keep : OnStart::stop,
+            .autostart = values.is_on(Setting::autostart),
+            .enable_input = pin(values, Setting::enable_input),
+            .debounce = base::Microseconds(values.get(Setting::debounce)),
+            .longest_wait = milliseconds(values, Setting::longest_wait),
+            .virtual_motor = values.is_on(Setting::virtual_motor),
+            .force_time = milliseconds(values, Setting::force_timeout),
+            .status_output = pin(values, Setting::status_output)};
+}
+
+store::SettingValues values_of(const Settings& settings) {
+    store::SettingValues values;
+    const auto set = [&values](Setting setting, std::uint32_t value) {
+        static_cast<void>(values.set(setting, value));
+    };
+    set(Setting::safe_outputs, settings.safe_outputs);
+    set(Setting::on_start, settings.on_start == OnStart::keep ? 1 : 0);
+    set(Setting::autostart, settings.autostart ? 1 : 0);
+    set(Setting::enable_input, number(settings.enable_input));
+    set(Setting::debounce, static_cast<std::uint32_t>(settings.debounce.count()));
+    set(Setting::longest_wait, in_milliseconds(settings.longest_wait));
+    set(Setting::virtual_motor, settings.virtual_motor ? 1 : 0);
+    set(Setting::force_timeout, in_milliseconds(settings.force_time));
+    set(Setting::status_output, number(settings.status_output));
+    return values;
+}
+
+void SettingsKeeper::start(const store::SettingValues& initial) {
+    values_ = initial;
+    const auto mounted = store_.mount();
+    damaged_ = !mounted;
+    if (mounted && store_.slots().has_current()) values_ = mounted.value();
+    stored_ = values_;
+}
+
+void SettingsKeeper::attach(Gateway& gateway) {
+    gateway_ = &gateway;
+    if (damaged_) gateway.note(Event::store_damaged);
+}
+
+Result SettingsKeeper::set(std::uint8_t id, std::uint32_t value) {
+    const store::SettingInfo* info = store::find_setting(id);
+    if (info == nullptr) return Result::no_register;
+    if (gateway_->run_state() != RunState::stopped) return Result::not_stopped;
+    store::SettingValues values = values_;
+    if (!values.set(info->id, value)) return Result::bad_value;
+    if (values.get(Setting::gateway_address) == values.get(Setting::motor_address)) return Result::bad_value;
+    values_ = values;
+    static_cast<void>(gateway_->change(settings_of(values_)));
+    return Result::done;
+}
+
+void SettingsKeeper::begin_keeping() {
+    saving_ = values_;
+    begun_ = store_.save(saving_);
+}
+
+Progress SettingsKeeper::poll_keeping() {
+    if (!begun_) return Outcome{result_of(begun_.error())};
+    if (store_.phase() == store::Phase::failed) return Outcome{result_of(store_.error())};
+    if (store_.phase() != store::Phase::done) return std::nullopt;
+    stored_ = saving_;
+    damaged_ = false;
+    gateway_->note(Event::settings_kept);
+    return Outcome{};
+}
+
+void SettingsKeeper::poll() {
+    store_.poll();
+}
+
+}  // namespace nplc::gateway

@@ -1,0 +1,98 @@
+#include "gateway/table_keeper.h"
+
+#include <algorithm>
+
+#include "base/crc32.h"
+
+namespace nplc::gateway {
+
+using store::Phase;
+
+base::Status TableKeeper::mount() {
+    const base::Status status = slots_.mount();
+    if (!status || slots_.is_fallback()) gateway_.note(Event::store_damaged);
+    return status;
+}
+
+/// A store that held a table and has none that is whole is a bad table, not a new board.
+void TableKeeper::start(base::Instant now) {
+    if (slots_.has_current() || slots_.is_fallback()) static_cast<void>(load_stored(now));
+    gateway_.end_start_up();
+}
+
+sequencer::Table::LoadResult TableKeeper::use(std::span<const std::uint8_t> table, base::Instant now) {
+    const std::size_t length = std::min(table.size(), memory_.size());
+    std::copy_n(table.begin(), length, memory_.begin());
+    return take(length, now);
+}
+
+sequencer::Table::LoadResult TableKeeper::take(std::size_t length, base::Instant now) {
+    const auto result = gateway_.load(memory_.first(length), now);
+    active_ = result.ok ? memory_.first((result.table.size() + 1) * sequencer::kTermBytes)
+                        : std::span<const std::uint8_t>();
+    active_crc_ = active_.empty() ? 0 : base::crc32(active_);
+    return result;
+}
+
+Outcome TableKeeper::load_stored(base::Instant now) {
+    const auto length = slots_.load(memory_);
+    if (!length) {
+        if (length.error() != base::Error::busy) static_cast<void>(take(0, now));
+        return {length.error() == base::Error::busy ? Result::busy : Result::nothing_stored};
+    }
+    const auto loaded = take(length.value(), now);
+    if (!loaded.ok) return {result_of(loaded.fault.error), loaded.fault.term};
+    gateway_.note(Event::table_activated);
+    return {};
+}
+
+void TableKeeper::poll() {
+    slots_.poll();
+    const Phase phase = slots_.phase();
+    if (phase == last_phase_) return;
+    last_phase_ = phase;
+    if (phase == Phase::done) gateway_.note(Event::table_stored);
+    if (phase == Phase::failed)
+        gateway_.note(Event::upload_failed, static_cast<std::uint16_t>(result_of(slots_.error())));
+}
+
+base::Status TableKeeper::begin_upload() {
+    slots_.abandon();
+    return slots_.begin();
+}
+
+bool TableKeeper::uploads() const {
+    const Phase phase = slots_.phase();
+    return phase == Phase::erasing || phase == Phase::receiving || phase == Phase::closing;
+}
+
+std::uint32_t TableKeeper::upload_state() const {
+    const auto phase = static_cast<std::uint32_t>(slots_.phase());
+    if (slots_.phase() != Phase::failed) return phase;
+    const auto result = static_cast<std::uint32_t>(result_of(slots_.error()));
+    return phase | (result << 8) | (std::uint32_t{check_.fault_term()} << 16);
+}
+
+void TableKeeper::begin_activation(base::Instant now) {
+    gateway_.end_start_up();
+    standstill_.begin(now);
+}
+
+Progress TableKeeper::poll_activation(base::Instant now) {
+    if (gateway_.run_state() != RunState::stopped) return Outcome{Result::not_stopped};
+    if (!slots_.has_current()) return Outcome{Result::nothing_stored};
+    const Progress still = standstill_.poll(now);
+    if (!still || still->result != Result::done) return still;
+    return load_stored(now);
+}
+
+std::uint32_t TableKeeper::capacity() const {
+    return std::min(slots_.capacity(), static_cast<std::uint32_t>(memory_.size()));
+}
+
+bool TableKeeper::stored_is_active() const {
+    const store::Header stored = slots_.current();
+    return stored.length == active_.size() && stored.crc == active_crc_;
+}
+
+}  // namespace nplc::gateway

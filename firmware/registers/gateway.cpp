@@ -1,0 +1,153 @@
+#include "registers/gateway.h"
+
+#include <array>
+
+namespace nplc::registers::gateway {
+namespace {
+
+constexpr auto kRead = Access::read;
+constexpr auto kBoth = Access::read_write;
+
+constexpr std::array kMap{
+    Row{IDENTITY, 1, "IDENTITY", kRead, "474C504Eh: `NPLG` on the line"},
+    Row{FW_VERSION, 1, "FW_VERSION", kRead, "major in bits 31..16, minor 15..8, patch 7..0"},
+    Row{MAP_VERSION, 1, "MAP_VERSION", kRead, "1; rises when a register changes its meaning"},
+    Row{TABLE_CRC, 1, "TABLE_CRC", kRead, "CRC-32 of the active table, its end term included; 0 without one"},
+    Row{TABLE_BYTES, 1, "TABLE_BYTES", kRead, "length of the active table, end term included; 0 without one"},
+    Row{STORED_CRC, 1, "STORED_CRC", kRead, "CRC-32 of the stored table as it was uploaded; 0 without one"},
+    Row{STORED_BYTES, 1, "STORED_BYTES", kRead, "its length; 0 without one"},
+    Row{STORED_MAX, 1, "STORED_MAX", kRead, "bytes that a table may have"},
+    Row{STORE_FLAGS, 1, "STORE_FLAGS", kRead,
+        "bit 0: a table slot is damaged and the other one is in use; bit 1: stored settings were damaged and "
+        "initial ones are in use"},
+    Row{STATUS, 1, "STATUS", kRead, "see Status below"},
+    Row{SAFE_REASON, 1, "SAFE_REASON", kRead, "why the outputs are safe, see Reasons below; 0: they are not"},
+    Row{SAFE_SINCE, 1, "SAFE_SINCE", kRead, "UPTIME at which the reason came"},
+    Row{UPTIME, 1, "UPTIME", kRead, "ms since the start, modulo 2^32"},
+    Row{STEP, 1, "STEP", kRead, "0..62"},
+    Row{TIMER, 1, "TIMER", kRead, "ms"},
+    Row{COUNTER, 1, "COUNTER", kRead, ""},
+    Row{INPUTS, 1, "INPUTS", kRead,
+        "bits 5..0 as the sequence has them, forced ones included; bit 6 IN_POS, bit 7 ERROR; bits 13..8 the "
+        "debounced terminals; bits 23..16 HW_INP of the last scan"},
+    Row{OUTPUTS, 1, "OUTPUTS", kRead,
+        "bits 3..0 the terminals; bits 11..8 what the sequence wrote; bits 19..16 which are forced"},
+    Row{SCANS, 1, "SCANS", kRead, "finished scans, modulo 2^32"},
+    Row{SCAN_TIME, 1, "SCAN_TIME", kRead, "us from the end of the scan before to the end of the last one"},
+    Row{SCAN_WORST, 1, "SCAN_WORST", kBoth,
+        "the longest SCAN_TIME since the run began; a write sets it to 0"},
+    Row{LINK, 1, "LINK", kRead, "0 down, 1 starting, 2 works but the loss is not acknowledged (01h), 3 up"},
+    Row{FORCE_LEFT, 1, "FORCE_LEFT", kBoth,
+        "ms until forcing ends, 0: nothing is forced; a write of any value begins the time anew"},
+    Row{LOG_COUNT, 1, "LOG_COUNT", kRead, "entries written since the start; number n is in slot n modulo 16"},
+    Row{RESULT, 1, "RESULT", kRead,
+        "of the last write or command to the gateway: bits 7..0 see Results below, bits 15..8 its register, "
+        "bits 31..16 a detail (the term of a table's fault)"},
+    Row{LINK_LOSSES, 1, "LINK_LOSSES", kRead, "times that the link to the motor was lost"},
+    Row{RESENT, 1, "RESENT", kRead, "messages to the motor sent again"},
+    Row{ORDERS, 1, "ORDERS", kRead, "orders of the sequence executed by the motor"},
+    Row{DISCARDED, 1, "DISCARDED", kRead, "orders not delivered because the link was not up, or by a stop"},
+    Row{ACCESSES, 1, "ACCESSES", kRead, "motor registers read and written for the user"},
+    Row{ACCESS_FAILS, 1, "ACCESS_FAILS", kRead, "those that failed"},
+    Row{MESSAGES, 1, "MESSAGES", kRead, "whole messages on the user's port, for whatever address"},
+    Row{REFUSED, 1, "REFUSED", kRead, "those refused"},
+    Row{COMMAND, 1, "COMMAND", Access::write, "see Commands below; reads the last one"},
+    Row{FORCE_IN, 1, "FORCE_IN", kBoth, "bits 5..0 levels, bits 13..8 which inputs are forced; 0: none"},
+    Row{FORCE_OUT, 1, "FORCE_OUT", kBoth, "bits 3..0 levels, bits 11..8 which outputs are forced; 0: none"},
+    Row{BREAK_LOW, 1, "BREAK_LOW", kBoth, "breakpoints at steps 0..31, a bit each"},
+    Row{BREAK_HIGH, 1, "BREAK_HIGH", kBoth, "breakpoints at steps 32..62; bit 31 cannot be set"},
+    Row{UPLOAD_STATE, 1, "UPLOAD_STATE", kRead,
+        "0 none, 1 erasing, 2 receiving, 3 closing, 4 stored, 5 failed (then RESULT's codes in bits 15..8, a "
+        "term in bits 31..16)"},
+    Row{UPLOAD_RECEIVED, 1, "UPLOAD_RECEIVED", kRead, "bytes taken"},
+    Row{UPLOAD_BYTES, 1, "UPLOAD_BYTES", kBoth, "length that upload_commit is to find"},
+    Row{UPLOAD_CRC, 1, "UPLOAD_CRC", kBoth, "CRC-32 that upload_commit is to find"},
+    Row{TABLE_POINTER, 1, "TABLE_POINTER", kBoth,
+        "byte at which TABLE_DATA goes on; upload_begin sets it to 0"},
+    Row{TABLE_DATA, 1, "TABLE_DATA", kBoth, "the window on the table, see Upload and Read-back below"},
+    Row{FIRED_SCAN, 1, "FIRED_SCAN", kRead,
+        "SCANS of the scan that FIRED is about; reading it (in a block too) takes a new one"},
+    Row{FIRED_STEP, 1, "FIRED_STEP", kRead, "the step that it was in"},
+    Row{FIRED_KEY, 1, "FIRED_KEY", kRead, "HW_INP in bits 7..0, timer = 0 in bit 8, counter = 0 in bit 9"},
+    Row{FIRED, kFiredWords, "FIRED", kRead,
+        "terms that were true in it: bit n of register 96 + k is term 32 k + n"},
+    Row{LOG, 2 * kLogEntries, "LOG", kRead,
+        "slot s in 128 + 2 s: UPTIME; 129 + 2 s: event in bits 7..0, step in 15..8, a detail in 31..16; "
+        "0: empty"},
+    Row{SETTINGS, kMostSettings + 1, "SETTINGS", kBoth,
+        "200 + n is setting n; written only while stopped; see Settings below"},
+};
+
+}  // namespace
+
+std::span<const Row> map() {
+    return kMap;
+}
+
+const Row* find(std::uint8_t number) {
+    for (const Row& row : kMap) {
+        if (number >= row.number && number - row.number < row.count) return &row;
+    }
+    return nullptr;
+}
+
+const Row* find(std::string_view name) {
+    for (const Row& row : kMap) {
+        if (row.name == name) return &row;
+    }
+    return nullptr;
+}
+
+std::string_view describe(Result result) {
+    switch (result) {
+        case Result::done:
+            return "done";
+        case Result::no_register:
+            return "the gateway has no such register";
+        case Result::read_only:
+            return "the register can only be read";
+        case Result::bad_length:
+            return "a register takes 2 or 4 bytes, the table window 4 to 128";
+        case Result::bad_value:
+            return "the value is not one of the register's";
+        case Result::not_stopped:
+            return "the sequence is not stopped; stop it first";
+        case Result::no_table:
+            return "there is no table; upload and activate one";
+        case Result::moving:
+            return "the motor does not stand still; stop it first";
+        case Result::not_allowed:
+            return "a setting does not allow this while the sequence runs";
+        case Result::link_down:
+            return "the link to the motor is down; nobody knows whether it stands still";
+        case Result::busy:
+            return "not now; try again";
+        case Result::no_upload:
+            return "no upload was begun";
+        case Result::bad_offset:
+            return "the piece does not follow what came before; look at UPLOAD_RECEIVED";
+        case Result::no_space:
+            return "the table is too long";
+        case Result::wrong_check:
+            return "length or check sum of the upload are not as announced";
+        case Result::storage_failed:
+            return "the storage failed; what was stored before is unchanged";
+        case Result::nothing_stored:
+            return "no table is stored, or it is damaged";
+        case Result::not_running:
+            return "the sequence does not run";
+        case Result::table_no_end:
+            return "the table has no end term";
+        case Result::table_ragged:
+            return "the table ends inside a term";
+        case Result::bad_next_step:
+            return "NEXT_STATE 3Fh in a term";
+        case Result::bad_register:
+            return "register 0 in a term";
+        case Result::not_for_motor:
+            return "the motor does not have an order of the table";
+    }
+    return "unknown result";
+}
+
+}  // namespace nplc::registers::gateway

@@ -1,0 +1,180 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+/// The gateway's own registers on the user's port, reached by MacTalk (001 §5.1). No manual describes them:
+/// the map is ours. One register is a longword in one number; numbers without a row read 0. What each means
+/// stands in firmware/gateway/REGISTERS.md.
+namespace nplc::registers::gateway {
+
+inline constexpr std::uint32_t kIdentity = 0x474C504E;  ///< "NPLG", as it goes over the line
+inline constexpr std::uint32_t kMapVersion = 1;
+/// R: 255 is everyone, and the motor behind the gateway answers it; 254 is what clients in the field use for
+/// a single motor, and motors come with 1.
+inline constexpr std::uint8_t kDefaultAddress = 128;
+
+enum Number : std::uint8_t {
+    IDENTITY = 1,
+    FW_VERSION = 2,
+    MAP_VERSION = 3,
+    TABLE_CRC = 4,
+    TABLE_BYTES = 5,
+    STORED_CRC = 6,
+    STORED_BYTES = 7,
+    STORED_MAX = 8,
+    STORE_FLAGS = 9,
+
+    STATUS = 16,
+    SAFE_REASON = 17,
+    SAFE_SINCE = 18,
+    UPTIME = 19,
+    STEP = 20,
+    TIMER = 21,
+    COUNTER = 22,
+    INPUTS = 23,
+    OUTPUTS = 24,
+    SCANS = 25,
+    SCAN_TIME = 26,
+    SCAN_WORST = 27,
+    LINK = 28,
+    FORCE_LEFT = 29,
+    LOG_COUNT = 30,
+    RESULT = 31,
+
+    LINK_LOSSES = 32,
+    RESENT = 33,
+    ORDERS = 34,
+    DISCARDED = 35,
+    ACCESSES = 36,
+    ACCESS_FAILS = 37,
+    MESSAGES = 38,
+    REFUSED = 39,
+
+    COMMAND = 48,
+    FORCE_IN = 49,
+    FORCE_OUT = 50,
+    BREAK_LOW = 51,
+    BREAK_HIGH = 52,
+
+    UPLOAD_STATE = 56,
+    UPLOAD_RECEIVED = 57,
+    UPLOAD_BYTES = 58,
+    UPLOAD_CRC = 59,
+    TABLE_POINTER = 60,
+    TABLE_DATA = 61,
+
+    FIRED_SCAN = 80,
+    FIRED_STEP = 81,
+    FIRED_KEY = 82,
+    FIRED = 96,
+
+    LOG = 128,
+    SETTINGS = 200,
+};
+
+inline constexpr std::uint8_t kFiredWords = 32;    ///< FIRED and the 31 after it: a bit a term
+inline constexpr std::uint8_t kLogEntries = 16;    ///< two registers each, from LOG on
+inline constexpr std::uint8_t kMostSettings = 31;  ///< SETTINGS + number of the setting
+
+/// What COMMAND takes.
+enum class Command : std::uint8_t {
+    run = 1,
+    stop = 2,
+    safe = 3,
+    scan = 4,
+    step = 5,
+    hold = 6,
+    reset = 7,
+    keep_settings = 8,
+    clear_log = 9,
+    upload_begin = 16,
+    upload_commit = 17,
+    upload_abort = 18,
+    activate = 19,
+};
+
+/// Bits 7..0 of RESULT.
+enum class Result : std::uint8_t {
+    done = 0,
+    no_register = 1,
+    read_only = 2,
+    bad_length = 3,
+    bad_value = 4,
+    not_stopped = 5,
+    no_table = 6,
+    moving = 7,
+    not_allowed = 8,
+    link_down = 9,
+    busy = 10,
+    no_upload = 11,
+    bad_offset = 12,
+    no_space = 13,
+    wrong_check = 14,
+    storage_failed = 15,
+    nothing_stored = 16,
+    not_running = 17,
+    table_no_end = 32,
+    table_ragged = 33,
+    bad_next_step = 34,
+    bad_register = 35,
+    not_for_motor = 36,
+};
+
+/// Bits of STATUS.
+enum StatusBit : std::uint32_t {
+    kRunState = 7U << 0,  ///< a RunState
+    kLinkDelivers = 1U << 3,
+    kMotorError = 1U << 4,
+    kInPosition = 1U << 5,
+    kSafe = 1U << 6,
+    kForcedInputs = 1U << 7,
+    kForcedOutputs = 1U << 8,
+    kBreakpoints = 1U << 9,
+    kAtBreakpoint = 1U << 10,
+    kTable = 1U << 11,
+    kUpload = 1U << 12,
+    kStoredDiffers = 1U << 13,
+    kSettingsDiffer = 1U << 14,
+    kEnabled = 1U << 15,
+    kVirtualMotor = 1U << 16,
+};
+
+enum class RunState : std::uint8_t { stopped = 0, waiting = 1, running = 2, holding = 3, held = 4 };
+
+/// Bits 7..0 of a log entry's second register; below 16 they are SAFE_REASON's.
+enum class Event : std::uint8_t {
+    started = 16,
+    held = 17,
+    breakpoint = 18,
+    forced = 19,
+    forces_ended = 20,
+    link_up = 21,
+    table_activated = 22,
+    table_stored = 23,
+    upload_failed = 24,
+    settings_kept = 25,
+    store_damaged = 26,
+};
+
+enum class Access : std::uint8_t { read, read_write, write };
+
+struct Row {
+    std::uint8_t number;
+    std::uint8_t count;  ///< numbers that the row takes
+    std::string_view name;
+    Access access;
+    std::string_view text;
+};
+
+/// In ascending order of number.
+std::span<const Row> map();
+/// The row that a number belongs to; nullptr if none.
+const Row* find(std::uint8_t number);
+const Row* find(std::string_view name);
+
+/// One line for a person, "is not stopped; stop it first".
+std::string_view describe(Result result);
+
+}  // namespace nplc::registers::gateway

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "base/result.h"
+#include "store/content.h"
+
+/// The gateway's settings as numbers, as they are stored, and read and written over the user's port.
+namespace nplc::store {
+
+/// The numbers are stored and must stay what they are.
+enum class Setting : std::uint8_t {
+    gateway_address = 1,
+    user_baud = 2,
+    motor_baud = 3,
+    autostart = 4,
+    on_start = 5,
+    safe_outputs = 6,
+    debounce = 7,
+    longest_wait = 8,
+    enable_input = 9,
+    motor_writes = 10,
+    virtual_motor = 11,
+    force_timeout = 12,
+    status_output = 13,
+    motor_address = 14,
+    motor_is_mac800 = 15,
+    safe_communication = 16,
+    old_register_codes = 17,
+    read_pause = 18,
+};
+
+/// `none` in enable_input and status_output.
+inline constexpr std::uint32_t kNone = 255;
+
+struct SettingInfo {
+    Setting id;
+    std::string_view name;
+    std::string_view unit;  ///< empty: a number, or a choice that `help` explains
+    std::uint32_t initial;
+    std::uint32_t lowest;
+    std::uint32_t highest;
+    bool has_none;  ///< kNone is a value too
+    std::string_view help;
+};
+
+inline constexpr std::size_t kSettings = 18;
+const std::array<SettingInfo, kSettings>& all_settings();
+/// nullptr if there is none.
+const SettingInfo* find_setting(std::uint8_t id);
+bool is_allowed(const SettingInfo& info, std::uint32_t value);
+
+/// A value for every setting; always an allowed one.
+class SettingValues {
+  public:
+    SettingValues();
+    std::uint32_t get(Setting setting) const { return values_[index(setting)]; }
+    bool is_on(Setting setting) const { return get(setting) != 0; }
+    /// Error: bad_setting, and nothing changes.
+    base::Status set(Setting setting, std::uint32_t value);
+    bool operator==(const SettingValues&) const = default;
+
+  private:
+    static std::size_t index(Setting setting) { return static_cast<std::size_t>(setting) - 1; }
+    std::array<std::uint32_t, kSettings> values_{};
+};
+
+/// Stored as records of the setting's number and its value in four bytes, low byte first.
+inline constexpr std::size_t kSettingBytes = 5;
+inline constexpr std::size_t kMaxSettingsBytes = kSettings * kSettingBytes;
+std::array<std::uint8_t, kMaxSettingsBytes> encode(const SettingValues& values);
+/// Settings without a record have their initial value; records of settings that this firmware does not know
+/// are left out. Error: bad_setting (a value that is not allowed, or bytes that are no whole records).
+base::Result<SettingValues> decode_settings(std::span<const std::uint8_t> bytes);
+
+}  // namespace nplc::store

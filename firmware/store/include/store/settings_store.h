@@ -1,0 +1,44 @@
+#pragma once
+
+#include "store/settings.h"
+#include "store/slots.h"
+
+namespace nplc::store {
+
+/// The settings in two slots of their own, written as a whole.
+class SettingsStore {
+  public:
+    SettingsStore(ports::Storage& storage, const Area& area)
+        : slots_(storage, area, Kind::settings, check_) {}
+
+    /// For the start-up. Without stored settings the initial ones; with `damaged` if there were some and none
+    /// is whole, or bad_setting if they are not this firmware's: then the caller goes on with initial ones
+    /// and says so. Other errors as Slots::mount.
+    base::Result<SettingValues> mount();
+
+    /// Begins to store; poll() until phase() is `done` or `failed`.
+    base::Status save(const SettingValues& values);
+    void poll();
+
+    Phase phase() const { return slots_.phase(); }
+    base::Error error() const { return slots_.error(); }
+    const Slots& slots() const { return slots_; }
+
+  private:
+    class Check final : public Content {
+      public:
+        void begin() override { have_ = 0; }
+        base::Status take(std::span<const std::uint8_t> bytes) override;
+        base::Status end() override;
+
+      private:
+        std::array<std::uint8_t, kMaxSettingsBytes> bytes_{};
+        std::size_t have_ = 0;
+    };
+
+    Check check_;
+    Slots slots_;
+    std::array<std::uint8_t, kMaxSettingsBytes> bytes_{};
+};
+
+}  // namespace nplc::store

@@ -1,0 +1,145 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "base/error.h"
+#include "base/result.h"
+#include "ports/storage.h"
+#include "store/content.h"
+#include "store/layout.h"
+
+namespace nplc::store {
+
+enum class SlotState : std::uint8_t {
+    empty,
+    unfinished,  ///< a writing that never came to its end
+    good,
+    damaged,  ///< it was finished once, or may have been, and its bytes are not what was written
+};
+
+/// Where a writing stands.
+enum class Phase : std::uint8_t {
+    idle,
+    erasing,    ///< begun; pieces can come soon
+    receiving,  ///< takes pieces
+    closing,    ///< programs the rest, reads everything back, checks it, makes it the current one
+    done,       ///< what was written is the current content
+    failed,     ///< nothing has changed; error() says why
+};
+
+/// Two slots of which one is current. New content goes to the other one, is read back and checked there, and
+/// becomes the current one by a last programming of a mark. If power fails at any moment, the old or the new
+/// content is current after mount(), never a mixture, and never none once there was one.
+///
+/// Writing: begin(), write() pieces in order while `receiving`, finish(), and poll() all the time until
+/// `done` or `failed`. Each call does at most one operation of the storage or one read of
+/// Storage::kReadAtOnce bytes. Reading the current content goes on to work meanwhile, but answers `busy`
+/// while the storage is.
+class Slots {
+  public:
+    Slots(ports::Storage& storage, const Area& area, Kind kind, Content& content)
+        : storage_(storage), layout_(storage.geometry(), area), kind_(kind), content_(content) {}
+    Slots(const Slots&) = delete;
+    Slots& operator=(const Slots&) = delete;
+
+    /// Looks at both slots, all bytes of them: for a start-up, not for a running loop. A writing under way is
+    /// given up. Errors: busy, bad_geometry, storage_failed.
+    base::Status mount();
+
+    bool has_current() const { return current_.has_value(); }
+    /// Of the current content; zeros without one.
+    Header current() const { return current_ ? slots_[*current_].header : Header{}; }
+    /// A slot is damaged and was, or may have been, later than the current one. It is cleared by the next
+    /// writing that is done.
+    bool is_fallback() const { return fallback_; }
+    SlotState state(unsigned slot) const { return slots_[slot & 1U].state; }
+
+    /// Bytes of the current content. Errors: no_table, bad_offset, busy.
+    base::Status read(std::uint32_t offset, std::span<std::uint8_t> out);
+    /// All of it, checked once more while it is copied; answers its length. If it has changed, the other slot
+    /// is tried, if good. Errors: no_table, no_space, busy, damaged.
+    base::Result<std::uint32_t> load(std::span<std::uint8_t> out);
+
+    std::uint32_t capacity() const { return layout_.capacity(); }
+
+    /// Gives up what was being written, and begins anew.
+    base::Status begin();
+    /// The piece for `offset`: all of it is taken or nothing. A piece that came before, within the last 256
+    /// bytes, is taken again if it is the same. Errors: busy (no room yet), not_begun, bad_offset, no_space.
+    base::Status write(std::uint32_t offset, std::span<const std::uint8_t> bytes);
+    /// `crc` of all `length` bytes as the sender knows them. A repeat is taken. Errors: not_begun, busy,
+    /// wrong_check (then the writing has failed).
+    base::Status finish(std::uint32_t length, std::uint32_t crc);
+    void abandon() { phase_ = Phase::idle; }
+    void poll();
+
+    Phase phase() const { return phase_; }
+    base::Error error() const { return error_; }          ///< only if phase() is `failed`
+    std::uint32_t received() const { return received_; }  ///< bytes taken by write()
+
+  private:
+    static constexpr std::uint32_t kBuffer = kLargestUnit;
+
+    struct Slot {
+        SlotState state = SlotState::empty;
+        bool header_known = false;
+        Header header{};
+    };
+    struct Buffer {
+        std::array<std::uint8_t, kBuffer> bytes{};
+        std::uint32_t begin = 0;  ///< offset in the content of its first byte; of a record its address
+        std::uint32_t used = 0;
+    };
+    enum class Closing : std::uint8_t { programming, checking, header, header_back, mark, mark_back };
+
+    base::Result<Slot> examine(unsigned slot);
+    base::Result<std::uint32_t> crc_of(unsigned slot, std::uint32_t length);
+    void choose();
+
+    bool wait_for_storage();
+    void started(const base::Status& status);
+    void erase_next();
+    void program_next();
+    bool flushed() const { return flush_.used == flushed_; }
+    void flush_fill();
+    bool repeats(std::uint32_t offset, std::span<const std::uint8_t> bytes) const;
+    void close_next();
+    void check_next();
+    void end_check();
+    void prepare_record(std::span<const std::uint8_t> record, std::uint32_t address, Closing next);
+    void program_record(Closing next);
+    bool reads_back(std::size_t bytes);
+    void set_current();
+    void fail(base::Error error);
+
+    ports::Storage& storage_;
+    Layout layout_;
+    Kind kind_;
+    Content& content_;
+
+    std::array<Slot, 2> slots_{};
+    std::optional<unsigned> current_;
+    bool fallback_ = false;
+
+    Phase phase_ = Phase::idle;
+    base::Error error_{};
+    Closing closing_ = Closing::programming;
+    bool waiting_ = false;  ///< for an operation of ours
+    unsigned target_ = 0;   ///< the slot being written
+    std::uint32_t erased_ = 0;
+    std::uint32_t received_ = 0;
+    std::uint32_t crc_ = 0;
+    std::uint32_t checked_ = 0;
+    std::uint32_t checked_crc_ = 0;
+    Buffer fill_;
+    Buffer flush_;
+    std::uint32_t flushed_ = 0;  ///< bytes of flush_ that were programmed, whole units
+    std::uint32_t in_hand_ = 0;  ///< bytes of flush_ being programmed
+    Header header_;              ///< of what is being written
+};
+
+}  // namespace nplc::store

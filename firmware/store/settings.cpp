@@ -1,0 +1,91 @@
+#include "store/settings.h"
+
+#include "base/bytes.h"
+
+namespace nplc::store {
+namespace {
+
+// R: the manuals name none of these; ranges are what the firmware can do.
+constexpr std::array<SettingInfo, kSettings> kAll{{
+    {Setting::gateway_address, "gateway_address", "", 128, 1, 253, false, "address on the user's port"},
+    {Setting::user_baud, "user_baud", "Bd", 19'200, 1'200, 921'600, false, "speed of the user's port"},
+    {Setting::motor_baud, "motor_baud", "Bd", 19'200, 1'200, 921'600, false,
+     "speed of the line to the motor"},
+    {Setting::autostart, "autostart", "", 1, 0, 1, false,
+     "1: the table runs from power-up, 0: it waits for a command"},
+    {Setting::on_start, "on_start", "", 0, 0, 1, false,
+     "0: the motor is stopped before the first scan, 1: left as it is"},
+    {Setting::safe_outputs, "safe_outputs", "", 0, 0, 15, false, "outputs in the safe state, bit 0 = OUT0"},
+    {Setting::debounce, "debounce", "us", 3'000, 0, 1'000'000, false,
+     "an input counts once it is steady so long"},
+    {Setting::longest_wait, "longest_wait", "ms", 1'000, 1, 60'000, false,
+     "of a scan for the motor, then the safe state"},
+    {Setting::enable_input, "enable_input", "", kNone, 0, 5, true, "input that must be on to run; 255: none"},
+    {Setting::motor_writes, "motor_writes", "", 0, 0, 2, false,
+     "while the sequence runs the user may 1: write motor registers, 2: send 54h to 57h too"},
+    {Setting::virtual_motor, "virtual_motor", "", 0, 0, 1, false,
+     "1: the motor is virtual; holding does not stop it"},
+    {Setting::force_timeout, "force_timeout", "ms", 5'000, 100, 60'000, false,
+     "forcing ends after so long a silence"},
+    {Setting::status_output, "status_output", "", kNone, 0, 3, true,
+     "output that shows the gateway's state; 255: none"},
+    {Setting::motor_address, "motor_address", "", 254, 1, 254, false,
+     "the motor's address on the user's port, beside 255"},
+    {Setting::motor_is_mac800, "motor_is_mac800", "", 0, 0, 1, false,
+     "1: the motor is a MAC800, whose registers have 32 bits"},
+    {Setting::safe_communication, "safe_communication", "", 1, 0, 1, false,
+     "1: the line to the motor uses safe communication"},
+    {Setting::old_register_codes, "old_register_codes", "", 0, 0, 1, false,
+     "1: the motor has the older FlexMAC register codes"},
+    {Setting::read_pause, "read_pause", "ms", 20, 0, 1'000, false,
+     "least time between two reads of the motor for the user while the sequence runs"},
+}};
+
+}  // namespace
+
+const std::array<SettingInfo, kSettings>& all_settings() {
+    return kAll;
+}
+
+const SettingInfo* find_setting(std::uint8_t id) {
+    return id >= 1 && id <= kAll.size() ? &kAll[id - 1U] : nullptr;
+}
+
+bool is_allowed(const SettingInfo& info, std::uint32_t value) {
+    return (value >= info.lowest && value <= info.highest) || (info.has_none && value == kNone);
+}
+
+SettingValues::SettingValues() {
+    for (const SettingInfo& info : kAll) values_[index(info.id)] = info.initial;
+}
+
+base::Status SettingValues::set(Setting setting, std::uint32_t value) {
+    const SettingInfo* info = find_setting(static_cast<std::uint8_t>(setting));
+    if (info == nullptr || !is_allowed(*info, value)) return base::Error::bad_setting;
+    values_[index(setting)] = value;
+    return {};
+}
+
+std::array<std::uint8_t, kMaxSettingsBytes> encode(const SettingValues& values) {
+    std::array<std::uint8_t, kMaxSettingsBytes> bytes{};
+    std::size_t at = 0;
+    for (const SettingInfo& info : kAll) {
+        bytes[at] = static_cast<std::uint8_t>(info.id);
+        base::store_u32(&bytes[at + 1], values.get(info.id));
+        at += kSettingBytes;
+    }
+    return bytes;
+}
+
+base::Result<SettingValues> decode_settings(std::span<const std::uint8_t> bytes) {
+    SettingValues values;
+    for (; bytes.size() >= kSettingBytes; bytes = bytes.subspan(kSettingBytes)) {
+        if (find_setting(bytes[0]) == nullptr) continue;
+        const auto status = values.set(static_cast<Setting>(bytes[0]), base::load_u32(&bytes[1]));
+        if (!status) return status.error();
+    }
+    if (!bytes.empty()) return base::Error::bad_setting;
+    return values;
+}
+
+}  // namespace nplc::store

@@ -1,0 +1,49 @@
+#include "store/settings_store.h"
+
+#include <algorithm>
+
+#include "base/crc32.h"
+
+namespace nplc::store {
+
+base::Status SettingsStore::Check::take(std::span<const std::uint8_t> bytes) {
+    if (bytes.size() > bytes_.size() - have_) return base::Error::no_space;
+    std::copy(bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(have_));
+    have_ += bytes.size();
+    return {};
+}
+
+base::Status SettingsStore::Check::end() {
+    const auto values = decode_settings(std::span(bytes_).first(have_));
+    return values ? base::Status{} : base::Status{values.error()};
+}
+
+base::Result<SettingValues> SettingsStore::mount() {
+    if (const auto status = slots_.mount(); !status) return status.error();
+    if (!slots_.has_current()) {
+        if (slots_.is_fallback()) return base::Error::damaged;
+        return SettingValues{};
+    }
+    // A firmware with more settings may have stored them.
+    std::array<std::uint8_t, 2 * kMaxSettingsBytes> bytes{};
+    const auto length = slots_.load(bytes);
+    if (!length) return length.error();
+    return decode_settings(std::span(bytes).first(length.value()));
+}
+
+base::Status SettingsStore::save(const SettingValues& values) {
+    bytes_ = encode(values);
+    return slots_.begin();
+}
+
+void SettingsStore::poll() {
+    slots_.poll();
+    if (slots_.phase() != Phase::receiving) return;
+    if (slots_.received() == 0) {
+        static_cast<void>(slots_.write(0, bytes_));
+    } else {
+        static_cast<void>(slots_.finish(static_cast<std::uint32_t>(bytes_.size()), base::crc32(bytes_)));
+    }
+}
+
+}  // namespace nplc::store

@@ -1,0 +1,105 @@
+#include "store/slots.h"
+
+#include <algorithm>
+
+#include "base/crc32.h"
+
+namespace nplc::store {
+namespace {
+
+bool is_blank(std::span<const std::uint8_t> bytes) {
+    return std::all_of(bytes.begin(), bytes.end(), [](std::uint8_t byte) { return byte == 0xFF; });
+}
+
+}  // namespace
+
+base::Status Slots::mount() {
+    phase_ = Phase::idle;
+    waiting_ = false;
+    current_.reset();
+    fallback_ = false;
+    if (!layout_.is_possible()) return base::Error::bad_geometry;
+    for (unsigned i = 0; i < slots_.size(); ++i) {
+        const auto examined = examine(i);
+        if (!examined) return examined.error();
+        slots_[i] = examined.value();
+    }
+    choose();
+    return {};
+}
+
+base::Result<Slots::Slot> Slots::examine(unsigned slot) {
+    std::array<std::uint8_t, kHeaderBytes> header{};
+    std::array<std::uint8_t, kMarkBytes> mark{};
+    if (const auto status = storage_.read(layout_.header(slot), header); !status) return status.error();
+    if (const auto status = storage_.read(layout_.mark(slot), mark); !status) return status.error();
+    Slot result;
+    const auto decoded = decode(header);
+    result.header_known =
+        decoded.ok() && decoded.value().kind == kind_ && decoded.value().length <= layout_.capacity();
+    if (result.header_known) result.header = decoded.value();
+    if (is_blank(mark)) {
+        result.state = is_blank(header) ? SlotState::empty : SlotState::unfinished;
+        return result;
+    }
+    result.state = SlotState::damaged;
+    if (!result.header_known || mark != mark_for(header)) return result;
+    const auto crc = crc_of(slot, result.header.length);
+    if (!crc) return crc.error();
+    if (crc.value() == result.header.crc) result.state = SlotState::good;
+    return result;
+}
+
+base::Result<std::uint32_t> Slots::crc_of(unsigned slot, std::uint32_t length) {
+    std::array<std::uint8_t, ports::Storage::kReadAtOnce> piece{};
+    std::uint32_t crc = 0;
+    for (std::uint32_t at = 0; at < length;) {
+        const auto bytes = std::span(piece).first(std::min<std::size_t>(piece.size(), length - at));
+        if (const auto status = storage_.read(layout_.content(slot) + at, bytes); !status)
+            return status.error();
+        crc = base::crc32(bytes, crc);
+        at += static_cast<std::uint32_t>(bytes.size());
+    }
+    return crc;
+}
+
+/// The later of the good slots. What is damaged without a sequence to be read may have been later.
+void Slots::choose() {
+    current_.reset();
+    for (unsigned i = 0; i < slots_.size(); ++i) {
+        if (slots_[i].state != SlotState::good) continue;
+        if (!current_ || is_later(slots_[i].header.sequence, slots_[*current_].header.sequence)) current_ = i;
+    }
+    fallback_ = std::any_of(slots_.begin(), slots_.end(), [this](const Slot& slot) {
+        if (slot.state != SlotState::damaged) return false;
+        return !current_ || !slot.header_known ||
+               is_later(slot.header.sequence, slots_[*current_].header.sequence);
+    });
+}
+
+base::Status Slots::read(std::uint32_t offset, std::span<std::uint8_t> out) {
+    if (!current_) return base::Error::no_table;
+    const std::uint32_t length = slots_[*current_].header.length;
+    if (offset > length || length - offset < out.size()) return base::Error::bad_offset;
+    return storage_.read(layout_.content(*current_) + offset, out);
+}
+
+base::Result<std::uint32_t> Slots::load(std::span<std::uint8_t> out) {
+    while (current_) {
+        const Header header = slots_[*current_].header;
+        if (header.length > out.size()) return base::Error::no_space;
+        const auto bytes = out.first(header.length);
+        for (std::size_t at = 0; at < bytes.size(); at += ports::Storage::kReadAtOnce) {
+            const auto piece = bytes.subspan(at, std::min(ports::Storage::kReadAtOnce, bytes.size() - at));
+            const auto status = read(static_cast<std::uint32_t>(at), piece);
+            if (!status) return status.error();
+        }
+        if (base::crc32(bytes) == header.crc) return header.length;
+        slots_[*current_].state = SlotState::damaged;
+        choose();
+        if (!current_) return base::Error::damaged;
+    }
+    return fallback_ ? base::Error::damaged : base::Error::no_table;
+}
+
+}  // namespace nplc::store

@@ -1,0 +1,66 @@
+#include "hal_linux/byte_client.h"
+
+#include <poll.h>
+
+#include <cerrno>
+#include <chrono>
+#include <ctime>
+
+#include "descriptor_client.h"
+
+namespace nplc::hal_linux {
+namespace {
+
+constexpr int kWriteWaitMs = 1000;
+
+}  // namespace
+
+ByteClient::Opened ByteClient::open(const std::string& endpoint, std::uint32_t baud) {
+    const auto after = [&](const char* kind) -> std::optional<std::string> {
+        const std::string prefix = std::string(kind) + ":";
+        if (!endpoint.starts_with(prefix)) return std::nullopt;
+        return endpoint.substr(prefix.size());
+    };
+    if (const auto path = after("pty"); path && !path->empty())
+        return open_terminal_client(*path, endpoint, baud);
+    if (const auto path = after("unix"); path && !path->empty()) return open_unix_client(*path);
+    if (const auto where = after("tcp"); where && !where->empty()) return open_tcp_client(*where);
+    if (endpoint.find('/') != std::string::npos && endpoint.find(':') > endpoint.find('/'))
+        return open_terminal_client(endpoint, endpoint, baud);
+    return {nullptr, "'" + endpoint +
+                         "': write a serial line's path such as /dev/ttyUSB0, or pty:PATH, unix:PATH or "
+                         "tcp:HOST:PORT"};
+}
+
+bool DescriptorClient::write(std::span<const std::uint8_t> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t taken = ::write(descriptor(), bytes.data(), bytes.size());
+        if (taken > 0) {
+            bytes = bytes.subspan(static_cast<std::size_t>(taken));
+            continue;
+        }
+        if (taken < 0 && errno == EINTR) continue;
+        if (taken < 0 && errno != EAGAIN) return false;
+        pollfd state{.fd = descriptor(), .events = POLLOUT, .revents = 0};
+        if (::poll(&state, 1, kWriteWaitMs) == 0) return false;
+    }
+    return true;
+}
+
+std::optional<std::size_t> DescriptorClient::read(std::span<std::uint8_t> out, base::Microseconds wait) {
+    pollfd state{.fd = descriptor(), .events = POLLIN, .revents = 0};
+    const auto count = std::max<std::int64_t>(wait.count(), 0);
+    const timespec limit{.tv_sec = count / 1'000'000, .tv_nsec = count % 1'000'000 * 1000};
+    if (::ppoll(&state, 1, &limit, nullptr) <= 0) return 0;
+    const ssize_t got = ::read(descriptor(), out.data(), out.size());
+    if (got > 0) return static_cast<std::size_t>(got);
+    if (got < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
+    return std::nullopt;
+}
+
+base::Instant DescriptorClient::now() const {
+    const auto since = std::chrono::steady_clock::now().time_since_epoch();
+    return base::Instant(std::chrono::duration_cast<base::Microseconds>(since));
+}
+
+}  // namespace nplc::hal_linux

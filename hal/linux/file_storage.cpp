@@ -1,0 +1,108 @@
+#include "hal_linux/file_storage.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <vector>
+
+#include "file_descriptor.h"
+
+namespace nplc::hal_linux {
+namespace {
+
+namespace fs = std::filesystem;
+
+class DiskStorage final : public FileStorage {
+  public:
+    DiskStorage(FileDescriptor file, const ports::StorageGeometry& geometry)
+        : file_(std::move(file)), geometry_(geometry) {}
+
+    ports::StorageGeometry geometry() const override { return geometry_; }
+
+    base::Status read(std::uint32_t address, std::span<std::uint8_t> out) override {
+        if (!inside(address, out.size())) return base::Error::bad_geometry;
+        const ssize_t count = ::pread(file_.get(), out.data(), out.size(), address);
+        if (count != static_cast<ssize_t>(out.size())) return base::Error::storage_failed;
+        return {};
+    }
+
+    base::Status program(std::uint32_t address, std::span<const std::uint8_t> bytes) override {
+        const bool whole_units =
+            address % geometry_.program_unit == 0 && bytes.size() % geometry_.program_unit == 0;
+        const bool in_page = address % geometry_.program_page + bytes.size() <= geometry_.program_page;
+        if (!inside(address, bytes.size()) || bytes.empty() || !whole_units || !in_page)
+            return base::Error::bad_geometry;
+        std::vector<std::uint8_t> kept(bytes.size());
+        if (const auto status = read(address, kept); !status) return status;
+        for (std::size_t i = 0; i < bytes.size(); ++i) kept[i] = kept[i] & bytes[i];
+        return write(address, kept);
+    }
+
+    base::Status erase(std::uint32_t address) override {
+        if (!inside(address, geometry_.erase_block) || address % geometry_.erase_block != 0)
+            return base::Error::bad_geometry;
+        return write(address, std::vector<std::uint8_t>(geometry_.erase_block, 0xFF));
+    }
+
+    ports::StorageState state() override {
+        return failed_ ? ports::StorageState::failed : ports::StorageState::ready;
+    }
+
+  private:
+    bool inside(std::uint32_t address, std::size_t count) const {
+        return address <= geometry_.size && count <= geometry_.size - address;
+    }
+
+    base::Status write(std::uint32_t address, std::span<const std::uint8_t> bytes) {
+        const ssize_t count = ::pwrite(file_.get(), bytes.data(), bytes.size(), address);
+        failed_ = count != static_cast<ssize_t>(bytes.size()) || ::fdatasync(file_.get()) != 0;
+        return {};
+    }
+
+    FileDescriptor file_;
+    ports::StorageGeometry geometry_;
+    bool failed_ = false;
+};
+
+/// Written beside its place, then moved there.
+bool make_blank(const std::string& path, std::uint32_t size) {
+    const std::string temporary = path + "." + std::to_string(::getpid());
+    const FileDescriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+    const std::vector<std::uint8_t> blank(size, 0xFF);
+    const bool written = file &&
+                         ::write(file.get(), blank.data(), blank.size()) == static_cast<ssize_t>(size) &&
+                         ::fsync(file.get()) == 0 && ::rename(temporary.c_str(), path.c_str()) == 0;
+    if (!written) {
+        const int reason = errno;
+        ::unlink(temporary.c_str());
+        errno = reason;
+        return false;
+    }
+    const std::string folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path().string() : ".";
+    const FileDescriptor parent(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    return parent && ::fsync(parent.get()) == 0;
+}
+
+}  // namespace
+
+FileStorage::Opened FileStorage::open(const std::string& path, const ports::StorageGeometry& geometry) {
+    std::error_code error;
+    if (!fs::exists(path, error) && !make_blank(path, geometry.size))
+        return {nullptr, path + ": cannot be made: " + std::strerror(errno)};
+    FileDescriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+    struct stat status {};
+    if (!file || ::fstat(file.get(), &status) != 0)
+        return {nullptr, path + ": cannot be opened: " + std::strerror(errno)};
+    if (!S_ISREG(status.st_mode) || status.st_size != static_cast<off_t>(geometry.size))
+        return {nullptr, path + ": this is not a memory of " + std::to_string(geometry.size) +
+                             " bytes; name another file, or remove it"};
+    if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0)
+        return {nullptr, path + ": another program uses this memory; end it first"};
+    return {std::make_unique<DiskStorage>(std::move(file), geometry), {}};
+}
+
+}  // namespace nplc::hal_linux

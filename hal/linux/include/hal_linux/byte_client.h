@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "base/time.h"
+
+namespace nplc::hal_linux {
+
+/// Our end of a line to a device or to a ByteServer:
+///     /dev/ttyUSB0, or any other path    a serial line: 8 data bits, no parity, 1 stop bit, no handshake
+///     pty:PATH                           the same, of a ByteServer's pseudo-terminal
+///     unix:PATH                          a stream socket in the file system
+///     tcp:HOST:PORT                      a TCP socket
+/// A terminal is held exclusively as long as this object lives, and its mode is put back afterwards.
+class ByteClient {
+  public:
+    struct Opened {
+        std::unique_ptr<ByteClient> client;
+        std::string error;  ///< what went wrong and what to do, in one line; empty when it was opened
+    };
+    /// `baud`: 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800 or 921600; sockets have
+    /// none.
+    static Opened open(const std::string& endpoint, std::uint32_t baud);
+
+    virtual ~ByteClient() = default;
+    ByteClient(const ByteClient&) = delete;
+    ByteClient& operator=(const ByteClient&) = delete;
+
+    virtual const std::string& name() const = 0;
+    /// Takes all bytes. False if the other end is gone, or takes nothing for a second.
+    virtual bool write(std::span<const std::uint8_t> bytes) = 0;
+    /// Waits no longer than `wait` for a first byte; how many it put into `out`. Nothing if the other end is
+    /// gone.
+    virtual std::optional<std::size_t> read(std::span<std::uint8_t> out, base::Microseconds wait) = 0;
+    /// Monotonic.
+    virtual base::Instant now() const = 0;
+
+  protected:
+    ByteClient() = default;
+};
+
+}  // namespace nplc::hal_linux

@@ -1,0 +1,348 @@
+#!/usr/bin/env python3
+"""nanoctl on the simulated gateway, over real terminals and sockets.
+
+usage: nanoctl_test.py NANOCTL NANOPLC_SIM SEQC SHUTTLE.seq
+"""
+
+import json
+import os
+import random
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+NANOCTL = SIM = SEQC = SHUTTLE = ""
+LONG = 60  # seconds until something that must come is given up
+
+
+class NoisyProxy:
+    """A socket between a client and the gateway's socket that damages a share of the bytes, both ways."""
+
+    def __init__(self, path, target, share, seed):
+        self.share = share
+        self.random = random.Random(seed)
+        self.damaged = 0
+        self.listener = socket.socket(socket.AF_UNIX)
+        self.listener.bind(path)
+        self.listener.listen(1)
+        self.target = target
+        threading.Thread(target=self.accept, daemon=True).start()
+
+    def accept(self):
+        while True:
+            try:
+                client, _ = self.listener.accept()
+            except OSError:
+                return
+            gateway = socket.socket(socket.AF_UNIX)
+            gateway.connect(self.target)
+            for ends in ((client, gateway), (gateway, client)):
+                threading.Thread(target=self.pump, args=ends, daemon=True).start()
+
+    def pump(self, source, sink):
+        while True:
+            try:
+                data = bytearray(source.recv(4096))
+                for i in range(len(data)):
+                    if self.random.random() < self.share:
+                        data[i] ^= 1 << self.random.randrange(8)
+                        self.damaged += 1
+                sink.sendall(data)
+            except OSError:
+                return
+            if not data:
+                sink.close()
+                return
+
+    def close(self):
+        self.listener.close()
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.running = []
+        self.table = self.path("shuttle.bin")
+        built = subprocess.run([SEQC, "build", SHUTTLE, "-o", self.table], capture_output=True, text=True, check=False)
+        self.assertEqual(built.returncode, 0, built.stderr)
+        self.endpoint = "unix:" + self.path("port")
+
+    def tearDown(self):
+        for process in self.running:
+            process.kill()
+            process.communicate()
+        self.folder.cleanup()
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def start(self, *arguments, endpoint=None):
+        """The gateway, when it is ready."""
+        self.endpoint = endpoint or self.endpoint
+        process = subprocess.Popen(
+            [SIM, "run", *arguments, "--flash", self.path("flash"), "--realtime", "--mactalk", self.endpoint],
+            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.running.append(process)
+        for line in process.stdout:
+            if line == "ready\n":
+                threading.Thread(target=process.stdout.read, daemon=True).start()
+                return process
+        self.fail(f"ended before it was ready: {process.communicate()}")
+
+    def end(self, process):
+        process.send_signal(signal.SIGTERM)
+        self.assertIn(process.wait(LONG), (0, 1))
+        process.stdout.close()
+        process.stderr.close()
+        self.running.remove(process)
+
+    def call(self, *arguments, port=None, patience=500):
+        return subprocess.run(
+            [NANOCTL, "--port", port or self.endpoint, "--patience", str(patience), *arguments],
+            capture_output=True, text=True, timeout=4 * LONG, check=False)
+
+    def ctl(self, *arguments, exit_code=0, **options):
+        result = self.call("--json", *arguments, **options)
+        self.assertEqual(result.returncode, exit_code, f"{arguments}: {result.stdout} {result.stderr}")
+        answer = json.loads(result.stdout.splitlines()[-1])
+        self.assertEqual(answer["ok"], exit_code == 0)
+        return answer
+
+    def until(self, wanted, **options):
+        """Looks at the status until it is as wanted."""
+        end = time.monotonic() + LONG
+        while time.monotonic() < end:
+            status = self.ctl("status", **options)
+            if wanted(status):
+                return status
+        self.fail(f"never came: {status}")
+
+    def sym(self):
+        return "--sym", self.path("shuttle.sym")
+
+
+class Tables(Case):
+    def test_a_table_goes_over_a_terminal_outlives_a_power_cut_and_runs(self):
+        process = self.start(endpoint="pty:" + self.path("tty"))
+        self.assertEqual(self.ctl("status")["state"], "stopped")
+        sent = self.ctl("upload", self.table, "--run")
+        self.assertTrue(sent["active"] and sent["started"])
+        self.assertEqual(sent["bytes"], os.path.getsize(self.table))
+        self.until(lambda status: status["state"] == "running" and status["step"] == 1)
+        self.assertTrue(self.ctl("verify", self.table, "--bytes")["active"])
+        process.kill()
+        process.wait()
+        self.start(endpoint="pty:" + self.path("tty"))
+        status = self.until(lambda status: status["state"] == "running" and status["step"] == 1)
+        self.assertEqual(status["table_crc32"], sent["crc32"])
+        self.ctl("download", "-o", self.path("back.bin"))
+        with open(self.table, "rb") as first, open(self.path("back.bin"), "rb") as second:
+            self.assertEqual(first.read(), second.read())
+
+    def test_a_running_sequence_keeps_its_table_until_it_is_stopped(self):
+        self.start()
+        first = self.ctl("upload", self.table, "--run")["crc32"]
+        other = self.path("other.bin")
+        with open(other, "wb") as file:
+            file.write(bytes.fromhex("C000003E80010000 3F00000000000000"))
+        self.until(lambda status: status["state"] == "running")
+        refused = self.ctl("upload", other, exit_code=1)
+        self.assertIn("stored and not active", refused["error"])
+        status = self.ctl("status")
+        self.assertEqual((status["table_crc32"], status["stored_differs"]), (first, True))
+        self.assertIn("the active table", self.ctl("verify", other, exit_code=1)["error"])
+        self.ctl("upload", other, "--stop")
+        self.assertEqual(self.ctl("status")["state"], "stopped")
+        self.ctl("verify", other)
+
+    def test_noise_on_both_lines(self):
+        self.start("--drop", "0.2%", "--damage", "0.3%", "--seed", "3")
+        proxy = NoisyProxy(self.path("noise"), self.path("port"), 0.002, 7)
+        noisy = "unix:" + self.path("noise")
+        big = self.path("big.bin")
+        with open(big, "wb") as file:
+            for term in range(120):
+                file.write(bytes([0xC0 | term % 60, term, 0x3F, 0x3E, 0x80, 1, 0, 0]))
+            file.write(bytes([0x3F, 0, 0, 0, 0, 0, 0, 0]))
+        self.ctl("upload", big, port=noisy, patience=200)
+        self.ctl("verify", big, "--bytes", port=noisy, patience=200)
+        self.ctl("verify", big)
+        self.assertGreater(proxy.damaged, 0, "seed 7")
+        proxy.close()
+
+
+class Running(Case):
+    def test_forced_inputs_step_it_through(self):
+        self.start()
+        self.ctl("upload", self.table, "--run")
+        self.until(lambda status: status["step"] == 1)
+        keeper = subprocess.Popen([NANOCTL, "--port", self.endpoint, "--patience", "500", *self.sym(), "force", "I0=1",
+                                   "--keep"], stdout=subprocess.PIPE, text=True)
+        self.running.append(keeper)
+        self.assertIn("I0 = 1", keeper.stdout.readline())
+        moving = self.until(lambda status: status["step"] == 2, *())
+        self.assertTrue(moving["forced_inputs"])
+        self.assertEqual(moving["outputs"], 1)
+        self.until(lambda status: status["step"] == 4)
+        keeper.send_signal(signal.SIGINT)
+        self.assertEqual(keeper.wait(LONG), 0)
+        self.assertFalse(self.ctl("status")["forced_inputs"])
+        self.assertIn("forced", [entry["event"] for entry in self.ctl("log")["entries"]])
+
+    def test_a_breakpoint_holds_it_with_the_motor_stopped(self):
+        self.start()
+        self.ctl("upload", self.table)
+        self.assertEqual(self.ctl(*self.sym(), "break", "S3")["steps"], [3])
+        self.ctl("run")
+        self.until(lambda status: status["step"] == 1)
+        self.ctl("force", "IN0=1")
+        held = self.until(lambda status: status["state"] == "held")
+        self.assertEqual((held["step"], held["at_breakpoint"]), (3, True))
+        self.assertEqual(held["outputs"], 1, "as they were")
+        self.assertEqual(self.ctl("break", "--clear")["steps"], [])
+        after = self.ctl("step")
+        self.assertEqual((after["state"], after["step"], after["fired_step"]), ("held", 4, 3))
+        self.ctl("stop")
+        self.assertEqual(self.ctl("status")["safe_reason"], "stop command")
+
+    def test_the_link_to_the_motor_is_cut_in_mid_move_and_restored(self):
+        scenario = self.path("cut.scn")
+        with open(scenario, "w", encoding="utf-8") as file:
+            file.write("once step = 2 after 100 ms line cut, after 1 s line restored\n")
+        self.ctl_upload_first()
+        self.start("--scenario", scenario)
+        self.until(lambda status: status["step"] == 1)
+        self.ctl("force", "IN0=1", "IN5=1")
+        lost = self.until(lambda status: status["safe_reason"] == "link down")
+        self.assertEqual(lost["outputs"], 0)
+        # Step 5 acknowledges while IN5 is on (01h); then the link counts as up again.
+        back = self.until(lambda status: self.ctl("force", "IN0=0", "IN5=1")["ok"] and status["safe_reason"] == "")
+        self.assertEqual((back["link"], back["link_losses"]), ("up", 1))
+        events = [entry["event"] for entry in self.ctl("log")["entries"]]
+        self.assertLess(events.index("link down"), events.index("link up"))
+
+    def ctl_upload_first(self):
+        process = self.start()
+        self.ctl("upload", self.table)
+        self.end(process)
+
+    def test_two_clients_at_once(self):
+        self.start()
+        self.ctl("upload", self.table, "--run")
+        watcher = subprocess.Popen([NANOCTL, "--port", self.endpoint, "--patience", "500", "--json", "watch", "--all",
+                                    "--interval", "0"], stdout=subprocess.PIPE, text=True)
+        self.running.append(watcher)
+        self.assertTrue(json.loads(watcher.stdout.readline())["ok"])
+        self.ctl("verify", self.table, "--bytes")
+        self.ctl("stop")
+        for line in watcher.stdout:
+            if json.loads(line)["state"] == "stopped":
+                break
+        watcher.send_signal(signal.SIGTERM)
+        self.assertEqual(watcher.wait(LONG), 0)
+
+    def test_a_terminal_has_one_client(self):
+        self.start(endpoint="pty:" + self.path("tty"))
+        watcher = subprocess.Popen([NANOCTL, "--port", self.endpoint, "--json", "watch", "--all"],
+                                   stdout=subprocess.PIPE, text=True)
+        self.running.append(watcher)
+        watcher.stdout.readline()
+        error = self.ctl("status", exit_code=3)["error"]
+        self.assertIn(f"nanoctl (process {watcher.pid}) holds this port", error)
+
+
+class Talking(Case):
+    def test_settings(self):
+        self.start()
+        self.assertEqual(self.ctl("settings", "get", "safe_outputs")["settings"], {"safe_outputs": 0})
+        self.ctl("settings", "set", "safe_outputs=5", "enable_input=none", "--keep")
+        self.ctl("reset")
+        self.assertEqual(self.ctl("settings", "list")["settings"]["safe_outputs"], 5)
+        self.assertEqual(self.ctl("status")["outputs"], 5)
+        for wrong in ("safe_outputs=16", "safe_outputs=none", "nothing=1", "safe_outputs"):
+            self.ctl("settings", "set", "autostart=0", wrong, exit_code=2)
+        self.assertEqual(self.ctl("settings", "get", "autostart")["settings"], {"autostart": 1})
+
+    def test_what_goes_wrong_is_one_line_and_an_exit_code(self):
+        self.start()
+        cases = [
+            (1, "there is no table", ["run"]),
+            (1, "does not run", ["hold"]),
+            (1, "no active table", ["download", "-o", self.path("x.bin")]),
+            (2, "is no table", ["upload", SHUTTLE]),
+            (2, "cannot be read", ["upload", self.path("none.bin")]),
+            (2, "is no step", ["break", "S3"]),
+            (2, "write IN0..IN5", ["force", "IN6=1"]),
+            (2, "write IN0..IN5", ["force", "IN1=2"]),
+            (3, "no answer from address 77", ["--address", "77", "--patience", "20", "status"]),
+            (3, "is no gateway", ["--address", "254", "status"]),
+            (3, "is the program running?", ["--port", "unix:" + self.path("none"), "status"]),
+        ]
+        for exit_code, words, arguments in cases:
+            result = self.call(*arguments)
+            self.assertEqual(result.returncode, exit_code, f"{arguments}: {result.stderr}")
+            self.assertIn(words, result.stderr)
+            self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+            self.assertEqual(result.stdout, "")
+        self.assertFalse(os.path.exists(self.path("x.bin")))
+
+    def test_usage(self):
+        for arguments in ([], ["frob"], ["upload"], ["--address", "0", "status"], ["step", "0"], ["status"]):
+            environment = {key: value for key, value in os.environ.items() if key != "NANOCTL_PORT"}
+            result = subprocess.run([NANOCTL, *arguments], capture_output=True, text=True, env=environment, check=False)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+
+    def test_watch_speaks_in_the_programs_names(self):
+        self.start()
+        self.ctl("upload", self.table, "--run")
+        self.until(lambda status: status["step"] == 1)
+        result = self.call(*self.sym(), "watch", "--for", "0.3")
+        self.assertIn("running, step 1 S1", result.stdout)
+        with open(self.path("other.bin"), "wb") as file:
+            file.write(bytes.fromhex("C000003E80010000 3F00000000000000"))
+        self.ctl("upload", self.path("other.bin"), "--stop")
+        self.assertIn("belongs to another table", self.ctl(*self.sym(), "status", exit_code=2)["error"])
+
+
+class Generated(unittest.TestCase):
+    def output(self, *arguments):
+        return subprocess.run([NANOCTL, *arguments], capture_output=True, text=True, check=True).stdout
+
+    def completed(self, *words):
+        script = ('source /dev/stdin; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _nanoctl; printf "%s\n" "${COMPREPLY[@]}"')
+        result = subprocess.run(["bash", "-c", script, "bash", "nanoctl", *words], input=self.output("completion", "bash"),
+                                capture_output=True, text=True, check=True)
+        return result.stdout.split()
+
+    def test_bash_completes_commands_and_options(self):
+        self.assertEqual(self.completed("up"), ["upload"])
+        self.assertEqual(self.completed("upload", "--only"), ["--only-store"])
+        self.assertEqual(self.completed("settings", "ge"), ["get"])
+        self.assertIn("--json", self.completed("status", "--"))
+
+    def test_zsh_takes_its_completion(self):
+        if shutil.which("zsh") is None:
+            self.skipTest("zsh is not installed")
+        subprocess.run(["zsh", "-n"], input=self.output("completion", "zsh"), text=True, check=True)
+
+    def test_the_manual_page_is_sound(self):
+        page = self.output("man")
+        for words in (".SS upload table", ".SS settings set values", "\\-\\-port", "Exit codes: 0"):
+            self.assertIn(words, page)
+        if shutil.which("groff") is None:
+            self.skipTest("groff is not installed")
+        shown = subprocess.run(["groff", "-man", "-Tascii", "-ww"], input=page, capture_output=True, text=True, check=True)
+        self.assertEqual(shown.stderr, "")
+        self.assertIn("nanoctl", shown.stdout)
+
+
+if __name__ == "__main__":
+    NANOCTL, SIM, SEQC, SHUTTLE = sys.argv[1:5]
+    unittest.main(argv=[sys.argv[0], *sys.argv[5:]])

@@ -1,0 +1,56 @@
+// REGISTERS.md says what the map's rows say.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "registers/gateway.h"
+
+namespace nplc::registers::gateway {
+namespace {
+
+std::string document() {
+    std::ifstream file(std::string(GATEWAY_FOLDER) + "/REGISTERS.md");
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+std::string line_of(const Row& row) {
+    constexpr const char* kAccess[]{"read", "read, write", "write"};
+    std::string number = std::to_string(row.number);
+    if (row.count > 1) number += ".." + std::to_string(row.number + row.count - 1);
+    return "| " + number + " | " + std::string(row.name) + " | " + kAccess[static_cast<int>(row.access)] +
+           " | " + std::string(row.text) + " |\n";
+}
+
+TEST(GatewayMap, TheDocumentHasEachRow) {
+    const std::string text = document();
+    for (const Row& row : map())
+        EXPECT_NE(text.find(line_of(row)), std::string::npos) << "write in REGISTERS.md: " << line_of(row);
+}
+
+TEST(GatewayMap, TheDocumentHasEachResult) {
+    const std::string text = document();
+    for (int code = 0; code < 256; ++code) {
+        const std::string_view words = describe(static_cast<Result>(code));
+        if (words == "unknown result") continue;
+        EXPECT_NE(text.find("| " + std::to_string(code) + " | "), std::string::npos) << code;
+        EXPECT_NE(text.find(std::string(words) + " |\n"), std::string::npos) << words;
+    }
+}
+
+TEST(GatewayMap, RowsAscendAndDoNotOverlap) {
+    unsigned next = 1;
+    for (const Row& row : map()) {
+        EXPECT_GE(row.number, next) << row.name;
+        next = row.number + unsigned{row.count};
+        EXPECT_LE(next, 256U) << row.name;
+        EXPECT_EQ(find(row.number), find(row.name));
+    }
+}
+
+}  // namespace
+}  // namespace nplc::registers::gateway

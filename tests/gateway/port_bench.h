@@ -1,0 +1,164 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "bench_board.h"
+#include "gateway/user_port.h"
+#include "sim/sim_storage.h"
+
+namespace nplc::gateway {
+
+namespace reg = registers::gateway;
+namespace mactalk = protocol::mactalk;
+
+/// A line without time: what one end writes the other reads at its next poll.
+struct InstantLine final : ports::SerialPort {
+    std::size_t write(std::span<const std::uint8_t> bytes) override {
+        sent.insert(sent.end(), bytes.begin(), bytes.end());
+        return bytes.size();
+    }
+    std::size_t read(std::span<ports::ReceivedByte> out) override {
+        std::size_t count = 0;
+        for (; count < out.size() && !received.empty(); ++count) {
+            out[count] = received.front();
+            received.pop_front();
+        }
+        return count;
+    }
+    bool transmitter_idle() override { return true; }
+
+    std::vector<std::uint8_t> sent;
+    std::deque<ports::ReceivedByte> received;
+};
+
+/// A gateway on BenchBoard with its user's port and store, and the person who asks it.
+struct PortBench {
+    static constexpr std::uint8_t kMotor = 7;
+    static constexpr ports::StorageGeometry kFlash{
+        .size = 32 * 1024, .erase_block = 2048, .program_page = 256, .program_unit = 8};
+    static constexpr store::Area kTables{.begin = 0, .slot_bytes = 5 * 2048};
+    static constexpr store::Area kSettings{.begin = 10 * 2048, .slot_bytes = 2048};
+
+    explicit PortBench(const Settings& settings = {.autostart = false}) { start(settings); }
+
+    void start(const Settings& settings) {
+        port.reset();
+        own.reset();
+        tables.reset();
+        gateway.reset();
+        keeper.emplace(flash, kSettings);
+        store::SettingValues initial = values_of(settings);
+        static_cast<void>(initial.set(store::Setting::motor_address, kMotor));
+        keeper->start(initial);
+        gateway.emplace(board.ports(), settings_of(keeper->values()), StartCause::power_up);
+        keeper->attach(*gateway);
+        gateway->observe(&board);
+        tables.emplace(*gateway, board, flash, kTables, memory);
+        static_cast<void>(tables->mount());
+        tables->start(board.now);
+        own.emplace(*gateway, *tables, *keeper);
+        port.emplace(line, wired ? &motor_line : nullptr, *gateway, board, *own, *keeper);
+    }
+
+    void poll() {
+        board.now += base::Microseconds(250);
+        gateway->poll(board.now);
+        port->poll(board.now);
+    }
+    void run(base::Microseconds duration) {
+        for (const auto end = board.now + duration; board.now < end;) poll();
+    }
+
+    void put(std::span<const std::uint8_t> bytes) {
+        for (const std::uint8_t byte : bytes) line.received.push_back({byte, false});
+    }
+    void ask(const mactalk::Request& request) { put(mactalk::encode(request).view()); }
+
+    /// The bytes that come within `wait`.
+    std::vector<std::uint8_t> heard(base::Microseconds wait = std::chrono::seconds(2)) {
+        line.sent.clear();
+        for (const auto end = board.now + wait; board.now < end && line.sent.empty();) poll();
+        return std::exchange(line.sent, {});
+    }
+
+    static std::vector<std::uint8_t> accept() {
+        const auto bytes = mactalk::encode_accept();
+        return {bytes.view().begin(), bytes.view().end()};
+    }
+
+    std::optional<mactalk::Reply> reply(std::size_t bytes) {
+        mactalk::ReplyDecoder decoder;
+        decoder.expect(mactalk::Answer::registers, bytes);
+        std::optional<mactalk::Reply> found;
+        for (const std::uint8_t byte : heard()) {
+            if (const auto whole = decoder.receive(byte)) found = whole;
+        }
+        return found;
+    }
+
+    /// What a register reads; nothing without an answer.
+    std::optional<std::uint32_t> read(std::uint8_t number, std::uint8_t address = reg::kDefaultAddress) {
+        ask({.kind = mactalk::Kind::read, .address = address, .reg = number});
+        const auto answer = reply(4);
+        if (!answer || answer->reg != number) return std::nullopt;
+        return base::load_u32(answer->data.data());
+    }
+    std::optional<mactalk::Reply> block(std::uint8_t number, std::uint8_t address = reg::kDefaultAddress) {
+        ask({.kind = mactalk::Kind::read_block, .address = address, .reg = number});
+        return reply(64);
+    }
+    /// Was it accepted?
+    bool write(std::uint8_t number, std::uint32_t value, std::uint8_t length = 4,
+               std::uint8_t address = reg::kDefaultAddress) {
+        ask({.kind = mactalk::Kind::write,
+             .address = address,
+             .reg = number,
+             .length = length,
+             .value = value});
+        return heard() == accept();
+    }
+    bool command(reg::Command command) { return write(reg::COMMAND, static_cast<std::uint32_t>(command)); }
+    bool send(std::span<const std::uint8_t> piece) {
+        put(mactalk::encode_long_write(reg::kDefaultAddress, reg::TABLE_DATA, piece).view());
+        return heard() == accept();
+    }
+    /// Result, register and detail of the last write.
+    std::uint32_t result() { return read(reg::RESULT).value_or(0xFFFF'FFFF); }
+    static std::uint32_t result_of(reg::Result code, std::uint8_t number, std::uint32_t detail = 0) {
+        return static_cast<std::uint32_t>(code) | (std::uint32_t{number} << 8) | (detail << 16);
+    }
+    std::uint32_t status() { return read(reg::STATUS).value_or(0); }
+    reg::RunState state() { return static_cast<reg::RunState>(status() & reg::kRunState); }
+
+    /// Begins, sends all in pieces of 128 bytes, commits; true if it ends stored.
+    bool upload(std::span<const std::uint8_t> table) {
+        if (!command(reg::Command::upload_begin)) return false;
+        for (std::size_t at = 0; at < table.size(); at += mactalk::kMaxLongWrite) {
+            if (!send(table.subspan(at, std::min(mactalk::kMaxLongWrite, table.size() - at)))) return false;
+        }
+        if (!write(reg::UPLOAD_BYTES, static_cast<std::uint32_t>(table.size())) ||
+            !write(reg::UPLOAD_CRC, base::crc32(table)) || !command(reg::Command::upload_commit))
+            return false;
+        run(std::chrono::milliseconds(100));
+        return read(reg::UPLOAD_STATE) == 4U;
+    }
+    bool upload_and_activate(std::span<const std::uint8_t> table) {
+        return upload(table) && command(reg::Command::activate);
+    }
+
+    BenchBoard board;
+    sim::SimStorage flash{kFlash};
+    std::array<std::uint8_t, (sequencer::kMaxTerms + 1) * sequencer::kTermBytes> memory{};
+    std::optional<SettingsKeeper> keeper;
+    std::optional<Gateway> gateway;
+    std::optional<TableKeeper> tables;
+    std::optional<OwnRegisters> own;
+    InstantLine line;
+    InstantLine motor_line;
+    bool wired = false;
+    std::optional<UserPort> port;
+};
+
+}  // namespace nplc::gateway

@@ -1,0 +1,283 @@
+// Sentences 5 to 8 and 10 of what the gateway must never do, as far as a person's port goes.
+#include <gtest/gtest.h>
+
+#include "base/bytes.h"
+#include "base/crc32.h"
+#include "port_bench.h"
+
+namespace nplc::gateway {
+namespace {
+
+using reg::Command;
+using reg::Result;
+
+// Step 0: IN0 -> step 1 with outputs 5, sends 40h (P1). Step 1: IN1 -> step 0, outputs 0.
+const Bytes kTable{{0xC0, 0x01, 0x01, 0x01, 0x40, 0x05, 0, 0}, {0xC1, 0x02, 0x02, 0x00, 0x80, 0x00, 0, 0}};
+constexpr int kPIst = 10;
+constexpr int kVIst = 12;
+
+struct PortSafety : testing::Test, PortBench {
+    PortSafety() : PortBench({.safe_outputs = 0x02, .autostart = false}) {}
+
+    void start_table() {
+        ASSERT_TRUE(upload_and_activate(kTable));
+        ASSERT_TRUE(command(Command::run));
+        run(10ms);
+        ASSERT_EQ(state(), reg::RunState::running);
+        board.sent.clear();
+        board.stops = 0;
+    }
+    bool set(store::Setting setting, std::uint32_t value) {
+        return write(static_cast<std::uint8_t>(reg::SETTINGS + static_cast<int>(setting)), value);
+    }
+};
+
+TEST_F(PortSafety, ATableBecomesActiveOnlyWhileStopped) {
+    start_table();
+    const Bytes other{{0xC0, 0, 0, 0x3E, 0x80, 0x0F, 0, 0}};
+    EXPECT_TRUE(upload(other)) << "a running sequence is not disturbed by an upload";
+    EXPECT_EQ(state(), reg::RunState::running);
+    EXPECT_EQ(read(reg::TABLE_CRC), base::crc32(kTable));
+    EXPECT_FALSE(command(Command::activate));
+    EXPECT_EQ(result(), result_of(Result::not_stopped, reg::COMMAND));
+    ASSERT_TRUE(command(Command::stop));
+    EXPECT_TRUE(command(Command::activate));
+    EXPECT_EQ(read(reg::TABLE_CRC), base::crc32(other));
+    EXPECT_EQ(state(), reg::RunState::stopped);
+}
+
+TEST_F(PortSafety, ATableBecomesActiveOnlyWhileTheMotorStandsStill) {
+    ASSERT_TRUE(upload(kTable));
+    board.motor_registers[kVIst] = 1;
+    EXPECT_FALSE(command(Command::activate));
+    EXPECT_EQ(result(), result_of(Result::moving, reg::COMMAND));
+    board.motor_registers[kVIst] = 0;
+    ask({.kind = mactalk::Kind::write,
+         .address = reg::kDefaultAddress,
+         .reg = reg::COMMAND,
+         .length = 4,
+         .value = static_cast<std::uint32_t>(Command::activate)});
+    run(20ms);
+    board.motor_registers[kPIst] = 2;  // two counts in 50 ms: slower than V_IST can show
+    EXPECT_TRUE(heard().empty());
+    EXPECT_EQ(result(), result_of(Result::moving, reg::COMMAND));
+    board.link_state = motor::Link::down;
+    EXPECT_FALSE(command(Command::activate));
+    EXPECT_EQ(result(), result_of(Result::link_down, reg::COMMAND));
+    EXPECT_EQ(read(reg::TABLE_BYTES), 0U);
+    board.link_state = motor::Link::up;
+    EXPECT_TRUE(command(Command::activate));
+}
+
+TEST_F(PortSafety, AnActivatedTableDoesNotStartByItself) {
+    start({.autostart = true});
+    ASSERT_TRUE(upload_and_activate(kTable));
+    run(100ms);
+    EXPECT_EQ(state(), reg::RunState::stopped);
+}
+
+TEST_F(PortSafety, WhileItRunsEveryRegisterIsReadAndTheMotorIsNotWritten) {
+    start_table();
+    board.motor_registers[5] = 99;
+    EXPECT_EQ(read(5, kMotor), 99U);
+    board.accesses.clear();
+    EXPECT_FALSE(write(5, 1, 2, kMotor));
+    EXPECT_FALSE(write(5, 1, 2, mactalk::kEveryone));
+    EXPECT_TRUE(board.accesses.empty());
+    ASSERT_TRUE(command(Command::hold));
+    run(10ms);
+    ASSERT_EQ(state(), reg::RunState::held);
+    EXPECT_FALSE(write(5, 1, 2, kMotor)) << "held is not stopped";
+    ASSERT_TRUE(command(Command::stop));
+    EXPECT_TRUE(write(5, 1, 2, kMotor));
+}
+
+TEST_F(PortSafety, ASettingAllowsMotorWritesWhileItRuns) {
+    ASSERT_TRUE(set(store::Setting::motor_writes, 1));
+    start_table();
+    EXPECT_TRUE(write(5, 1, 2, kMotor));
+}
+
+TEST_F(PortSafety, SafeFlashAndResetMessagesNeedASettingOfTheirOwnWhileItRuns) {
+    wired = true;
+    const mactalk::Kind kinds[]{mactalk::Kind::safe_mode, mactalk::Kind::init_mode,
+                                mactalk::Kind::write_flash, mactalk::Kind::reset};
+    for (const std::uint32_t allowed : {0U, 1U, 2U}) {
+        start({.autostart = false});
+        ASSERT_TRUE(set(store::Setting::motor_writes, allowed));
+        start_table();
+        for (const auto kind : kinds) {
+            motor_line.sent.clear();
+            ask({.kind = kind, .address = kMotor});
+            run(10ms);
+            EXPECT_EQ(motor_line.sent.empty(), allowed < 2);
+        }
+        motor_line.sent.clear();
+        ask({.kind = mactalk::Kind::read_samples, .address = kMotor});
+        run(10ms);
+        EXPECT_FALSE(motor_line.sent.empty()) << "a read";
+    }
+}
+
+TEST_F(PortSafety, ForcedSignalsAreShownAndEndWhenTheirClientIsSilent) {
+    start_table();
+    ASSERT_TRUE(write(reg::FORCE_IN, 0x0101));
+    run(10ms);
+    EXPECT_EQ(read(reg::STEP), 1U) << "as if IN0 were on";
+    EXPECT_EQ(read(reg::INPUTS).value_or(0) & 0x3F3FU, 0x0001U) << "the terminals are shown too";
+    ASSERT_TRUE(write(reg::FORCE_OUT, 0x0A0A));
+    EXPECT_EQ(board.out, 0x0F) << "5 from the sequence, A forced";
+    EXPECT_NE(status() & reg::kForcedInputs, 0U);
+    EXPECT_NE(status() & reg::kForcedOutputs, 0U);
+    for (int i = 0; i < 3; ++i) {
+        run(4s);
+        EXPECT_TRUE(write(reg::FORCE_LEFT, 0));
+    }
+    for (int i = 0; i < 48; ++i) {
+        run(100ms);
+        EXPECT_NE(status() & reg::kForcedOutputs, 0U) << "reads do not count as the client's sign";
+    }
+    run(250ms);
+    EXPECT_EQ(status() & (reg::kForcedInputs | reg::kForcedOutputs), 0U);
+    EXPECT_EQ(board.out, 0x05);
+    EXPECT_EQ(read(reg::FORCE_LEFT), 0U);
+}
+
+TEST_F(PortSafety, ForcedSignalsEndAtAReset) {
+    start_table();
+    ASSERT_TRUE(write(reg::FORCE_IN, 0x3F3F));
+    ASSERT_TRUE(write(reg::FORCE_OUT, 0x0F0F));
+    start({});
+    EXPECT_EQ(read(reg::FORCE_IN), 0U);
+    EXPECT_EQ(read(reg::FORCE_OUT), 0U);
+}
+
+TEST_F(PortSafety, TheSafeStateBeatsForcedOutputsAndTheEnableInputIsNeverForced) {
+    ASSERT_TRUE(set(store::Setting::enable_input, 5));
+    board.in = 0x20;
+    start_table();
+    ASSERT_TRUE(write(reg::FORCE_OUT, 0x0F0F));
+    EXPECT_EQ(board.out, 0x0F);
+    ASSERT_TRUE(write(reg::FORCE_IN, 0x2020));
+    board.in = 0;
+    const auto lost = board.now;
+    run(10ms);
+    EXPECT_EQ(board.out, 0x02);
+    EXPECT_LE(board.out_since - lost, 10ms);
+    EXPECT_EQ(read(reg::SAFE_REASON), 7U);
+    EXPECT_EQ(board.stops, 1);
+}
+
+TEST_F(PortSafety, ABreakpointStopsTheMotorBeforeItHolds) {
+    start_table();
+    ASSERT_TRUE(write(reg::BREAK_LOW, 1U << 1));
+    board.is_settled = true;
+    board.in = 1;
+    run(3ms + 250us);
+    ASSERT_EQ(board.sent.size(), 1U) << "the scan's order first";
+    board.is_settled = false;  // the motor has still to execute it, and then the stop
+    run(20ms);
+    EXPECT_EQ(state(), reg::RunState::holding);
+    const int stops = board.stops;
+    board.is_settled = true;
+    run(1ms);
+    EXPECT_EQ(state(), reg::RunState::held);
+    EXPECT_EQ(board.stops, std::max(stops, 1));
+    EXPECT_EQ(board.stops, 1);
+    EXPECT_NE(status() & reg::kAtBreakpoint, 0U);
+    EXPECT_EQ(read(reg::STEP), 1U);
+    EXPECT_EQ(board.out, 0x05) << "outputs stay";
+    const auto scans = read(reg::SCANS);
+    run(1s);
+    EXPECT_EQ(read(reg::SCANS), scans);
+    board.in = 2;
+    ASSERT_TRUE(command(Command::run));
+    run(20ms);
+    EXPECT_EQ(read(reg::STEP), 0U) << "it goes on from where it was";
+}
+
+TEST_F(PortSafety, ABreakpointLeavesAVirtualMotorAlone) {
+    ASSERT_TRUE(set(store::Setting::virtual_motor, 1));
+    start_table();
+    ASSERT_TRUE(write(reg::BREAK_LOW, 1U << 1));
+    board.in = 1;
+    run(20ms);
+    EXPECT_EQ(state(), reg::RunState::held);
+    EXPECT_EQ(board.stops, 0);
+}
+
+TEST_F(PortSafety, SingleScansAndSteps) {
+    ASSERT_TRUE(upload_and_activate(kTable));
+    ASSERT_TRUE(command(Command::scan));
+    run(10ms);
+    EXPECT_EQ(state(), reg::RunState::held);
+    EXPECT_EQ(read(reg::SCANS), 1U);
+    ASSERT_TRUE(command(Command::scan));
+    run(10ms);
+    EXPECT_EQ(read(reg::SCANS), 2U) << "one scan, although nothing happened in it";
+    ASSERT_TRUE(command(Command::step));
+    run(100ms);
+    EXPECT_EQ(state(), reg::RunState::running) << "until the step changes";
+    const int stops = board.stops;
+    board.in = 1;
+    run(10ms);
+    EXPECT_EQ(state(), reg::RunState::held);
+    EXPECT_EQ(read(reg::STEP), 1U);
+    EXPECT_EQ(board.stops, stops + 1);
+}
+
+TEST_F(PortSafety, AMotorThatCannotBeStoppedEndsTheHoldInTheSafeState) {
+    start_table();
+    ASSERT_TRUE(command(Command::hold));
+    board.is_settled = false;
+    run(1100ms);
+    EXPECT_EQ(state(), reg::RunState::stopped);
+    EXPECT_EQ(read(reg::SAFE_REASON), 4U) << "motor stuck";
+}
+
+TEST_F(PortSafety, TheTimerStandsWhileHeld) {
+    const Bytes timed{{0xC0, 0x00, 0x00, 0x01, 0x80, 0x00, 0x64, 0},
+                      {0x41, 0x00, 0x00, 0x02, 0x80, 0x01, 0, 0}};
+    ASSERT_TRUE(upload_and_activate(timed));
+    ASSERT_TRUE(write(reg::BREAK_LOW, 1U << 1));
+    ASSERT_TRUE(command(Command::run));
+    run(1s);
+    EXPECT_EQ(read(reg::TIMER), 100U) << "as preset";
+    ASSERT_TRUE(write(reg::BREAK_LOW, 0));
+    ASSERT_TRUE(command(Command::run));
+    run(98ms);
+    EXPECT_EQ(read(reg::STEP), 1U);
+    run(4ms);
+    EXPECT_EQ(read(reg::STEP), 2U);
+}
+
+TEST_F(PortSafety, TheSafeCommandEndsAllThatAPersonDid) {
+    start_table();
+    ASSERT_TRUE(write(reg::FORCE_OUT, 0x0F0F));
+    ASSERT_TRUE(write(reg::BREAK_LOW, 3));
+    ASSERT_TRUE(command(Command::upload_begin));
+    ASSERT_TRUE(command(Command::safe));
+    EXPECT_EQ(board.out, 0x02);
+    EXPECT_EQ(board.stops, 1);
+    EXPECT_EQ(read(reg::SAFE_REASON), 8U);
+    EXPECT_EQ(read(reg::BREAK_LOW), 0U);
+    EXPECT_EQ(read(reg::UPLOAD_STATE), 0U);
+    EXPECT_EQ(status() & (reg::kForcedOutputs | reg::kBreakpoints), 0U);
+}
+
+TEST_F(PortSafety, AStatusLampBlinksAndIsNoneOfTheSequencesOutputs) {
+    ASSERT_TRUE(set(store::Setting::status_output, 3));
+    int changes = 0;
+    for (int last = board.out, i = 0; i < 4000; ++i) {
+        poll();
+        EXPECT_EQ(board.out & 7, 0x02);
+        changes += board.out != last ? 1 : 0;
+        last = board.out;
+    }
+    EXPECT_EQ(changes, 2) << "1 Hz while stopped";
+    start_table();
+    EXPECT_EQ(board.out & 8, 8) << "on while it runs";
+}
+
+}  // namespace
+}  // namespace nplc::gateway

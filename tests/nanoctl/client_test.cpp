@@ -1,0 +1,195 @@
+// The client on the firmware's own user port, in virtual time.
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "base/crc32.h"
+#include "gateway_unit.h"
+#include "nanoctl/status.h"
+#include "nanoctl/transfer.h"
+#include "store/settings.h"
+#include "store_bench.h"
+
+namespace nplc::nanoctl {
+namespace {
+
+using gw::Command;
+using mactalk_client::LineError;
+using mactalk_client::Master;
+using mactalk_client::SimWire;
+
+const Progress kQuiet = [](std::size_t, std::size_t) {};
+
+struct Bench {
+    explicit Bench(std::uint64_t seed = 1, unsigned busy_polls = 1)
+        : unit(busy_polls),
+          wire(unit, 19'200, seed),
+          master(wire, {.attempts = 10}),
+          gateway(master, gw::kDefaultAddress) {}
+
+    template <class Call>
+    gw::Result refusal(Call call) {
+        try {
+            call();
+        } catch (const Refused& refused) {
+            return refused.result();
+        }
+        return gw::Result::done;
+    }
+    Status status() { return Status(gateway.read_block(gw::STATUS)); }
+
+    GatewayUnit unit;
+    SimWire wire;
+    Master master;
+    GatewayClient gateway;
+};
+
+std::vector<std::uint8_t> table(std::size_t terms, std::uint8_t seed = 1) {
+    return store::table_of(terms, seed);
+}
+
+TEST(Client, KnowsAGatewayFromAMotor) {
+    Bench bench;
+    bench.gateway.identify();
+    GatewayClient motor(bench.master, 254);
+    EXPECT_THROW(motor.identify(), WrongDevice);
+}
+
+TEST(Client, UploadsActivatesAndReadsBack) {
+    Bench bench;
+    const auto sent = table(100);
+    std::size_t last = 0;
+    upload(bench.gateway, sent, [&](std::size_t done, std::size_t all) {
+        EXPECT_GE(done, last);
+        EXPECT_EQ(all, sent.size());
+        last = done;
+    });
+    EXPECT_EQ(last, sent.size());
+    EXPECT_EQ(bench.gateway.read(gw::STORED_CRC), base::crc32(sent));
+    EXPECT_EQ(bench.gateway.read(gw::TABLE_BYTES), 0U) << "stored is not active";
+    EXPECT_EQ(download(bench.gateway, kQuiet), std::vector<std::uint8_t>());
+    bench.gateway.activate();
+    EXPECT_EQ(download(bench.gateway, kQuiet), sent);
+    bench.unit.start();
+    EXPECT_EQ(download(bench.gateway, kQuiet), sent) << "after a power-up";
+}
+
+TEST(Client, TellsWhatTheGatewayRefusesAndWhy) {
+    Bench bench;
+    EXPECT_EQ(bench.refusal([&] { bench.gateway.command(Command::run); }), gw::Result::no_table);
+    EXPECT_EQ(bench.refusal([&] { bench.gateway.command(Command::hold); }), gw::Result::not_running);
+    EXPECT_EQ(bench.refusal([&] { bench.gateway.activate(); }), gw::Result::nothing_stored);
+    EXPECT_EQ(bench.refusal([&] { bench.gateway.write(gw::UPTIME, 1); }), gw::Result::read_only);
+    EXPECT_EQ(bench.refusal([&] { bench.gateway.write(gw::BREAK_HIGH, 1U << 31); }), gw::Result::bad_value);
+    EXPECT_EQ(bench.refusal([&] { upload(bench.gateway, std::vector<std::uint8_t>(9000), kQuiet); }),
+              gw::Result::no_space);
+    auto wrong = table(50);
+    wrong[8 * 7 + 3] = 0x3F;
+    try {
+        upload(bench.gateway, wrong, kQuiet);
+        FAIL();
+    } catch (const Refused& refused) {
+        EXPECT_EQ(refused.result(), gw::Result::bad_next_step);
+        EXPECT_EQ(refused.detail(), 7);
+        EXPECT_NE(std::string(refused.what()).find("(term 7)"), std::string::npos) << refused.what();
+    }
+    upload(bench.gateway, table(20), kQuiet);
+    bench.unit.board.motor_registers[12] = 100;
+    EXPECT_EQ(bench.refusal([&] { bench.gateway.activate(); }), gw::Result::moving);
+}
+
+TEST(Client, RunsHoldsBreaksAndForces) {
+    Bench bench;
+    // Step 0: IN0 -> step 1 with OUT0; step 1: IN0 off -> step 0 without.
+    const std::vector<std::uint8_t> two{0xC0, 0x01, 0x01, 1, 0x80, 0x01, 0, 0, 0xC1, 0x00, 0x01, 0,
+                                        0x80, 0x00, 0,    0, 0x3F, 0,    0, 0, 0,    0,    0,    0};
+    upload(bench.gateway, two, kQuiet);
+    bench.gateway.activate();
+    bench.gateway.command(Command::run);
+    bench.master.pause(std::chrono::milliseconds{50});
+    EXPECT_EQ(bench.status().run_state, gw::RunState::running);
+    bench.gateway.write(gw::BREAK_LOW, 1U << 1);
+    bench.gateway.write(gw::FORCE_IN, 0x0101);
+    bench.master.pause(std::chrono::milliseconds{50});
+    const Status held = bench.status();
+    EXPECT_EQ(held.run_state, gw::RunState::held);
+    EXPECT_TRUE(held.has(gw::kAtBreakpoint));
+    EXPECT_TRUE(held.has(gw::kForcedInputs));
+    EXPECT_EQ(held.step, 1);
+    EXPECT_EQ(held.outputs, 1);
+    EXPECT_EQ(held.inputs & 1, 1);
+    EXPECT_EQ(held.terminals & 1, 0);
+    const Fired fired = read_fired(bench.gateway);
+    EXPECT_EQ(fired.step, 0);
+    EXPECT_EQ(fired.terms, std::vector<std::uint16_t>{0});
+    bench.master.pause(std::chrono::seconds{6});
+    EXPECT_FALSE(bench.status().has(gw::kForcedInputs)) << "after 5 s of silence";
+    bool seen = false;
+    for (const LogEntry& entry : read_log(bench.gateway))
+        seen = seen || entry.event == static_cast<int>(gw::Event::breakpoint);
+    EXPECT_TRUE(seen);
+}
+
+TEST(Client, SettingsOutliveAResetIfKept) {
+    Bench bench;
+    const auto reg = static_cast<std::uint8_t>(gw::SETTINGS + static_cast<int>(store::Setting::safe_outputs));
+    bench.gateway.write(reg, 5);
+    bench.gateway.reset();
+    EXPECT_EQ(bench.gateway.read(reg), 0U);
+    bench.gateway.write(reg, 5);
+    bench.gateway.command(Command::keep_settings, std::chrono::seconds{2});
+    bench.gateway.reset();
+    EXPECT_EQ(bench.gateway.read(reg), 5U);
+    EXPECT_EQ(bench.refusal([&] { bench.gateway.write(reg, 16); }), gw::Result::bad_value);
+}
+
+TEST(Client, ASlowStorageIsWaitedFor) {
+    Bench bench(1, 40);  // an erasure or programming takes 10 ms
+    const auto sent = table(300);
+    upload(bench.gateway, sent, kQuiet);
+    EXPECT_EQ(bench.gateway.read(gw::STORED_CRC), base::crc32(sent));
+}
+
+struct BadLine : testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(BadLine, TablesArriveWholeAndCommandsAreDoneOnce) {
+    Bench bench(GetParam());
+    bench.wire.set_faults({.drop = 0.0005, .damage = 0.001, .framing = 0.0005});
+    const auto sent = table(150, static_cast<std::uint8_t>(GetParam()));
+    upload(bench.gateway, sent, kQuiet);
+    bench.gateway.activate();
+    EXPECT_EQ(download(bench.gateway, kQuiet), sent) << "seed " << GetParam();
+    bench.gateway.command(Command::clear_log);
+    bench.gateway.command(Command::run);
+    bench.gateway.command(Command::stop);
+    bench.wire.set_faults({});
+    unsigned starts = 0;
+    for (const LogEntry& entry : read_log(bench.gateway))
+        starts += entry.event == static_cast<int>(gw::Event::started) ? 1U : 0U;
+    EXPECT_LE(starts, 1U) << "seed " << GetParam();
+    const auto& counters = bench.master.counters();
+    std::cout << "seed " << GetParam() << ": " << counters.questions << " questions, " << counters.timeouts
+              << " time-outs\n";
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, BadLine, testing::Range<std::uint64_t>(1, 21));
+
+TEST(Client, ALineThatIsCutEndsTheUploadAndTheOldTableStays) {
+    Bench bench;
+    const auto old = table(20);
+    upload(bench.gateway, old, kQuiet);
+    EXPECT_THROW(upload(bench.gateway, table(200, 2),
+                        [&](std::size_t done, std::size_t) {
+                            if (done > 500) bench.wire.to_unit().cut();
+                        }),
+                 LineError);
+    bench.wire.to_unit().restore();
+    EXPECT_EQ(bench.gateway.read(gw::STORED_CRC), base::crc32(old));
+    const auto next = table(30, 3);
+    upload(bench.gateway, next, kQuiet);
+    EXPECT_EQ(bench.gateway.read(gw::STORED_CRC), base::crc32(next));
+}
+
+}  // namespace
+}  // namespace nplc::nanoctl

@@ -1,0 +1,111 @@
+// Bits that flip while nothing is written: noticed, and the older good slot is used.
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "store_bench.h"
+
+namespace nplc::store {
+namespace {
+
+const Bytes kOld = table_of(10, 1);
+const Bytes kNew = table_of(12, 2);
+
+/// kOld lies in slot 0, kNew in slot 1.
+sim::SimStorage with_both(const Shape& shape) {
+    sim::SimStorage device(shape.geometry);
+    EXPECT_EQ(Session(device, shape.area).write(kOld), Phase::done);
+    EXPECT_EQ(Session(device, shape.area).write(kNew), Phase::done);
+    return device;
+}
+
+struct Part {
+    std::uint32_t begin;
+    std::uint32_t end;
+};
+
+/// Header, mark and content: the bytes that count.
+std::vector<Part> parts(const Shape& shape, unsigned slot, std::size_t length) {
+    const Layout layout(shape.geometry, shape.area);
+    return {{layout.header(slot), layout.header(slot) + static_cast<std::uint32_t>(kHeaderBytes)},
+            {layout.mark(slot), layout.mark(slot) + static_cast<std::uint32_t>(kMarkBytes)},
+            {layout.content(slot), layout.content(slot) + static_cast<std::uint32_t>(length)}};
+}
+
+template <class Look>
+std::uint64_t flip_each(const Shape& shape, const sim::SimStorage& start, unsigned slot, std::size_t length,
+                        Look look) {
+    std::uint64_t cases = 0;
+    for (const Part& part : parts(shape, slot, length)) {
+        for (std::uint32_t address = part.begin; address < part.end; ++address) {
+            for (unsigned bit = 0; bit < 8; ++bit, ++cases) {
+                sim::SimStorage device(start);
+                device.flip(address, bit);
+                look(device);
+            }
+        }
+    }
+    return cases;
+}
+
+TEST(Rest, AFlippedBitInTheLaterSlotIsNoticedAndTheOlderTableRuns) {
+    for (const Shape& shape : shapes(200)) {
+        const auto cases = flip_each(shape, with_both(shape), 1, kNew.size(), [&](sim::SimStorage& device) {
+            Session session(device, shape.area);
+            EXPECT_EQ(session.content(), kOld);
+            EXPECT_TRUE(session.slots.is_fallback());
+            EXPECT_EQ(session.slots.state(1), SlotState::damaged);
+        });
+        std::cout << shape.name << ": " << cases << " flips\n";
+    }
+}
+
+TEST(Rest, AFlippedBitInTheOlderSlotDoesNotMatterAndIsSeen) {
+    for (const Shape& shape : shapes(200)) {
+        flip_each(shape, with_both(shape), 0, kOld.size(), [&](sim::SimStorage& device) {
+            Session session(device, shape.area);
+            EXPECT_EQ(session.content(), kNew);
+            EXPECT_EQ(session.slots.state(0), SlotState::damaged);
+        });
+    }
+}
+
+TEST(Rest, ADamagedSlotIsNeverTheReasonToOverwriteTheGoodOne) {
+    for (const Shape& shape : shapes(200)) {
+        flip_each(shape, with_both(shape), 1, kNew.size(), [&](sim::SimStorage& device) {
+            Session session(device, shape.area);
+            ASSERT_TRUE(session.slots.begin().ok());
+            session.poll_while(Phase::erasing);
+            EXPECT_EQ(Session(device, shape.area).content(), kOld);
+        });
+    }
+}
+
+TEST(Rest, WithBothSlotsDamagedThereIsNoTableAndItIsSaid) {
+    const Shape shape = shapes(200).front();
+    auto device = with_both(shape);
+    for (unsigned slot = 0; slot < 2; ++slot)
+        device.flip(Layout(shape.geometry, shape.area).content(slot), 3);
+    Session session(device, shape.area);
+    EXPECT_FALSE(session.slots.has_current());
+    EXPECT_TRUE(session.slots.is_fallback());
+    EXPECT_EQ(session.write(kNew), Phase::done);
+    EXPECT_EQ(Session(device, shape.area).content(), kNew);
+}
+
+TEST(Rest, ABitThatFlipsAfterTheStartIsNoticedWhenTheTableIsLoaded) {
+    const Shape shape = shapes(200).front();
+    auto device = with_both(shape);
+    Session session(device, shape.area);
+    device.flip(Layout(shape.geometry, shape.area).content(1) + 5, 0);
+    Bytes bytes(1000);
+    const auto length = session.slots.load(bytes);
+    ASSERT_TRUE(length.ok());
+    bytes.resize(length.value());
+    EXPECT_EQ(bytes, kOld);
+    EXPECT_TRUE(session.slots.is_fallback());
+}
+
+}  // namespace
+}  // namespace nplc::store

@@ -1,0 +1,126 @@
+#include "store/settings.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string_view>
+
+#include "store/settings_store.h"
+#include "store_bench.h"
+
+namespace nplc::store {
+namespace {
+
+Phase save(SettingsStore& settings, const SettingValues& values) {
+    if (!settings.save(values)) return Phase::failed;
+    for (int i = 0; i < 100'000 && settings.phase() != Phase::done && settings.phase() != Phase::failed; ++i)
+        settings.poll();
+    return settings.phase();
+}
+
+TEST(Settings, AreListedByNumberWithInitialValuesThatAreAllowed) {
+    std::set<std::string_view> names;
+    for (std::size_t i = 0; i < kSettings; ++i) {
+        const SettingInfo& info = all_settings()[i];
+        EXPECT_EQ(static_cast<std::size_t>(info.id), i + 1);
+        EXPECT_EQ(find_setting(static_cast<std::uint8_t>(i + 1)), &info);
+        EXPECT_TRUE(is_allowed(info, info.initial)) << info.name;
+        EXPECT_FALSE(info.help.empty());
+        EXPECT_TRUE(names.insert(info.name).second) << info.name;
+        EXPECT_EQ(SettingValues().get(info.id), info.initial);
+    }
+    EXPECT_EQ(find_setting(0), nullptr);
+    EXPECT_EQ(find_setting(kSettings + 1), nullptr);
+}
+
+TEST(Settings, TakeTheirValuesAndNoOthers) {
+    for (const SettingInfo& info : all_settings()) {
+        SettingValues values;
+        EXPECT_TRUE(values.set(info.id, info.lowest).ok());
+        EXPECT_TRUE(values.set(info.id, info.highest).ok());
+        EXPECT_EQ(values.get(info.id), info.highest);
+        if (info.lowest > 0) {
+            EXPECT_EQ(values.set(info.id, info.lowest - 1).error(), base::Error::bad_setting);
+        }
+        if (info.highest + 1 != kNone) {
+            EXPECT_EQ(values.set(info.id, info.highest + 1).error(), base::Error::bad_setting) << info.name;
+        }
+        const bool inside = info.lowest <= kNone && kNone <= info.highest;
+        EXPECT_EQ(values.set(info.id, kNone).ok(), info.has_none || inside) << info.name;
+    }
+    EXPECT_EQ(SettingValues().set(Setting{18}, 1).error(), base::Error::bad_setting);
+    EXPECT_EQ(SettingValues().set(Setting{0}, 1).error(), base::Error::bad_setting);
+}
+
+TEST(Settings, AreStoredAsNumberAndFourBytes) {
+    SettingValues values;
+    ASSERT_TRUE(values.set(Setting::motor_baud, 115'200).ok());  // 0001C200h
+    const auto bytes = encode(values);
+    EXPECT_EQ(Bytes(bytes.begin() + 10, bytes.begin() + 15), (Bytes{3, 0x00, 0xC2, 0x01, 0x00}));
+    const auto back = decode_settings(bytes);
+    ASSERT_TRUE(back.ok());
+    EXPECT_EQ(back.value(), values);
+}
+
+TEST(Settings, UnknownOnesAreLeftOutMissingOnesInitialWrongOnesRefused) {
+    const Bytes some{200, 1, 2, 3, 4, 12, 0x10, 0x27, 0, 0};  // 2710h = 10000
+    const auto values = decode_settings(some);
+    ASSERT_TRUE(values.ok());
+    EXPECT_EQ(values.value().get(Setting::force_timeout), 10'000U);
+    EXPECT_EQ(values.value().get(Setting::debounce), 3'000U);
+    EXPECT_EQ(decode_settings(Bytes{6, 16, 0, 0, 0}).error(), base::Error::bad_setting);
+    EXPECT_EQ(decode_settings(Bytes{6, 15, 0, 0}).error(), base::Error::bad_setting);
+}
+
+struct SettingsStoreTest : testing::Test {
+    const Shape shape = shapes(kMaxSettingsBytes).front();
+    sim::SimStorage device{shape.geometry};
+};
+
+TEST_F(SettingsStoreTest, KeepsThem) {
+    SettingsStore settings(device, shape.area);
+    ASSERT_EQ(settings.mount().value(), SettingValues());
+    SettingValues values;
+    ASSERT_TRUE(values.set(Setting::safe_outputs, 5).ok());
+    ASSERT_EQ(save(settings, values), Phase::done);
+    EXPECT_EQ(SettingsStore(device, shape.area).mount().value(), values);
+}
+
+TEST_F(SettingsStoreTest, PowerCutsLeaveOldOrNewOnes) {
+    SettingValues old;
+    SettingValues next;
+    ASSERT_TRUE(old.set(Setting::safe_outputs, 5).ok());
+    ASSERT_TRUE(next.set(Setting::safe_outputs, 10).ok());
+    {
+        SettingsStore settings(device, shape.area);
+        ASSERT_TRUE(settings.mount().ok());
+        ASSERT_EQ(save(settings, next), Phase::done);
+        ASSERT_EQ(save(settings, old), Phase::done);
+    }
+    int cases = 0;
+    device.watch([&](const sim::StorageOperation& operation) {
+        for (const sim::Tear& tear : sim::tears_of(operation, shape.geometry)) {
+            sim::SimStorage torn = device.torn(operation, tear);
+            const auto found = SettingsStore(torn, shape.area).mount();
+            ASSERT_TRUE(found.ok());
+            EXPECT_TRUE(found.value() == old || found.value() == next);
+            ++cases;
+        }
+    });
+    SettingsStore settings(device, shape.area);
+    ASSERT_TRUE(settings.mount().ok());
+    ASSERT_EQ(save(settings, next), Phase::done);
+    EXPECT_GT(cases, 100);
+    std::cout << cases << " cases\n";
+}
+
+TEST_F(SettingsStoreTest, DamageIsSaid) {
+    SettingsStore settings(device, shape.area);
+    ASSERT_TRUE(settings.mount().ok());
+    ASSERT_EQ(save(settings, SettingValues()), Phase::done);
+    device.flip(Layout(shape.geometry, shape.area).content(0), 0);
+    EXPECT_EQ(SettingsStore(device, shape.area).mount().error(), base::Error::damaged);
+}
+
+}  // namespace
+}  // namespace nplc::store

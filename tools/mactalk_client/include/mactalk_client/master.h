@@ -1,0 +1,118 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "base/time.h"
+#include "mactalk_client/wire.h"
+#include "protocol/mactalk.h"
+
+/// A MacTalk master (001 §5.1): asks units on a line, one question at a time. Answers that belong to no
+/// question are read over; after noise the next whole answer is understood.
+namespace nplc::mactalk_client {
+
+struct MasterOptions {
+    std::uint32_t baud = 19'200;  ///< what messages take on the line; sockets are taken to be as slow
+    /// Beyond the time that question and answer take on the line; what a host's driver delays included.
+    base::Microseconds patience{150'000};
+    unsigned attempts = 4;
+};
+
+class LineError : public std::runtime_error {
+  public:
+    enum class Kind : std::uint8_t {
+        port_gone,
+        no_answer,
+        no_message,  ///< what no message can say: register 0, a wrong length
+    };
+    LineError(Kind kind, const std::string& what) : std::runtime_error(what), kind_(kind) {}
+    Kind kind() const { return kind_; }
+
+  private:
+    Kind kind_;
+};
+
+/// Bytes of a register's write. On MAC50-141 a longword written to a number reaches the next number too.
+enum class Width : std::uint8_t { word = 2, longword = 4 };
+
+/// Times out and asks again, up to `attempts` times, where that can do no harm. Every function throws
+/// LineError.
+class Master {
+  public:
+    struct Counters {
+        std::uint64_t questions = 0;  ///< sent, the repeats included
+        std::uint64_t timeouts = 0;
+        std::uint64_t stray_bytes = 0;  ///< received and part of no answer
+    };
+
+    explicit Master(Wire& wire, const MasterOptions& options = {}) : wire_(wire), options_(options) {}
+
+    /// The four bytes of the answer: on MAC50-141 a 16-bit register in the lower word and the next one above.
+    std::uint32_t read(std::uint8_t address, std::uint8_t reg);
+    /// 64 bytes from the register on.
+    std::array<std::uint8_t, protocol::mactalk::kBlockBytes> read_block(std::uint8_t address,
+                                                                        std::uint8_t reg);
+    /// The same, asked once: for reads that move something on. Nothing without an answer.
+    std::optional<std::array<std::uint8_t, protocol::mactalk::kBlockBytes>> try_read_block(
+        std::uint8_t address, std::uint8_t reg);
+    /// The next sample (53h): four words, or four longwords with `bytes` 16. Asked once, as each question
+    /// takes a sample: after no_answer rewind the buffer (REWIND) and begin anew.
+    std::vector<std::uint8_t> read_sample(std::uint8_t address, std::size_t bytes);
+
+    /// Repeated if no accept comes, so only for registers where writing twice is writing once.
+    void write(std::uint8_t address, std::uint8_t reg, std::uint32_t value, Width width);
+    /// Once. False if no accept comes: lost, refused, or done and the accept lost.
+    bool try_write(std::uint8_t address, std::uint8_t reg, std::uint32_t value, Width width,
+                   base::Microseconds more_patience = {});
+    /// 4 to 128 bytes to the gateway's table window, once.
+    bool try_write_long(std::uint8_t address, std::uint8_t reg, std::span<const std::uint8_t> data,
+                        base::Microseconds more_patience = {});
+
+    /// 54h, 55h: repeated until accepted.
+    void safe_mode(std::uint8_t address);
+    void init_mode(std::uint8_t address);
+    /// 56h, 57h: sent once, nothing is answered.
+    void write_flash(std::uint8_t address);
+    void reset(std::uint8_t address);
+
+    /// Lets time pass; what comes meanwhile is read over.
+    void pause(base::Microseconds time);
+
+    Wire& wire() { return wire_; }
+    const Counters& counters() const { return counters_; }
+
+  private:
+    using Reply = protocol::mactalk::Reply;
+
+    struct Question {
+        std::uint8_t address;
+        std::uint8_t reg;  ///< that the answer must name; 0: none
+        protocol::mactalk::Answer answer;
+        std::size_t data_bytes;
+        std::span<const std::uint8_t> bytes;
+        base::Microseconds more_patience{};
+    };
+
+    std::optional<Reply> ask_once(const Question& question);
+    Reply ask(const Question& question);
+    Reply ask(const protocol::mactalk::Request& request, std::size_t data_bytes, unsigned attempts);
+    void send(std::span<const std::uint8_t> bytes);
+    std::size_t receive(std::span<std::uint8_t> out, base::Microseconds wait);
+    void settle(bool for_accept);
+    base::Microseconds on_line(std::size_t bytes) const;
+    [[noreturn]] void no_answer(std::uint8_t address, unsigned attempts) const;
+    [[noreturn]] void gone() const;
+
+    Wire& wire_;
+    MasterOptions options_;
+    Counters counters_;
+    std::uint64_t heard_ = 0;  ///< bytes since the question
+    bool unsettled_ = false;   ///< an answer may still be on its way
+    base::Instant silent_since_{};
+};
+
+}  // namespace nplc::mactalk_client

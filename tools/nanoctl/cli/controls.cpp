@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+
+#include "cli/subcommands.h"
+#include "nanoctl/words.h"
+
+namespace nplc::nanoctl::cli {
+namespace {
+
+void tell_state(Session& session) {
+    const Status status = session.status();
+    session.tell(fmt::format("{}, step {}", name_of(status.run_state), session.names().step(status.step)),
+                 {{"state", name_of(status.run_state)}, {"step", status.step}});
+}
+
+void add_order(CLI::App& app, Common& common, gw::Command order, const char* text) {
+    CLI::App& command = add_command(app, std::string(name_of(order)), text);
+    command.callback([order, &common] {
+        work(common, [&](Session& session) {
+            session.gateway().command(order);
+            tell_state(session);
+        });
+    });
+}
+
+}  // namespace
+
+void add_controls(CLI::App& app, Common& common) {
+    add_order(app, common, gw::Command::run,
+              "Start the sequence from step 0, the motor stopped first; or let a held one go on");
+    add_order(app, common, gw::Command::stop, "Stop sequence and motor; outputs take their safe values");
+    add_order(app, common, gw::Command::safe, "Stop, and end forces, breakpoints and an upload too");
+    add_order(app, common, gw::Command::hold,
+              "Hold the sequence at the end of a scan, the motor stopped, outputs as they are");
+    add_command(app, "activate", "Make the stored table the active one").callback([&common] {
+        work(common, [](Session& session) {
+            session.gateway().activate();
+            const std::uint32_t crc = session.gateway().read(gw::TABLE_CRC);
+            session.tell(fmt::format("the stored table is active, CRC {:08X}h", crc), {{"crc32", crc}});
+        });
+    });
+    add_command(app, "reset", "Restart the gateway and wait until it answers; only while stopped")
+        .callback([&common] {
+            work(common, [](Session& session) {
+                session.gateway().reset();
+                tell_state(session);
+            });
+        });
+}
+
+}  // namespace nplc::nanoctl::cli

@@ -1,0 +1,207 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <vector>
+
+#include "cli/subcommands.h"
+#include "nanoctl/words.h"
+
+namespace nplc::nanoctl::cli {
+namespace {
+
+std::uint64_t read_breaks(GatewayClient& gateway) {
+    return gateway.read(gw::BREAK_LOW) | static_cast<std::uint64_t>(gateway.read(gw::BREAK_HIGH)) << 32;
+}
+
+void tell_breaks(Session& session) {
+    const std::uint64_t breaks = read_breaks(session.gateway());
+    std::vector<unsigned> steps;
+    std::string text;
+    for (unsigned step = 0; step < 63; ++step) {
+        if ((breaks >> step & 1U) == 0) continue;
+        steps.push_back(step);
+        text += (text.empty() ? "" : ", ") + session.names().step(step);
+    }
+    session.tell(text.empty() ? "no breakpoints" : "breakpoints at steps " + text, {{"steps", steps}});
+}
+
+std::uint64_t steps_mask(const Session& session, const std::vector<std::string>& texts) {
+    std::uint64_t mask = 0;
+    for (const std::string& text : texts) {
+        const auto step = session.names().find_step(text);
+        if (!step)
+            throw UserError(
+                fmt::format("'{}' is no step: write 0..62, or a name of the program with --sym", text));
+        mask |= std::uint64_t{1} << *step;
+    }
+    return mask;
+}
+
+void write_breaks(Session& session, std::uint64_t breaks) {
+    session.gateway().write(gw::BREAK_LOW, static_cast<std::uint32_t>(breaks));
+    session.gateway().write(gw::BREAK_HIGH, static_cast<std::uint32_t>(breaks >> 32));
+    tell_breaks(session);
+}
+
+/// FORCE_IN or FORCE_OUT: levels below, mask at `mask_at`.
+struct Force {
+    std::uint8_t reg;
+    unsigned mask_at;
+    std::uint32_t levels = 0;
+    std::uint32_t mask = 0;
+
+    bool touched() const { return mask != 0; }
+    void set(unsigned index, bool level) {
+        mask |= 1U << index;
+        levels = level ? levels | 1U << index : levels & ~(1U << index);
+    }
+    /// With what was forced before.
+    std::uint32_t over(std::uint32_t before) const {
+        return (before & ~mask & ~(mask << mask_at)) | levels | mask << mask_at;
+    }
+};
+
+struct ForceOptions {
+    std::vector<std::string> what;
+    bool off = false;
+    bool keep = false;
+    double seconds = 0;
+};
+
+void parse_force(const Session& session, const std::string& text, Force& in, Force& out) {
+    const auto equals = text.find('=');
+    const std::string name = text.substr(0, equals);
+    const std::string level = equals == std::string::npos ? "" : text.substr(equals + 1);
+    const auto input = session.names().find_input(name);
+    const auto output = session.names().find_output(name);
+    if ((!input && !output) || (level != "0" && level != "1"))
+        throw UserError(
+            fmt::format("'{}': write IN0..IN5 or OUT0..OUT3, or a name of the program with --sym, and "
+                        "=0 or =1",
+                        text));
+    if (input)
+        in.set(*input, level == "1");
+    else
+        out.set(*output, level == "1");
+}
+
+void tell_forces(Session& session) {
+    const std::uint32_t in = session.gateway().read(gw::FORCE_IN);
+    const std::uint32_t out = session.gateway().read(gw::FORCE_OUT);
+    const std::uint32_t left = session.gateway().read(gw::FORCE_LEFT);
+    std::string text;
+    Json forced = Json::object();
+    const auto add = [&](const std::string& name, bool level) {
+        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, level ? 1 : 0);
+        forced[name] = level ? 1 : 0;
+    };
+    for (unsigned i = 0; i < 6; ++i) {
+        if ((in >> (8 + i) & 1U) != 0) add(session.names().input(i), (in >> i & 1U) != 0);
+    }
+    for (unsigned i = 0; i < 4; ++i) {
+        if ((out >> (8 + i) & 1U) != 0) add(session.names().output(i), (out >> i & 1U) != 0);
+    }
+    session.tell(text.empty() ? "nothing is forced" : fmt::format("forced for {} ms: {}", left, text),
+                 {{"forced", forced}, {"left_ms", left}});
+}
+
+/// Forces end by themselves unless renewed.
+void keep_forces(Session& session, double seconds) {
+    const base::Instant begun = session.now();
+    const base::Microseconds limit{static_cast<std::int64_t>(seconds * 1e6)};
+    const std::uint32_t timeout = std::max(session.gateway().read(gw::FORCE_LEFT), 100U);
+    while (goes_on() && (seconds == 0 || session.now() - begun < limit)) {
+        session.pause(base::Milliseconds{std::min(timeout / 4, 500U)});
+        session.gateway().write(gw::FORCE_LEFT, 0);
+    }
+    session.gateway().write(gw::FORCE_IN, 0);
+    session.gateway().write(gw::FORCE_OUT, 0);
+}
+
+void force(Session& session, const ForceOptions& options) {
+    GatewayClient& gateway = session.gateway();
+    Force in{.reg = gw::FORCE_IN, .mask_at = 8};
+    Force out{.reg = gw::FORCE_OUT, .mask_at = 8};
+    for (const std::string& text : options.what) parse_force(session, text, in, out);
+    for (const Force& one : {in, out}) {
+        if (options.off) gateway.write(one.reg, 0);
+        if (one.touched()) gateway.write(one.reg, one.over(gateway.read(one.reg)));
+    }
+    tell_forces(session);
+    if (options.keep || options.seconds > 0) keep_forces(session, options.seconds);
+}
+
+std::string detail_text(const LogEntry& entry) {
+    switch (static_cast<gw::Event>(entry.event)) {
+        case gw::Event::forced:
+            return entry.detail == gw::FORCE_OUT ? ", outputs" : ", inputs";
+        case gw::Event::forces_ended:
+            return entry.detail == 1 ? ", by silence" : ", by the user";
+        case gw::Event::upload_failed:
+            return fmt::format(", {}", gw::describe(static_cast<gw::Result>(entry.detail & 0xFF)));
+        default:
+            return entry.detail == 0 ? "" : fmt::format(", {}", entry.detail);
+    }
+}
+
+void log(Session& session, bool clear) {
+    const auto entries = read_log(session.gateway());
+    std::string text;
+    Json list = Json::array();
+    for (const LogEntry& entry : entries) {
+        text += fmt::format("{:>14}  step {}  {}{}\n", time_text(entry.uptime),
+                            session.names().step(entry.step), name_of_event(entry.event), detail_text(entry));
+        list.push_back({{"number", entry.number},
+                        {"uptime_ms", entry.uptime},
+                        {"event", name_of_event(entry.event)},
+                        {"step", entry.step},
+                        {"detail", entry.detail}});
+    }
+    if (clear) session.gateway().command(gw::Command::clear_log);
+    if (!text.empty()) text.pop_back();
+    session.tell(text.empty() ? "the log is empty" : text, {{"entries", list}});
+}
+
+}  // namespace
+
+void add_break(CLI::App& app, Common& common) {
+    CLI::App& command = add_command(app, "break",
+                                    "Breakpoints: the sequence is held when it enters such a step, the motor "
+                                    "stopped. Without more: list them");
+    const auto steps = std::make_shared<std::vector<std::string>>();
+    command.add_option("steps", *steps, "Steps to add, by number or name");
+    const auto removed = std::make_shared<std::vector<std::string>>();
+    command.add_option("--remove", *removed, "Steps to remove");
+    const auto clear = std::make_shared<bool>(false);
+    command.add_flag("--clear", *clear, "Remove all");
+    command.callback([steps, removed, clear, &common] {
+        work(common, [&](Session& session) {
+            const std::uint64_t add = steps_mask(session, *steps);
+            const std::uint64_t remove = *clear ? ~std::uint64_t{0} : steps_mask(session, *removed);
+            if (add == 0 && remove == 0) return tell_breaks(session);
+            write_breaks(session, (read_breaks(session.gateway()) & ~remove) | add);
+        });
+    });
+}
+
+void add_force(CLI::App& app, Common& common) {
+    CLI::App& command = add_command(app, "force",
+                                    "Force inputs and outputs. Forces end by themselves after 5 s (setting "
+                                    "force_timeout) unless kept. Without more: show them");
+    const auto options = std::make_shared<ForceOptions>();
+    command.add_option("what", options->what, "IN2=1 OUT0=0 ..., or names of the program with --sym");
+    command.add_flag("--off", options->off, "End all forces first");
+    command.add_flag("--keep", options->keep, "Keep them until Ctrl-C, then end them");
+    command.add_option("--for", options->seconds, "Keep them for so many seconds, then end them")
+        ->check(CLI::NonNegativeNumber);
+    command.callback([options, &common] { work(common, [&](Session& s) { force(s, *options); }); });
+}
+
+void add_log(CLI::App& app, Common& common) {
+    CLI::App& command = add_command(app, "log", "The gateway's last 16 events, oldest first");
+    const auto clear = std::make_shared<bool>(false);
+    command.add_flag("--clear", *clear, "Empty it afterwards");
+    command.callback([clear, &common] { work(common, [&](Session& s) { log(s, *clear); }); });
+}
+
+}  // namespace nplc::nanoctl::cli

@@ -1,0 +1,118 @@
+#include "store/settings.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <memory>
+#include <vector>
+
+#include "cli/subcommands.h"
+
+namespace nplc::nanoctl::cli {
+namespace {
+
+using store::SettingInfo;
+
+std::uint8_t reg_of(const SettingInfo& info) {
+    return static_cast<std::uint8_t>(gw::SETTINGS + static_cast<unsigned>(info.id));
+}
+
+const SettingInfo& find(const std::string& name) {
+    for (const SettingInfo& info : store::all_settings()) {
+        if (info.name == name) return info;
+    }
+    throw UserError(fmt::format("'{}' is no setting; `nanoctl settings list` shows them all", name));
+}
+
+std::string value_text(const SettingInfo& info, std::uint32_t value) {
+    if (info.has_none && value == store::kNone) return "none";
+    return fmt::format("{}{}{}", value, info.unit.empty() ? "" : " ", info.unit);
+}
+
+std::string range_text(const SettingInfo& info) {
+    return fmt::format("{} to {}{}", info.lowest, value_text(info, info.highest),
+                       info.has_none ? ", or none" : "");
+}
+
+void list(Session& session) {
+    std::string text;
+    Json all = Json::object();
+    for (const SettingInfo& info : store::all_settings()) {
+        const std::uint32_t value = session.gateway().read(reg_of(info));
+        text += fmt::format("{}{:<18} {:<12} {} ({})", text.empty() ? "" : "\n", info.name,
+                            value_text(info, value), info.help, range_text(info));
+        all[std::string(info.name)] = value;
+    }
+    session.tell(text, {{"settings", all}});
+}
+
+void get(Session& session, const std::vector<std::string>& names) {
+    std::string text;
+    Json some = Json::object();
+    for (const std::string& name : names) {
+        const SettingInfo& info = find(name);
+        const std::uint32_t value = session.gateway().read(reg_of(info));
+        text += fmt::format("{}{} = {}", text.empty() ? "" : "\n", name, value_text(info, value));
+        some[name] = value;
+    }
+    session.tell(text, {{"settings", some}});
+}
+
+struct Assignment {
+    const SettingInfo* info;
+    std::uint32_t value;
+};
+
+Assignment parse(const std::string& text) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos) throw UserError(fmt::format("'{}': write NAME=VALUE", text));
+    const SettingInfo& info = find(text.substr(0, equals));
+    const std::string digits = text.substr(equals + 1);
+    std::uint32_t value = store::kNone;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const bool is_number = error == std::errc() && end == digits.data() + digits.size() && !digits.empty();
+    const bool is_none = info.has_none && digits == "none";
+    if (!(is_none || is_number) || !store::is_allowed(info, is_none ? store::kNone : value))
+        throw UserError(fmt::format("'{}': {} is {}", text, info.name, range_text(info)));
+    return {&info, is_none ? store::kNone : value};
+}
+
+/// All are looked at before the first is written.
+void set(Session& session, const std::vector<std::string>& texts, bool keep) {
+    std::vector<Assignment> assignments;
+    for (const std::string& text : texts) assignments.push_back(parse(text));
+    Json changed = Json::object();
+    for (const Assignment& one : assignments) {
+        session.gateway().write(reg_of(*one.info), one.value);
+        changed[std::string(one.info->name)] = one.value;
+    }
+    if (keep) session.gateway().command(gw::Command::keep_settings, base::Milliseconds{2'000});
+    session.tell(keep ? "set and kept; address and speeds count from the next reset on"
+                      : "set until the next reset; keep them with --keep",
+                 {{"settings", changed}, {"kept", keep}});
+}
+
+}  // namespace
+
+void add_settings(CLI::App& app, Common& common) {
+    CLI::App& command =
+        add_command(app, "settings", "The gateway's settings; changed only while the sequence is stopped");
+    command.require_subcommand(1);
+    add_command(command, "list", "All of them, with their ranges").callback([&common] {
+        work(common, list);
+    });
+
+    const auto names = std::make_shared<std::vector<std::string>>();
+    CLI::App& getter = add_command(command, "get", "Some of them");
+    getter.add_option("names", *names, "Names of settings")->required();
+    getter.callback([names, &common] { work(common, [&](Session& s) { get(s, *names); }); });
+
+    const auto texts = std::make_shared<std::vector<std::string>>();
+    const auto keep = std::make_shared<bool>(false);
+    CLI::App& setter = add_command(command, "set", "Change some of them");
+    setter.add_option("values", *texts, "NAME=VALUE ...")->required();
+    setter.add_flag("--keep", *keep, "Store all settings, so that they outlive a power cut");
+    setter.callback([texts, keep, &common] { work(common, [&](Session& s) { set(s, *texts, *keep); }); });
+}
+
+}  // namespace nplc::nanoctl::cli

@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/subcommands.h"
+#include "nanoctl/words.h"
+
+namespace nplc::nanoctl::cli {
+namespace {
+
+Json document_of(const Status& status, const Names& names) {
+    return {{"state", name_of(status.run_state)},
+            {"step", status.step},
+            {"step_name", names.step_name(status.step)},
+            {"timer", status.timer},
+            {"counter", status.counter},
+            {"inputs", status.inputs & 0x3F},
+            {"terminals", status.terminals & 0x3F},
+            {"outputs", status.outputs},
+            {"written_outputs", status.written_outputs},
+            {"forced_outputs", status.forced_outputs},
+            {"force_left_ms", status.force_left},
+            {"in_position", status.has(gw::kInPosition)},
+            {"error", status.has(gw::kMotorError)},
+            {"safe_reason", status.safe_reason == 0 ? "" : std::string(name_of_event(status.safe_reason))},
+            {"safe_since_ms", status.safe_since},
+            {"uptime_ms", status.uptime},
+            {"link", name_of_link(status.link)},
+            {"scans", status.scans},
+            {"scan_time_us", status.scan_time},
+            {"scan_worst_us", status.scan_worst},
+            {"forced_inputs", status.has(gw::kForcedInputs)},
+            {"breakpoints", status.has(gw::kBreakpoints)},
+            {"at_breakpoint", status.has(gw::kAtBreakpoint)},
+            {"table", status.has(gw::kTable)},
+            {"upload", status.has(gw::kUpload)},
+            {"stored_differs", status.has(gw::kStoredDiffers)},
+            {"settings_differ", status.has(gw::kSettingsDiffer)},
+            {"enabled", status.has(gw::kEnabled)},
+            {"virtual_motor", status.has(gw::kVirtualMotor)}};
+}
+
+std::string line_of(const Status& status, const Names& names) {
+    std::string text = fmt::format("{}, step {}, timer {} ms, counter {}, in {}, out {}",
+                                   name_of(status.run_state), names.step(status.step), status.timer,
+                                   status.counter, signals_text(status.inputs, 6, names, true),
+                                   signals_text(status.outputs, 4, names, false));
+    if (status.has(gw::kInPosition)) text += ", IN_POS";
+    if (status.has(gw::kMotorError)) text += ", ERROR";
+    if (status.has(gw::kAtBreakpoint)) text += ", at a breakpoint";
+    if (status.has(gw::kForcedInputs) || status.has(gw::kForcedOutputs))
+        text += fmt::format(", FORCED for {} ms", status.force_left);
+    if (status.has(gw::kSafe)) text += fmt::format(", SAFE: {}", name_of_event(status.safe_reason));
+    return text;
+}
+
+std::string version_text(std::uint32_t version) {
+    return fmt::format("{}.{}.{}", version >> 16, version >> 8 & 0xFF, version & 0xFF);
+}
+
+std::string table_text(std::uint32_t bytes, std::uint32_t crc) {
+    return bytes == 0 ? "none" : fmt::format("{} terms, CRC {:08X}h", bytes / 8 - 1, crc);
+}
+
+void show_status(Session& session) {
+    GatewayClient& gateway = session.gateway();
+    const Block about = gateway.read_block(gw::IDENTITY);
+    const Block counters = gateway.read_block(gw::LINK_LOSSES);
+    const Status status = session.status();
+    const auto of = [&](gw::Number number) { return about[number - gw::IDENTITY]; };
+    const auto count = [&](gw::Number number) { return counters[number - gw::LINK_LOSSES]; };
+    const std::uint32_t flags = of(gw::STORE_FLAGS);
+    std::string text = line_of(status, session.names());
+    text +=
+        fmt::format("\nfirmware {}, up for {}", version_text(of(gw::FW_VERSION)), time_text(status.uptime));
+    text +=
+        fmt::format("\nactive table {}; stored table {}", table_text(of(gw::TABLE_BYTES), of(gw::TABLE_CRC)),
+                    table_text(of(gw::STORED_BYTES), of(gw::STORED_CRC)));
+    if ((flags & 1) != 0) text += "\nDAMAGED: a stored table; an older one is in use, upload again";
+    if ((flags & 2) != 0)
+        text += "\nDAMAGED: the stored settings; initial ones are in use, set and keep them";
+    text += fmt::format("\nmotor link {}, lost {} times, {} messages repeated, {} orders done, {} discarded",
+                        name_of_link(status.link), count(gw::LINK_LOSSES), count(gw::RESENT),
+                        count(gw::ORDERS), count(gw::DISCARDED));
+    text += fmt::format("\n{} scans, the last {} us, the longest {} us", status.scans, status.scan_time,
+                        status.scan_worst);
+    if (status.has(gw::kSettingsDiffer)) text += "\nsettings differ from the stored ones";
+    Json document = document_of(status, session.names());
+    document.update({{"firmware", version_text(of(gw::FW_VERSION))},
+                     {"table_bytes", of(gw::TABLE_BYTES)},
+                     {"table_crc32", of(gw::TABLE_CRC)},
+                     {"stored_bytes", of(gw::STORED_BYTES)},
+                     {"stored_crc32", of(gw::STORED_CRC)},
+                     {"table_damaged", (flags & 1) != 0},
+                     {"settings_damaged", (flags & 2) != 0},
+                     {"link_losses", count(gw::LINK_LOSSES)},
+                     {"resent", count(gw::RESENT)},
+                     {"orders", count(gw::ORDERS)},
+                     {"discarded", count(gw::DISCARDED)}});
+    session.tell(text, document);
+}
+
+struct WatchOptions {
+    unsigned interval_ms = 100;
+    double seconds = 0;
+    bool all = false;
+};
+
+/// A line at every change of what matters, with the gateway's time.
+void watch(Session& session, const WatchOptions& options) {
+    const base::Instant begun = session.now();
+    const base::Microseconds limit{static_cast<std::int64_t>(options.seconds * 1e6)};
+    std::string last;
+    while (goes_on() && (options.seconds == 0 || session.now() - begun < limit)) {
+        const Status status = session.status();
+        Status quiet = status;
+        quiet.timer = 0;
+        quiet.force_left = 0;
+        const std::string line = line_of(quiet, session.names());
+        if (line != last || options.all) {
+            session.tell(
+                fmt::format("{:>12}  {}", time_text(status.uptime), line_of(status, session.names())),
+                document_of(status, session.names()));
+        }
+        last = line;
+        session.pause(base::Milliseconds{options.interval_ms});
+    }
+}
+
+}  // namespace
+
+void add_status(CLI::App& app, Common& common) {
+    add_command(app, "status", "What the gateway does, has and went through").callback([&common] {
+        work(common, show_status);
+    });
+    const auto options = std::make_shared<WatchOptions>();
+    CLI::App& command =
+        add_command(app, "watch", "A line at every change, until Ctrl-C; with --json a document a line");
+    command.add_option("--interval", options->interval_ms, "Milliseconds between two looks")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 60'000));
+    command.add_option("--for", options->seconds, "End after so many seconds; 0: at Ctrl-C")
+        ->check(CLI::NonNegativeNumber);
+    command.add_flag("--all", options->all, "A line at every look, changed or not");
+    command.callback([options, &common] { work(common, [&](Session& s) { watch(s, *options); }); });
+}
+
+}  // namespace nplc::nanoctl::cli

@@ -1,0 +1,162 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "base/crc32.h"
+#include "cli/files.h"
+#include "cli/subcommands.h"
+#include "nanoctl/transfer.h"
+
+namespace nplc::nanoctl::cli {
+namespace {
+
+struct UploadOptions {
+    std::string file;
+    bool stop = false;
+    bool only_store = false;
+    bool run = false;
+};
+
+/// A line on standard error that is drawn over, if a person looks on.
+class ProgressLine {
+  public:
+    ProgressLine(const char* verb, Session& session)
+        : verb_(verb),
+          session_(session),
+          shown_(::isatty(STDERR_FILENO) != 0 && !session.json()),
+          begun_(session.now()) {}
+    ~ProgressLine() {
+        if (shown_) fmt::print(stderr, "\r\033[K");
+    }
+    Progress callback() {
+        return [this](std::size_t done, std::size_t all) { show(done, all); };
+    }
+    double seconds() const { return static_cast<double>((session_.now() - begun_).count()) / 1e6; }
+
+  private:
+    void show(std::size_t done, std::size_t all) {
+        if (!shown_ || all == 0) return;
+        fmt::print(stderr, "\r\033[K{} {} of {} bytes, {} %, {:.1f} s", verb_, done, all, 100 * done / all,
+                   seconds());
+        std::fflush(stderr);
+    }
+
+    const char* verb_;
+    Session& session_;
+    bool shown_;
+    base::Instant begun_;
+};
+
+void make_active(Session& session, const UploadOptions& options) {
+    GatewayClient& gateway = session.gateway();
+    const Status status = session.status();
+    if (status.run_state != gw::RunState::stopped) {
+        if (!options.stop)
+            throw Refused(gw::Result::not_stopped, gw::COMMAND, 0,
+                          "the table is stored and not active, since the sequence runs; `nanoctl stop` and "
+                          "`nanoctl activate`, or upload with --stop");
+        gateway.command(gw::Command::stop);
+    }
+    gateway.activate();
+}
+
+void upload_file(Session& session, const UploadOptions& options) {
+    const auto table = read_table(options.file);
+    GatewayClient& gateway = session.gateway();
+    double seconds = 0;
+    {
+        ProgressLine line("sent", session);
+        upload(gateway, table, line.callback());
+        seconds = line.seconds();
+    }
+    if (!options.only_store) make_active(session, options);
+    if (options.run) gateway.command(gw::Command::run);
+    const std::uint32_t crc = base::crc32(table);
+    const std::size_t terms = table.size() / 8 - 1;
+    session.tell(fmt::format("{} of {} terms {} in {:.1f} s, CRC {:08X}h{}", options.file, terms,
+                             options.only_store ? "stored" : "stored and active", seconds, crc,
+                             options.run ? ", started" : ""),
+                 {{"file", options.file},
+                  {"terms", terms},
+                  {"bytes", table.size()},
+                  {"crc32", crc},
+                  {"active", !options.only_store},
+                  {"started", options.run},
+                  {"seconds", seconds}});
+}
+
+void verify(Session& session, const std::string& file, bool all_bytes) {
+    const auto table = read_table(file);
+    const Block about = session.gateway().read_block(gw::IDENTITY);
+    const std::uint32_t crc = base::crc32(table);
+    const auto is_same = [&](gw::Number crc_at, gw::Number bytes_at) {
+        return about[crc_at - gw::IDENTITY] == crc && about[bytes_at - gw::IDENTITY] == table.size();
+    };
+    bool active = is_same(gw::TABLE_CRC, gw::TABLE_BYTES);
+    const bool stored = is_same(gw::STORED_CRC, gw::STORED_BYTES);
+    if (active && all_bytes) {
+        ProgressLine line("read", session);
+        active = download(session.gateway(), line.callback()) == table;
+    }
+    if (!active || !stored)
+        throw Refused(gw::Result::wrong_check, gw::TABLE_CRC, 0,
+                      fmt::format("{}: {} table of the gateway is another one", file,
+                                  active   ? "the stored"
+                                  : stored ? "the active"
+                                           : "the stored and the active"));
+    session.tell(
+        fmt::format("{}: stored and active in the gateway, CRC {:08X}h{}", file, crc,
+                    all_bytes ? ", every byte read" : ""),
+        {{"file", file}, {"crc32", crc}, {"active", true}, {"stored", true}, {"bytes_read", all_bytes}});
+}
+
+void download_to(Session& session, const std::string& file) {
+    std::vector<std::uint8_t> table;
+    {
+        ProgressLine line("read", session);
+        table = download(session.gateway(), line.callback());
+    }
+    if (table.empty())
+        throw Refused(gw::Result::no_table, gw::TABLE_DATA, 0, "the gateway has no active table");
+    write_table(file, table);
+    session.tell(fmt::format("{}: {} terms, CRC {:08X}h", file, table.size() / 8 - 1, base::crc32(table)),
+                 {{"file", file},
+                  {"terms", table.size() / 8 - 1},
+                  {"bytes", table.size()},
+                  {"crc32", base::crc32(table)}});
+}
+
+}  // namespace
+
+void add_transfers(CLI::App& app, Common& common) {
+    const auto options = std::make_shared<UploadOptions>();
+    CLI::App& up =
+        add_command(app, "upload",
+                    "Store a table in the gateway and make it the active one. The sequence must be "
+                    "stopped for that, and the motor stand still");
+    up.add_option("table", options->file, "The table that seqc built, F.bin or F.hex")->required();
+    up.add_flag("--stop", options->stop, "Stop the sequence first if it runs");
+    up.add_flag("--run", options->run, "Start the sequence afterwards");
+    up.add_flag("--only-store", options->only_store,
+                "Do not make it the active one; what runs goes on, and the next power-up takes the new one")
+        ->excludes("--stop")
+        ->excludes("--run");
+    up.callback([options, &common] { work(common, [&](Session& s) { upload_file(s, *options); }); });
+
+    const auto verified = std::make_shared<std::pair<std::string, bool>>();
+    CLI::App& check = add_command(app, "verify", "Is this table the stored and the active one?");
+    check.add_option("table", verified->first, "The table, F.bin or F.hex")->required();
+    check.add_flag("--bytes", verified->second, "Read every byte back, not only length and CRC");
+    check.callback([verified, &common] {
+        work(common, [&](Session& s) { verify(s, verified->first, verified->second); });
+    });
+
+    const auto target = std::make_shared<std::string>();
+    CLI::App& down = add_command(app, "download", "Write the active table into a file");
+    down.add_option("-o,--output", *target, "F.bin, or F.hex for Intel HEX")->required();
+    down.callback([target, &common] { work(common, [&](Session& s) { download_to(s, *target); }); });
+}
+
+}  // namespace nplc::nanoctl::cli

@@ -1,0 +1,145 @@
+#include "nanoctl/gateway_client.h"
+
+#include <fmt/format.h>
+
+#include "base/bytes.h"
+#include "nanoctl/words.h"
+
+namespace nplc::nanoctl {
+
+using mactalk_client::LineError;
+using mactalk_client::Width;
+
+namespace {
+
+constexpr unsigned kAttempts = 12;
+constexpr base::Milliseconds kBusyPause{50};
+constexpr unsigned kBusyTries = 100;
+constexpr base::Milliseconds kStartPause{200};
+constexpr unsigned kStillTries = 50;
+constexpr unsigned kStartLooks = 5;
+
+}  // namespace
+
+void GatewayClient::identify() {
+    const Block block = read_block(gw::IDENTITY);
+    if (block[0] != gw::kIdentity)
+        throw WrongDevice(fmt::format(
+            "{}: what answers at address {} is no gateway (IDENTITY is {:08X}h); the motor behind "
+            "one has an address of its own",
+            master_.wire().name(), address_, block[0]));
+    const std::uint32_t map = block[gw::MAP_VERSION - gw::IDENTITY];
+    if (map != gw::kMapVersion)
+        throw WrongDevice(
+            fmt::format("{}: the gateway has register map {}, this program knows {}; take the "
+                        "program that belongs to its firmware",
+                        master_.wire().name(), map, gw::kMapVersion));
+}
+
+Block GatewayClient::read_block(std::uint8_t reg) {
+    const auto bytes = master_.read_block(address_, reg);
+    Block block{};
+    for (std::size_t i = 0; i < block.size(); ++i) block[i] = base::load_u32(&bytes[4 * i]);
+    return block;
+}
+
+GatewayClient::LastResult GatewayClient::last_result() {
+    const std::uint32_t value = read(gw::RESULT);
+    return {static_cast<gw::Result>(value & 0xFF), static_cast<std::uint8_t>(value >> 8),
+            static_cast<std::uint16_t>(value >> 16)};
+}
+
+void GatewayClient::refuse(const LastResult& last, const std::string& what) {
+    throw Refused(last.result, last.reg, last.detail, fmt::format("{}: {}", what, gw::describe(last.result)));
+}
+
+void GatewayClient::lost(const std::string& what) const {
+    throw LineError(LineError::Kind::no_answer, fmt::format("{}: {} was never accepted; the line is too bad",
+                                                            master_.wire().name(), what));
+}
+
+/// A refusal counts when it was seen twice: the first may be of an earlier write to the same register.
+void GatewayClient::write(std::uint8_t reg, std::uint32_t value) {
+    const gw::Row* row = gw::find(reg);
+    const std::string what = row != nullptr ? std::string(row->name) : fmt::format("register {}", reg);
+    unsigned refusals = 0;
+    for (unsigned i = 0; i < kAttempts; ++i) {
+        if (master_.try_write(address_, reg, value, Width::longword)) return;
+        const LastResult last = last_result();
+        if (last.reg != reg || last.result == gw::Result::done) continue;
+        if (++refusals == 2) refuse(last, what);
+    }
+    lost(what);
+}
+
+/// A write to another register comes before, so that RESULT tells a command that was lost from one whose
+/// accept was.
+void GatewayClient::command_once(gw::Command command, base::Microseconds more_patience) {
+    const auto code = static_cast<std::uint32_t>(command);
+    const std::string what(name_of(command));
+    for (unsigned i = 0; i < kAttempts; ++i) {
+        if (master_.try_write(address_, gw::COMMAND, code, Width::longword, more_patience)) return;
+        const LastResult last = last_result();
+        if (last.reg != gw::COMMAND) continue;
+        if (last.result == gw::Result::done) return;
+        refuse(last, what);
+    }
+    lost(what);
+}
+
+void GatewayClient::command(gw::Command command, base::Microseconds more_patience) {
+    const std::uint32_t bytes = read(gw::UPLOAD_BYTES);
+    for (unsigned i = 1;; ++i) {
+        write(gw::UPLOAD_BYTES, bytes);
+        try {
+            return command_once(command, more_patience);
+        } catch (const Refused& refused) {
+            if (refused.result() != gw::Result::busy || i == kBusyTries) throw;
+        }
+        master_.pause(kBusyPause);
+    }
+}
+
+void GatewayClient::activate() {
+    for (unsigned i = 1;; ++i) {
+        try {
+            return command(gw::Command::activate, base::Milliseconds{2'000});
+        } catch (const Refused& refused) {
+            if (refused.result() != gw::Result::moving || i == kStillTries) throw;
+        }
+        master_.pause(kStartPause);
+    }
+}
+
+/// The gateway answers nothing to a reset; RESULT, which named a register before, is 0 afterwards.
+void GatewayClient::reset() {
+    const std::uint32_t bytes = read(gw::UPLOAD_BYTES);
+    for (unsigned i = 0; i < kAttempts; ++i) {
+        write(gw::UPLOAD_BYTES, bytes);
+        static_cast<void>(master_.try_write(address_, gw::COMMAND,
+                                            static_cast<std::uint32_t>(gw::Command::reset), Width::longword));
+        for (unsigned look = 0; look < kStartLooks; ++look) {
+            master_.pause(kStartPause);
+            const auto last = try_last_result();
+            if (!last) continue;
+            if (last->reg == 0) return;
+            if (last->reg == gw::COMMAND && last->result != gw::Result::done) refuse(*last, "reset");
+            break;
+        }
+    }
+    throw LineError(LineError::Kind::no_answer,
+                    fmt::format("{}: no answer after the reset; if address or speed were changed, name the "
+                                "new ones",
+                                master_.wire().name()));
+}
+
+std::optional<GatewayClient::LastResult> GatewayClient::try_last_result() {
+    try {
+        return last_result();
+    } catch (const LineError& error) {
+        if (error.kind() != LineError::Kind::no_answer) throw;
+        return std::nullopt;
+    }
+}
+
+}  // namespace nplc::nanoctl

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "mactalk_client/master.h"
+#include "registers/gateway.h"
+
+namespace nplc::nanoctl {
+
+namespace gw = registers::gateway;
+
+/// The gateway said no.
+class Refused : public std::runtime_error {
+  public:
+    Refused(gw::Result result, std::uint8_t reg, std::uint16_t detail, const std::string& what)
+        : std::runtime_error(what), result_(result), reg_(reg), detail_(detail) {}
+    gw::Result result() const { return result_; }
+    std::uint8_t reg() const { return reg_; }
+    std::uint16_t detail() const { return detail_; }
+
+  private:
+    gw::Result result_;
+    std::uint8_t reg_;
+    std::uint16_t detail_;
+};
+
+/// What answers is no gateway, or one whose register map this program does not know.
+class WrongDevice : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Sixteen registers taken at one instant.
+using Block = std::array<std::uint32_t, 16>;
+
+/// A gateway's registers over MacTalk. A write that gets no accept was refused or lost; the gateway's RESULT
+/// tells which, and lost ones are sent again. Everything throws mactalk_client::LineError, Refused and
+/// WrongDevice.
+class GatewayClient {
+  public:
+    GatewayClient(mactalk_client::Master& master, std::uint8_t address)
+        : master_(master), address_(address) {}
+
+    /// To be called first.
+    void identify();
+
+    std::uint32_t read(std::uint8_t reg) { return master_.read(address_, reg); }
+    Block read_block(std::uint8_t reg);
+
+    void write(std::uint8_t reg, std::uint32_t value);
+    /// Carried out exactly once. `more_patience`: how long it may take. For a `busy` gateway it waits up to 5
+    /// s.
+    void command(gw::Command command, base::Microseconds more_patience = {});
+    /// Restarts the gateway and waits until it answers.
+    void reset();
+    /// The stored table becomes the active one; waits up to 10 s for the motor to stand still.
+    void activate();
+
+    mactalk_client::Master& master() { return master_; }
+    std::uint8_t address() const { return address_; }
+
+  private:
+    struct LastResult {
+        gw::Result result;
+        std::uint8_t reg;
+        std::uint16_t detail;
+    };
+    LastResult last_result();
+    std::optional<LastResult> try_last_result();
+    [[noreturn]] static void refuse(const LastResult& last, const std::string& what);
+    [[noreturn]] void lost(const std::string& what) const;
+    void command_once(gw::Command command, base::Microseconds more_patience);
+
+    mactalk_client::Master& master_;
+    std::uint8_t address_;
+};
+
+}  // namespace nplc::nanoctl

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "registers/gateway.h"
+
+/// What the gateway's numbers are called.
+namespace nplc::nanoctl {
+
+std::string_view name_of(registers::gateway::Command command);
+std::string_view name_of(registers::gateway::RunState state);
+/// SAFE_REASON, and the events of the log.
+std::string_view name_of_event(std::uint8_t event);
+/// "down", "starting", "not acknowledged", "up".
+std::string_view name_of_link(std::uint32_t link);
+/// "1 min 02.345 s", "2.345 s".
+std::string time_text(std::uint32_t milliseconds);
+
+}  // namespace nplc::nanoctl

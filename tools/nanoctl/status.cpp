@@ -1,0 +1,136 @@
+#include "nanoctl/status.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace nplc::nanoctl {
+namespace {
+
+std::uint8_t byte_of(std::uint32_t value, unsigned shift) {
+    return static_cast<std::uint8_t>(value >> shift);
+}
+
+bool is_same(const std::string& a, const std::string& b) {
+    return a.size() == b.size() &&
+           std::equal(a.begin(), a.end(), b.begin(),
+                      [](unsigned char x, unsigned char y) { return std::toupper(x) == std::toupper(y); });
+}
+
+std::optional<unsigned> number_of(const std::string& text, unsigned limit) {
+    if (text.empty() || text.size() > 2 || text.find_first_not_of("0123456789") != std::string::npos)
+        return std::nullopt;
+    const auto number = static_cast<unsigned>(std::stoul(text));
+    return number < limit ? std::optional(number) : std::nullopt;
+}
+
+/// By its name in `names`, or by `prefix` and its number.
+template <class List>
+std::optional<unsigned> find(const std::string& text, const std::string& prefix, const List* names,
+                             unsigned count) {
+    for (unsigned i = 0; names != nullptr && i < count; ++i) {
+        if (!(*names)[i].empty() && is_same((*names)[i], text)) return i;
+    }
+    if (text.size() <= prefix.size() || !is_same(text.substr(0, prefix.size()), prefix)) return std::nullopt;
+    return number_of(text.substr(prefix.size()), count);
+}
+
+}  // namespace
+
+Status::Status(const Block& block)
+    : bits(block[gw::STATUS - gw::STATUS]),
+      run_state(static_cast<gw::RunState>(bits & gw::kRunState)),
+      safe_reason(byte_of(block[gw::SAFE_REASON - gw::STATUS], 0)),
+      safe_since(block[gw::SAFE_SINCE - gw::STATUS]),
+      uptime(block[gw::UPTIME - gw::STATUS]),
+      step(byte_of(block[gw::STEP - gw::STATUS], 0)),
+      timer(static_cast<std::uint16_t>(block[gw::TIMER - gw::STATUS])),
+      counter(static_cast<std::uint16_t>(block[gw::COUNTER - gw::STATUS])),
+      inputs(byte_of(block[gw::INPUTS - gw::STATUS], 0)),
+      terminals(byte_of(block[gw::INPUTS - gw::STATUS], 8)),
+      outputs(byte_of(block[gw::OUTPUTS - gw::STATUS], 0) & 0x0F),
+      written_outputs(byte_of(block[gw::OUTPUTS - gw::STATUS], 8) & 0x0F),
+      forced_outputs(byte_of(block[gw::OUTPUTS - gw::STATUS], 16) & 0x0F),
+      scans(block[gw::SCANS - gw::STATUS]),
+      scan_time(block[gw::SCAN_TIME - gw::STATUS]),
+      scan_worst(block[gw::SCAN_WORST - gw::STATUS]),
+      link(block[gw::LINK - gw::STATUS]),
+      force_left(block[gw::FORCE_LEFT - gw::STATUS]),
+      log_count(block[gw::LOG_COUNT - gw::STATUS]) {}
+
+std::string Names::input(unsigned index) const {
+    return symbols_ ? symbols_->symbols.inputs[index] : fmt::format("IN{}", index);
+}
+
+std::string Names::output(unsigned index) const {
+    return symbols_ ? symbols_->symbols.outputs[index] : fmt::format("OUT{}", index);
+}
+
+std::string Names::step_name(unsigned number) const {
+    return symbols_ && number < symbols_->symbols.steps.size() ? symbols_->symbols.steps[number]
+                                                               : std::string();
+}
+
+std::string Names::step(unsigned number) const {
+    const std::string name = step_name(number);
+    return name.empty() ? std::to_string(number) : fmt::format("{} {}", number, name);
+}
+
+std::string Names::term_place(std::size_t term) const {
+    if (!symbols_ || term >= symbols_->terms.size() || symbols_->terms[term].line == 0) return {};
+    return fmt::format(" (line {})", symbols_->terms[term].line);
+}
+
+std::optional<unsigned> Names::find_input(const std::string& text) const {
+    return find(text, "IN", symbols_ ? &symbols_->symbols.inputs : nullptr, 6);
+}
+
+std::optional<unsigned> Names::find_output(const std::string& text) const {
+    return find(text, "OUT", symbols_ ? &symbols_->symbols.outputs : nullptr, 4);
+}
+
+std::optional<unsigned> Names::find_step(const std::string& text) const {
+    if (const auto number = number_of(text, 63)) return number;
+    return find(text, "STEP", symbols_ ? &symbols_->symbols.steps : nullptr, 63);
+}
+
+std::string signals_text(std::uint32_t bits, unsigned count, const Names& names, bool are_inputs) {
+    std::string text;
+    for (unsigned i = 0; i < count; ++i) {
+        if ((bits >> i & 1U) == 0) continue;
+        text += (text.empty() ? "" : ", ") + (are_inputs ? names.input(i) : names.output(i));
+    }
+    return text.empty() ? "none" : text;
+}
+
+Fired read_fired(GatewayClient& gateway) {
+    const Block about = gateway.read_block(gw::FIRED_SCAN);
+    Fired fired{about[0], byte_of(about[1], 0), {}};
+    for (unsigned half = 0; half < 2; ++half) {
+        const Block words = gateway.read_block(static_cast<std::uint8_t>(gw::FIRED + 16 * half));
+        for (unsigned i = 0; i < 512; ++i) {
+            if ((words[i / 32] >> (i % 32) & 1U) != 0)
+                fired.terms.push_back(static_cast<std::uint16_t>(512 * half + i));
+        }
+    }
+    return fired;
+}
+
+std::vector<LogEntry> read_log(GatewayClient& gateway) {
+    const std::uint32_t count = gateway.read(gw::LOG_COUNT);
+    std::array<Block, 2> halves{gateway.read_block(gw::LOG), gateway.read_block(gw::LOG + 16)};
+    std::vector<LogEntry> entries;
+    const std::uint32_t held = std::min<std::uint32_t>(count, gw::kLogEntries);
+    for (std::uint32_t number = count - held; number != count; ++number) {
+        const unsigned slot = number % gw::kLogEntries;
+        const Block& half = halves[slot / 8];
+        const std::uint32_t what = half[2 * (slot % 8) + 1];
+        if (what == 0) continue;
+        entries.push_back({number, half[2 * (slot % 8)], byte_of(what, 0), byte_of(what, 8),
+                           static_cast<std::uint16_t>(what >> 16)});
+    }
+    return entries;
+}
+
+}  // namespace nplc::nanoctl

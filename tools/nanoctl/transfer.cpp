@@ -1,0 +1,169 @@
+#include "nanoctl/transfer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/bytes.h"
+#include "base/crc32.h"
+
+namespace nplc::nanoctl {
+namespace {
+
+using mactalk_client::LineError;
+
+constexpr std::size_t kLargestPiece = protocol::mactalk::kMaxLongWrite;
+constexpr std::size_t kSmallestPiece = 8;
+constexpr unsigned kLostInARow = 40;
+constexpr unsigned kGoodBeforeLarger = 4;
+/// The gateway waits so long for room in its storage before it refuses a piece.
+constexpr base::Milliseconds kRoomWait{1'000};
+constexpr base::Milliseconds kPollPause{20};
+constexpr unsigned kMostPolls = 1'500;
+
+enum UploadState : std::uint8_t { kNone, kErasing, kReceiving, kClosing, kStored, kFailed };
+
+struct UploadStatus {
+    std::uint8_t state;
+    gw::Result result;
+    std::uint16_t detail;
+    std::uint32_t received;
+};
+
+UploadStatus upload_status(GatewayClient& gateway) {
+    const std::uint32_t state = gateway.read(gw::UPLOAD_STATE);
+    return {static_cast<std::uint8_t>(state), static_cast<gw::Result>((state >> 8) & 0xFF),
+            static_cast<std::uint16_t>(state >> 16), gateway.read(gw::UPLOAD_RECEIVED)};
+}
+
+[[noreturn]] void upload_failed(const UploadStatus& status) {
+    std::string what(gw::describe(status.result));
+    if (status.result >= gw::Result::table_no_end) what += fmt::format(" (term {})", status.detail);
+    throw Refused(status.result, gw::UPLOAD_STATE, status.detail,
+                  "the table was not stored: " + what + "; the stored one is as it was");
+}
+
+/// Waits while the upload is in `state`.
+UploadStatus wait_while(GatewayClient& gateway, UploadState state) {
+    for (unsigned i = 0; i < kMostPolls; ++i) {
+        const UploadStatus status = upload_status(gateway);
+        if (status.state == kFailed) upload_failed(status);
+        if (status.state != state) return status;
+        gateway.master().pause(kPollPause);
+    }
+    throw LineError(LineError::Kind::no_answer, "the gateway's storage does not come to an end; restart it");
+}
+
+class Upload {
+  public:
+    Upload(GatewayClient& gateway, std::span<const std::uint8_t> table) : gateway_(gateway), table_(table) {}
+
+    void send(const Progress& progress) {
+        while (sent_ < table_.size()) {
+            progress(sent_, table_.size());
+            if (send_piece()) {
+                lost_in_a_row_ = 0;
+                if (++good_ >= kGoodBeforeLarger) piece_ = std::min(2 * piece_, kLargestPiece);
+            } else {
+                recover();
+            }
+        }
+        progress(sent_, table_.size());
+    }
+
+  private:
+    bool send_piece() {
+        const auto piece = table_.subspan(sent_, std::min(piece_, table_.size() - sent_));
+        if (!gateway_.master().try_write_long(gateway_.address(), gw::TABLE_DATA, piece, kRoomWait))
+            return false;
+        sent_ += piece.size();
+        return true;
+    }
+
+    /// Finds out what has come and goes on from there.
+    void recover() {
+        good_ = 0;
+        piece_ = std::max(piece_ / 2, kSmallestPiece);
+        const UploadStatus status = upload_status(gateway_);
+        if (status.state == kFailed) upload_failed(status);
+        if (status.state != kReceiving && status.state != kErasing)
+            throw Refused(gw::Result::no_upload, gw::TABLE_DATA, 0,
+                          "the upload was given up by the gateway or by another client; begin again");
+        const std::size_t before = sent_;
+        sent_ = std::min<std::size_t>(status.received, table_.size());
+        lost_in_a_row_ = sent_ > before ? 0 : lost_in_a_row_ + 1;
+        if (lost_in_a_row_ == kLostInARow)
+            throw LineError(LineError::Kind::no_answer,
+                            fmt::format("{}: byte {} of the table was never accepted; the line is too bad",
+                                        gateway_.master().wire().name(), sent_));
+        gateway_.write(gw::TABLE_POINTER, static_cast<std::uint32_t>(sent_));
+    }
+
+    GatewayClient& gateway_;
+    std::span<const std::uint8_t> table_;
+    std::size_t sent_ = 0;
+    std::size_t piece_ = kLargestPiece;
+    unsigned good_ = 0;
+    unsigned lost_in_a_row_ = 0;
+};
+
+void upload_whole(GatewayClient& gateway, std::span<const std::uint8_t> table, const Progress& progress) {
+    gateway.command(gw::Command::upload_begin);
+    wait_while(gateway, kErasing);
+    Upload(gateway, table).send(progress);
+    gateway.write(gw::UPLOAD_CRC, base::crc32(table));
+    gateway.write(gw::UPLOAD_BYTES, static_cast<std::uint32_t>(table.size()));
+    gateway.command(gw::Command::upload_commit);
+    const UploadStatus end = wait_while(gateway, kClosing);
+    if (end.state != kStored)
+        throw Refused(gw::Result::no_upload, gw::UPLOAD_STATE, 0,
+                      "the table was not stored: the upload was given up; the stored one is as it was");
+}
+
+}  // namespace
+
+void upload(GatewayClient& gateway, std::span<const std::uint8_t> table, const Progress& progress) {
+    const std::uint32_t most = gateway.read(gw::STORED_MAX);
+    if (table.size() > most)
+        throw Refused(gw::Result::no_space, gw::TABLE_DATA, 0,
+                      fmt::format("the table has {} bytes and the gateway takes {}", table.size(), most));
+    try {
+        upload_whole(gateway, table, progress);
+    } catch (const Refused&) {
+        try {
+            gateway.command(gw::Command::upload_abort);
+        } catch (const Refused&) {  // it was given up already
+        }
+        throw;
+    }
+}
+
+std::vector<std::uint8_t> download(GatewayClient& gateway, const Progress& progress) {
+    const Block about = gateway.read_block(gw::IDENTITY);
+    const std::uint32_t length = about[gw::TABLE_BYTES - gw::IDENTITY];
+    const std::uint32_t crc = about[gw::TABLE_CRC - gw::IDENTITY];
+    std::vector<std::uint8_t> table;
+    unsigned lost_in_a_row = 0;
+    bool in_place = false;
+    while (table.size() < length) {
+        progress(table.size(), length);
+        if (!in_place) gateway.write(gw::TABLE_POINTER, static_cast<std::uint32_t>(table.size()));
+        const auto block = gateway.master().try_read_block(gateway.address(), gw::TABLE_DATA);
+        in_place = block.has_value();
+        lost_in_a_row = in_place ? 0 : lost_in_a_row + 1;
+        if (lost_in_a_row == kLostInARow)
+            throw LineError(LineError::Kind::no_answer,
+                            fmt::format("{}: byte {} of the table cannot be read; the line is too bad",
+                                        gateway.master().wire().name(), table.size()));
+        if (!block) continue;
+        const std::size_t count = std::min<std::size_t>(block->size(), length - table.size());
+        table.insert(table.end(), block->begin(), block->begin() + static_cast<std::ptrdiff_t>(count));
+    }
+    progress(table.size(), length);
+    if (base::crc32(table) != crc || gateway.read(gw::TABLE_CRC) != crc)
+        throw Refused(gw::Result::wrong_check, gw::TABLE_DATA, 0,
+                      "what was read is not the active table; another client changes it, read it again");
+    return table;
+}
+
+}  // namespace nplc::nanoctl
