@@ -16,9 +16,8 @@ class FileStorage : public ports::Storage {
         std::unique_ptr<FileStorage> storage;
         std::string error;  ///< what went wrong and what to do, in one line; empty when it was opened
     };
-    /// A file that is not there is made, whole or not at all, of bytes FFh. `size`: a multiple of
-    /// kEraseBlock.
-    static Opened open(const std::string& path, std::uint32_t size);
+    /// A file that is not there is made, whole or not at all, of bytes FFh.
+    static Opened open(const std::string& path, const ports::StorageGeometry& geometry);
 
     virtual ~FileStorage() = default;
     FileStorage(const FileStorage&) = delete;
