@@ -7,6 +7,7 @@
 #include <deque>
 #include <optional>
 
+#include "base/bytes.h"
 #include "base/crc32.h"
 #include "gateway/user_port.h"
 #include "sim/sim_storage.h"
