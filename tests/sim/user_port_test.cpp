@@ -86,7 +86,8 @@ struct UserPortRun : testing::Test {
 };
 
 TEST_F(UserPortRun, TheMotorsRegistersAreReadAsTheMotorAnswersThem) {
-    for (const std::uint8_t number : {1, 5, 7, 35, 49, 65, 255}) {
+    for (const int each : {1, 5, 7, 35, 49, 65, 255}) {
+        const auto number = static_cast<std::uint8_t>(each);
         const auto low = static_cast<std::uint16_t>(world.mac().read(number));
         EXPECT_EQ(read(kMotor, number).value_or(0) & 0xFFFFU, low) << int{number};
         EXPECT_EQ(read(mactalk::kEveryone, number).value_or(0) & 0xFFFFU, low) << int{number};
