@@ -48,9 +48,11 @@ class TerminalClient final : public DescriptorClient {
 
 bool has_open(const fs::path& process, dev_t device) {
     std::error_code error;
-    for (const auto& entry : fs::directory_iterator(process / "fd", error)) {
+    for (fs::directory_iterator entry(process / "fd", error), end; !error && entry != end;
+         entry.increment(error)) {
         struct stat status {};
-        if (::stat(entry.path().c_str(), &status) == 0 && S_ISCHR(status.st_mode) && status.st_rdev == device)
+        if (::stat(entry->path().c_str(), &status) == 0 && S_ISCHR(status.st_mode) &&
+            status.st_rdev == device)
             return true;
     }
     return false;
@@ -59,14 +61,15 @@ bool has_open(const fs::path& process, dev_t device) {
 /// "minicom (process 1234)"; empty if it is none that we may look into.
 std::string holder(dev_t device) {
     std::error_code error;
-    for (const auto& process : fs::directory_iterator("/proc", error)) {
-        const std::string number = process.path().filename();
+    for (fs::directory_iterator process("/proc", error), end; !error && process != end;
+         process.increment(error)) {
+        const std::string number = process->path().filename();
         if (number.find_first_not_of("0123456789") != std::string::npos ||
-            number == std::to_string(::getpid()) || !has_open(process.path(), device))
+            number == std::to_string(::getpid()) || !has_open(process->path(), device))
             continue;
         std::string name = "a program";
-        std::ifstream(process.path() / "comm") >> name;
-        return name + " (process " + number + ")";
+        std::ifstream(process->path() / "comm") >> name;
+        return name.append(" (process ").append(number).append(")");
     }
     return {};
 }

@@ -7,6 +7,7 @@
 #include <deque>
 #include <optional>
 
+#include "base/bytes.h"
 #include "base/crc32.h"
 #include "gateway/user_port.h"
 #include "sim/sim_storage.h"
@@ -108,9 +109,9 @@ class Run {
         for (int i = 0; i < 40; ++i) poll(base::Microseconds(1000));
         board_.sent.clear();
         const auto address = static_cast<std::uint8_t>(settings_.get(store::Setting::gateway_address));
-        for (const std::uint8_t byte :
-             mactalk::encode({.kind = mactalk::Kind::read, .address = address, .reg = reg::IDENTITY})
-                 .view()) {
+        const auto question =
+            mactalk::encode({.kind = mactalk::Kind::read, .address = address, .reg = reg::IDENTITY});
+        for (const std::uint8_t byte : question.view()) {
             hear(byte, false);
         }
         for (int i = 0; i < 20; ++i) poll(base::Microseconds(1000));

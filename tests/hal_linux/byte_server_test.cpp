@@ -217,5 +217,32 @@ TEST_F(ByteServerTest, WhatIsNoEndpointIsNamed) {
     EXPECT_NE(ByteServer::open("unix:" + std::string(200, 'x')).error, "");
 }
 
+TEST_F(ByteServerTest, SeveralSeatsHaveAClientEach) {
+    auto opened = ByteServer::open("unix:" + path("socket"), 2);
+    ASSERT_EQ(opened.error, "");
+    ByteServer& server = *opened.server;
+    EXPECT_EQ(server.seats(), 2U);
+    const int first = connect_unix(path("socket"));
+    EXPECT_TRUE(server.has_client());
+    const int second = connect_unix(path("socket"));
+    EXPECT_TRUE(server.has_client());
+    const int third = connect_unix(path("socket"));
+    EXPECT_TRUE(server.has_client());
+    EXPECT_EQ(read_from(third), "") << "turned away";
+    write_to(second, "two");
+    std::array<std::uint8_t, 10> buffer{};
+    EXPECT_EQ(server.read_seat(0, buffer), 0U);
+    EXPECT_EQ(server.read_seat(1, buffer), 3U);
+    constexpr std::array<std::uint8_t, 1> kAnswer{'x'};
+    server.write_seat(1, kAnswer);
+    EXPECT_EQ(read_from(second), "x");
+    ::close(first);
+    const int next = connect_unix(path("socket"));
+    EXPECT_TRUE(server.has_client());
+    server.write_seat(0, kAnswer);
+    EXPECT_EQ(read_from(next), "x") << "in the seat that became free";
+    for (const int client : {second, third, next}) ::close(client);
+}
+
 }  // namespace
 }  // namespace nplc::hal_linux

@@ -56,10 +56,10 @@ sim::SimStorage device_with(const Shape& shape, const std::vector<Bytes>& tables
     return device;
 }
 
-const Bytes kFirst = table_of(24, 1);
-const Bytes kSecond = table_of(20, 2);
-const Bytes kThird = table_of(22, 3);
-const Bytes kFourth = table_of(23, 4);
+const Bytes kFirst = table_of(10, 1);
+const Bytes kSecond = table_of(7, 2);
+const Bytes kThird = table_of(9, 3);
+const Bytes kFourth = table_of(8, 4);
 
 TEST(PowerCut, OnceInALongUploadTheOldOrTheNewTableRunsAndANewUploadIsTaken) {
     const Bytes old = table_of(180, 1);
@@ -81,7 +81,7 @@ TEST(PowerCut, OnceInALongUploadTheOldOrTheNewTableRunsAndANewUploadIsTaken) {
 }
 
 TEST(PowerCut, OnceInTheFirstUploadEverThereIsNoTableOrTheNewOne) {
-    for (const Shape& shape : shapes(300)) {
+    for (const Shape& shape : shapes(100)) {
         Counted count;
         cut_everywhere(sim::SimStorage(shape.geometry), shape, kFirst, [&](sim::SimStorage device) {
             expect_old_or_new(device, shape, std::nullopt, kFirst, count);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <iostream>
+#include <random>
 
 #include "store_bench.h"
 
@@ -92,6 +93,24 @@ TEST(Rest, WithBothSlotsDamagedThereIsNoTableAndItIsSaid) {
     EXPECT_TRUE(session.slots.is_fallback());
     EXPECT_EQ(session.write(kNew), Phase::done);
     EXPECT_EQ(Session(device, shape.area).content(), kNew);
+}
+
+TEST(Rest, HoweverManyBitsFlipNothingButAWholeTableRuns) {
+    std::mt19937 random(1);
+    for (const Shape& shape : shapes(200)) {
+        const auto start = with_both(shape);
+        for (int round = 0; round < 2000; ++round) {
+            sim::SimStorage device(start);
+            for (unsigned flips = 1 + random() % 64; flips > 0; --flips)
+                device.flip(static_cast<std::uint32_t>(random() % shape.geometry.size), random() % 8);
+            Session session(device, shape.area);
+            const auto runs = session.content();
+            EXPECT_TRUE(!runs || runs == kOld || runs == kNew) << shape.name << ", seed 1, round " << round;
+            if (runs != kNew) {
+                EXPECT_TRUE(session.slots.is_fallback()) << shape.name << ", seed 1, round " << round;
+            }
+        }
+    }
 }
 
 TEST(Rest, ABitThatFlipsAfterTheStartIsNoticedWhenTheTableIsLoaded) {

@@ -48,7 +48,7 @@ TEST(Settings, TakeTheirValuesAndNoOthers) {
         const bool inside = info.lowest <= kNone && kNone <= info.highest;
         EXPECT_EQ(values.set(info.id, kNone).ok(), info.has_none || inside) << info.name;
     }
-    EXPECT_EQ(SettingValues().set(Setting{18}, 1).error(), base::Error::bad_setting);
+    EXPECT_EQ(SettingValues().set(static_cast<Setting>(kSettings + 1), 1).error(), base::Error::bad_setting);
     EXPECT_EQ(SettingValues().set(Setting{0}, 1).error(), base::Error::bad_setting);
 }
 

@@ -1,0 +1,129 @@
+// Several clients on one MacTalk line: their messages never mix, and each hears its own answer.
+#include "shared_line.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace nplc::sim {
+namespace {
+
+namespace mactalk = protocol::mactalk;
+using mactalk::Kind;
+using namespace std::chrono_literals;
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::uint8_t kGateway = 128;
+
+struct Clients final : hal_linux::ByteServer {
+    const std::string& name() const override { return name_; }
+    bool has_client() override { return true; }
+    std::size_t seats() const override { return 2; }
+    std::size_t read_seat(std::size_t seat, std::span<std::uint8_t> out) override {
+        const std::size_t count = std::min(out.size(), sends[seat].size());
+        std::copy_n(sends[seat].begin(), count, out.begin());
+        sends[seat].erase(sends[seat].begin(), sends[seat].begin() + static_cast<std::ptrdiff_t>(count));
+        return count;
+    }
+    void write_seat(std::size_t seat, std::span<const std::uint8_t> bytes) override {
+        hears[seat].insert(hears[seat].end(), bytes.begin(), bytes.end());
+    }
+    int descriptor() const override { return -1; }
+
+    std::array<Bytes, 2> sends;
+    std::array<Bytes, 2> hears;
+    std::string name_ = "clients";
+};
+
+template <class Encoded>
+Bytes bytes(const Encoded& encoded) {
+    return {encoded.view().begin(), encoded.view().end()};
+}
+
+Bytes read_of(std::uint8_t reg) {
+    return bytes(mactalk::encode({.kind = Kind::read, .address = kGateway, .reg = reg}));
+}
+Bytes write_of(std::uint8_t reg) {
+    return bytes(
+        mactalk::encode({.kind = Kind::write, .address = kGateway, .reg = reg, .length = 4, .value = 1}));
+}
+Bytes reply_of(std::uint8_t reg) {
+    const std::array<std::uint8_t, 4> data{};
+    return bytes(mactalk::encode_registers(reg, data));
+}
+
+struct SharedLineTest : testing::Test {
+    Bytes on_the_line() { return line.to_line(now, kGateway); }
+    void answer(const Bytes& answer) { line.from_line(answer, now); }
+
+    Clients clients;
+    SharedLine line{clients};
+    Time now{0};
+};
+
+TEST_F(SharedLineTest, MessagesInPiecesDoNotMix) {
+    const Bytes first = read_of(16);
+    const Bytes second = read_of(17);
+    for (std::size_t i = 0; i + 1 < first.size(); ++i) {
+        clients.sends[0] = {first[i]};
+        clients.sends[1] = {second[i]};
+        EXPECT_TRUE(on_the_line().empty());
+    }
+    clients.sends[0] = {first.back()};
+    clients.sends[1] = {second.back()};
+    EXPECT_EQ(on_the_line(), first);
+    EXPECT_TRUE(on_the_line().empty()) << "until the first is answered";
+    answer(reply_of(16));
+    EXPECT_EQ(on_the_line(), second);
+    answer(reply_of(17));
+    EXPECT_EQ(clients.hears[0], reply_of(16));
+    EXPECT_EQ(clients.hears[1], reply_of(17));
+}
+
+TEST_F(SharedLineTest, LongWritesPassAsTheyAre) {
+    const Bytes piece(128, 0x11);
+    const Bytes message = bytes(mactalk::encode_long_write(kGateway, 61, piece));
+    clients.sends[1] = message;
+    EXPECT_EQ(on_the_line(), message);
+}
+
+TEST_F(SharedLineTest, NoiseOfOneClientDoesNotReachTheOther) {
+    clients.sends[0] = {0x52, 0x52, 0x52, 0x80};
+    clients.sends[1] = read_of(5);
+    EXPECT_EQ(on_the_line(), read_of(5));
+}
+
+TEST_F(SharedLineTest, ARefusedMessageKeepsTheLineForAWhileOrUntilItsClientAsksAgain) {
+    clients.sends[0] = write_of(16);
+    clients.sends[1] = read_of(17);
+    EXPECT_EQ(on_the_line(), write_of(16));
+    now += SharedLine::kLongestAnswer - 1ms;
+    EXPECT_TRUE(on_the_line().empty());
+    clients.sends[0] = read_of(31);
+    EXPECT_EQ(on_the_line(), read_of(31)) << "why it was refused";
+    answer(reply_of(31));
+    EXPECT_EQ(on_the_line(), read_of(17));
+    now += SharedLine::kLongestAnswer;
+    clients.sends[0] = read_of(1);
+    EXPECT_EQ(on_the_line(), read_of(1)) << "the other one has waited long enough";
+}
+
+TEST_F(SharedLineTest, WhatIsNeverAnsweredKeepsNothing) {
+    clients.sends[0] = bytes(mactalk::encode({.kind = Kind::reset, .address = 1}));
+    clients.sends[1] = read_of(17);
+    EXPECT_EQ(on_the_line().size(), 7U);
+    EXPECT_EQ(on_the_line(), read_of(17));
+}
+
+TEST_F(SharedLineTest, SamplesOfEitherLengthEndWithASilence) {
+    clients.sends[0] = bytes(mactalk::encode({.kind = Kind::read_samples, .address = 1}));
+    clients.sends[1] = read_of(17);
+    EXPECT_FALSE(on_the_line().empty());
+    answer(bytes(mactalk::encode_samples(Bytes(16, 3))));
+    EXPECT_TRUE(on_the_line().empty());
+    now += 20ms;
+    EXPECT_EQ(on_the_line(), read_of(17));
+}
+
+}  // namespace
+}  // namespace nplc::sim
