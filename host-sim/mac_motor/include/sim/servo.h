@@ -85,6 +85,8 @@ class Servo {
     Supply supply_;
     Regulator regulator_;
     InnerLoop inner_;
+    double emf_;        // voltage units a count/step of the shaft, outer_loop only
+    double reactance_;  // and for each current unit
     Drive drive_;
     std::int32_t man_i_nom_ = 0;
     std::int32_t man_alpha_ = 0;
