@@ -69,6 +69,7 @@ void Servo::power_up(MotorMemory& memory) {
     }
     settings_.fill(~0U);
     take_settings(memory);
+    show_sums(memory);
     show_currents(memory);
     show_supply(memory);
 }
@@ -100,6 +101,7 @@ void Servo::take_settings(const MotorMemory& memory) {
 
 std::int32_t Servo::advance(MotorMemory& memory, const Terminals& terminals, InnerWatcher* watcher) {
     take_settings(memory);
+    take_sums(memory);
     if (depth_ == Depth::current_loop) {
         run_inner(memory, terminals, watcher);
     } else {
@@ -108,8 +110,7 @@ std::int32_t Servo::advance(MotorMemory& memory, const Terminals& terminals, Inn
     const std::int64_t counts = plant_.counts();
     v_ist_ = static_cast<std::int32_t>(counts - last_counts_);
     last_counts_ = counts;
-    memory.show(cell::I2T, rounded(i2t_));
-    memory.show(cell::UIT, rounded(uit_));
+    show_sums(memory);
     show_supply(memory);
     return v_ist_;
 }
@@ -289,6 +290,19 @@ void Servo::warm(double squares, double regenerated) {
     i2t_ += (heat - i2t_) * (constants_.outer_period / constants_.copper_seconds);
     const double dumped = regenerated / constants_.dump_watts * kAtLimit;
     uit_ += (dumped - uit_) * (constants_.outer_period / constants_.dump_seconds);
+}
+
+/// What was written into the registers since is what the sums go on from.
+void Servo::take_sums(const MotorMemory& memory) {
+    if (memory.get(cell::I2T) != i2t_shown_) i2t_ = memory.get(cell::I2T);
+    if (memory.get(cell::UIT) != uit_shown_) uit_ = memory.get(cell::UIT);
+}
+
+void Servo::show_sums(MotorMemory& memory) {
+    memory.show(cell::I2T, rounded(i2t_));
+    memory.show(cell::UIT, rounded(uit_));
+    i2t_shown_ = memory.get(cell::I2T);
+    uit_shown_ = memory.get(cell::UIT);
 }
 
 void Servo::show_supply(MotorMemory& memory) const {
