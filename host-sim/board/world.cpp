@@ -102,19 +102,8 @@ void World::move_characters() {
 void World::sample_motor() {
     next_sample_ += mac_.sample_period();
     if (!motor_powered_) return;
-    if (std::exchange(motor_fails_, false)) return fail_in_this_sample();
     mac_.sample();
-}
-
-/// For one sample the drive finds itself overloaded: I2T above its limit.
-void World::fail_in_this_sample() {
-    const std::int32_t i2t = mac_.read(registers::I2T);
-    const std::int32_t limit = mac_.read(registers::I2TLIM);
-    mac_.write(registers::I2TLIM, 1);
-    mac_.write(registers::I2T, 2);
-    mac_.sample();
-    mac_.write(registers::I2T, i2t);
-    mac_.write(registers::I2TLIM, limit);
+    if (std::exchange(motor_fails_, false)) mac_.overload();
 }
 
 void World::poll_gateway() {
@@ -219,7 +208,10 @@ void World::set_pulses(const action::MotorPulses& pulses) {
 }
 
 void World::set_supply(const action::MotorSupply& supply) {
-    if (!supply.logic) return mac_.supply().set_source(supply.volts);
+    if (!supply.logic) {
+        mac_.supply().set_source(supply.volts);
+        return mac_.supply().settle();  // a motor at rest would never empty its bus
+    }
     mac_.surroundings().logic_millivolts = static_cast<std::int32_t>(std::lround(1000 * supply.volts));
 }
 

@@ -83,7 +83,7 @@ void MacMotor::regulate(std::int32_t fnc_out) {
         {.kind = Drive::Kind::velocity, .fnc_out = fnc_out, .torque_limit = torque_limit()}, memory_);
     if (facts().corrected) {
         learn_braking(fnc_out, out.correction);
-        fnc_out += out.correction;
+        fnc_out = std::clamp(fnc_out + out.correction, -kBound, kBound);
     }
     const std::int64_t corrected = facts().corrected ? std::int64_t{memory_.get(cell::FNCERR)} : 0;
     memory_.set(cell::FNCERR, facts().corrected ? wrap32(corrected + out.correction) : 0);

@@ -1,6 +1,7 @@
 // A virtual motor under whatever lines, registers and terminals can do to it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -51,7 +52,7 @@ class Tormentor {
     /// A request of INIT, a calm world: how many samples until the motor is passive; kPassiveWithin: it is
     /// not.
     int until_passive() {
-        motor_.plant().load().torque = 0;
+        calm();
         motor_.go_to_init();
         for (int i = 0; i < kPassiveWithin; ++i) {
             if (motor_.is_mode(MotorMode::init)) return i;
@@ -86,6 +87,14 @@ class Tormentor {
         now_ += std::chrono::microseconds(2000);
         ASSERT_LT(motor_.mode(), 25);
         ASSERT_LE(std::abs(motor_.torque()), 1023);
+    }
+
+    /// Nothing pulls, the supply is there.
+    void calm() {
+        motor_.plant().load().torque = 0;
+        motor_.supply().set_source(is_mac800(motor_.model()) ? 325 : 48);
+        motor_.supply().settle();
+        motor_.surroundings() = {};
     }
 
     std::int32_t value() {
@@ -160,7 +169,7 @@ class Tormentor {
         }
     }
     void change_the_world() {
-        switch (below(7)) {
+        switch (below(10)) {
             case 0:
                 return motor_.terminals().set_analogue(static_cast<std::int32_t>(below(24'000)) - 12'000);
             case 1:
@@ -176,6 +185,15 @@ class Tormentor {
                 return;
             case 5:
                 return motor_.power_cycle();
+            case 6:
+                motor_.supply().set_source(static_cast<double>(below(600)));
+                return motor_.supply().settle();
+            case 7:
+                motor_.surroundings().celsius = static_cast<std::int32_t>(below(120));
+                motor_.surroundings().encoder_broken = below(4) == 0;
+                return;
+            case 8:
+                return calm();
             default:
                 return motor_.terminals().connect({.counts = 0, .on_above = below(2) == 0});
         }
@@ -211,19 +229,22 @@ class RandomMotor : public ::testing::TestWithParam<registers::Model> {};
 
 TEST_P(RandomMotor, IsAlwaysPassiveAfterARequestOfInit) {
     int longest = 0;
+    std::array<int, 25> asked{};  // from which modes
     for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         Tormentor tormentor(GetParam(), seed, false);
         tormentor.run();
         if (HasFatalFailure()) return;
+        ++asked[tormentor.motor().mode()];
         const int samples = tormentor.until_passive();
         ASSERT_LT(samples, kPassiveWithin)
             << "mode " << tormentor.motor().mode() << ", V_IST " << tormentor.motor().v_ist();
         ASSERT_TRUE(tormentor.stays_passive());
         longest = std::max(longest, samples);
     }
-    std::printf("%d runs of %d deeds, seeds 1 to %d: passive after %d samples at the most\n", kRuns, kDeeds,
-                kRuns, longest);
+    const auto modes = std::count_if(asked.begin(), asked.end(), [](int times) { return times > 0; });
+    std::printf("%d runs of %d deeds, seeds 1 to %d, from %d modes: passive after %d samples at the most\n",
+                kRuns, kDeeds, kRuns, static_cast<int>(modes), longest);
 }
 
 // With every register written, coefficients too: no shaft can be promised, but no crash, no undefined mode,

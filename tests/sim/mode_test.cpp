@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdlib>
+#include <set>
 
 #include "motor_bench.h"
 
@@ -68,6 +69,24 @@ TEST(Mode, StopEndsBelow300RpmBackwards) {
     b.set(A_SOLL, 4);
     b.set(MODE_REG, 0);
     EXPECT_NEAR(slowest_in_stop(b, 39), 40.5, 0.5);
+}
+
+// The two velocities themselves, about 640 / 16 = 40, as the encoder reads them in the first sample of STOP.
+TEST(Mode, StopGoesOnAt40AndEndsAt39) {
+    std::set<std::int32_t> went_on;
+    std::set<std::int32_t> ended;
+    for (int wait = 0; wait < 60; ++wait) {
+        MotorBench b;
+        run_at(b, 632 + wait % 10);
+        b.samples(wait);
+        b.set(MODE_REG, 0);
+        EXPECT_EQ(b.reg(MODE_REG), 11);
+        b.samples(1);
+        (b.reg(MODE_REG) == 11 ? went_on : ended).insert(b.motor.v_ist());
+    }
+    ASSERT_FALSE(went_on.empty() || ended.empty());
+    EXPECT_EQ(*went_on.begin(), 40);
+    EXPECT_EQ(*ended.rbegin(), 39);
 }
 
 // 004: 0.17316 counts/sample per rpm, so 300 rpm are 51.9.

@@ -94,7 +94,6 @@ class World final : public Stage, private gateway::Observer {
     void start_gateway(gateway::StartCause cause);
     void move_characters();
     void sample_motor();
-    void fail_in_this_sample();
     void poll_gateway();
     void follow_orders();
 

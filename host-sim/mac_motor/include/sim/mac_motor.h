@@ -86,6 +86,8 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     /// Why the motor stands in the mode that it was asked for, as a sentence: a gear mode without the pins of
     /// the pulse input, or TESTTQ, of which the manual says nothing. Empty if all is well.
     std::string_view note() const { return note_; }
+    /// As if I2T had been above its limit for a moment: I2T_ERR and all that follows from it.
+    void overload() { fail(err::I2T_ERR); }
     /// The output for a holding brake (004, MAN_NO_BRAKE): on while the motor is passive. R: no brake is
     /// built in; it holds nothing.
     bool brake_output() const;
