@@ -274,7 +274,10 @@ void World::set_pulses(const action::MotorPulses& pulses) {
 }
 
 void World::set_supply(const action::MotorSupply& supply) {
-    if (!supply.logic) return mac_.supply().set_source(supply.volts);
+    if (!supply.logic) {
+        mac_.supply().set_source(supply.volts);
+        return mac_.supply().settle();  // a motor at rest would never empty its bus
+    }
     mac_.surroundings().logic_millivolts = static_cast<std::int32_t>(std::lround(1000 * supply.volts));
 }
 

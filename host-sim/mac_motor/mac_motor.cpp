@@ -3,8 +3,6 @@
 namespace nplc::sim {
 namespace {
 
-constexpr std::size_t kHistory = 16;
-
 protocol::fastmac::RegisterCode code_of(const MacMotorOptions& options) {
     using protocol::fastmac::RegisterCode;
     return options.old_register_codes ? RegisterCode::older_example : RegisterCode::format_list;
@@ -36,7 +34,8 @@ void MacMotor::power_cycle() {
     mactalk_.power_up();
     samples_.rewind();
     samples_.clear();
-    v_history_.clear();
+    v_history_.fill(0);
+    v_sum_ = 0;
     v_old_ = samples_within_ = corrected_braking_ = 0;
     follow_error_16_ = 0;
     emergency_ = false;
@@ -89,10 +88,6 @@ std::optional<std::uint8_t> MacMotor::transmit(base::Instant now) {
     return link_.transmit(now, *this);
 }
 
-std::uint16_t MacMotor::mode() const {
-    return static_cast<std::uint16_t>(memory_.get(cell::MODE_REG));
-}
-
 void MacMotor::sample() {
     measure();
     read_inputs();
@@ -118,11 +113,10 @@ void MacMotor::measure() {
     memory_.set(cell::V_IST, v_ist);
     memory_.set(cell::P_IST, wrap32(std::int64_t{p_ist()} + v_ist));
 
-    v_history_.push_back(v_ist);
-    if (v_history_.size() > kHistory) v_history_.pop_front();
-    std::int32_t sum = 0;
-    for (const std::int32_t v : v_history_) sum += v;
-    memory_.set(cell::V_IST_16, sum);
+    std::int32_t& oldest = v_history_[v_next_++ % v_history_.size()];
+    v_sum_ += v_ist - oldest;
+    oldest = v_ist;
+    memory_.set(cell::V_IST_16, v_sum_);
 }
 
 // 001 §3.2.120, §3.2.122

@@ -24,8 +24,12 @@ std::int32_t position_block(std::int64_t distance, std::int32_t v_old, std::int3
                             std::int32_t acceleration, std::int32_t braking) {
     const bool backwards = distance < 0;
     const std::int64_t towards = backwards ? -std::int64_t{v_old} : v_old;
-    const std::int64_t highest = std::min({towards + acceleration, std::int64_t{limit},
-                                           fastest_that_can_stop(backwards ? -distance : distance, braking)});
+    const std::int64_t way = backwards ? -distance : distance;
+    std::int64_t highest = std::min(towards + acceleration, std::int64_t{limit});
+    // Stopping from `highest` takes no more than highest^2 / 2 braking + highest: far from the target that is
+    // all.
+    const bool far = braking > 0 && highest * (highest + 2 * std::int64_t{braking}) <= 2 * braking * way;
+    if (!far) highest = std::min(highest, fastest_that_can_stop(way, braking));
     const auto velocity = static_cast<std::int32_t>(std::max(highest, towards - acceleration));
     return backwards ? -velocity : velocity;
 }

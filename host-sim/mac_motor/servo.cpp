@@ -31,6 +31,13 @@ double kvout_of(const MotorMemory& memory) {
     return memory.get(cell::KVOUT) / 256.0;
 }
 
+/// Of a winding, in voltage units for a current unit and a count/step of the shaft.
+double reactance_of(const MotorConstants& c) {
+    constexpr double kTwoPi = 6.28318530717958647692;
+    const double inner_samples = (1 + c.decay) / (2 * (1 - c.decay));  // L / R
+    return kTwoPi / c.counts_a_field * kOuterSteps / kInnerSamples * inner_samples * c.resistance;
+}
+
 std::int32_t rounded(double value) {
     constexpr double kMost = 2'000'000'000;
     return static_cast<std::int32_t>(std::clamp(value, -kMost, kMost));
@@ -42,8 +49,11 @@ Servo::Servo(registers::Model model, Depth depth, const Load& load)
     : constants_(constants_of(model)),
       depth_(depth),
       plant_(constants_.full_acceleration, depth == Depth::current_loop ? kInnerSamples : kOuterSteps, load),
-      supply_(constants_.supply),
-      inner_(model) {}
+      supply_(constants_.supply,
+              constants_.outer_period / (depth == Depth::current_loop ? kInnerSamples : kOuterSteps)),
+      inner_(model),
+      emf_(constants_.emf * kOuterSteps / kInnerSamples),
+      reactance_(reactance_of(constants_)) {}
 
 void Servo::power_up(MotorMemory& memory) {
     regulator_.reset();
@@ -59,6 +69,7 @@ void Servo::power_up(MotorMemory& memory) {
     }
     settings_.fill(~0U);
     take_settings(memory);
+    show_sums(memory);
     show_currents(memory);
     show_supply(memory);
 }
@@ -90,6 +101,7 @@ void Servo::take_settings(const MotorMemory& memory) {
 
 std::int32_t Servo::advance(MotorMemory& memory, const Terminals& terminals, InnerWatcher* watcher) {
     take_settings(memory);
+    take_sums(memory);
     if (depth_ == Depth::current_loop) {
         run_inner(memory, terminals, watcher);
     } else {
@@ -98,14 +110,12 @@ std::int32_t Servo::advance(MotorMemory& memory, const Terminals& terminals, Inn
     const std::int64_t counts = plant_.counts();
     v_ist_ = static_cast<std::int32_t>(counts - last_counts_);
     last_counts_ = counts;
-    memory.show(cell::I2T, rounded(i2t_));
-    memory.show(cell::UIT, rounded(uit_));
+    show_sums(memory);
     show_supply(memory);
     return v_ist_;
 }
 
 void Servo::run_inner(MotorMemory& memory, const Terminals& terminals, InnerWatcher* watcher) {
-    const double seconds = constants_.outer_period / kInnerSamples;
     double squares = 0;
     double regenerated = 0;
     inner_.clear_at_the_end();
@@ -120,7 +130,7 @@ void Servo::run_inner(MotorMemory& memory, const Terminals& terminals, InnerWatc
         }
         squares += inner_.squares();
         if (supply_.dumping()) regenerated += inner_.regenerated();
-        supply_.step(inner_.move(plant_, supply_.volts()), seconds);
+        supply_.step(inner_.move(plant_, supply_.volts()));
     }
     warm(squares / kInnerSamples, regenerated / kInnerSamples);
     show_currents(memory);
@@ -161,49 +171,39 @@ void Servo::run_outer(const MotorMemory& memory, const Terminals& terminals) {
     if (drive_.kind == Drive::Kind::analogue_torque) torque_ = analogue_torque(memory, terminals);
     const bool driven = drive_.kind == Drive::Kind::velocity || drive_.kind == Drive::Kind::torque ||
                         drive_.kind == Drive::Kind::analogue_torque;
-    // A shorted winding brakes with the current that its EMF drives through resistance and inductance.
-    const double steps = kInnerSamples / kOuterSteps;
-    const double torque_of_current = kFullTorque / constants_.full_current;
-    const double resistance = constants_.resistance;
-    const double full_amperes = constants_.full_current * constants_.amperes_of_one;
-    const double seconds = constants_.outer_period / kOuterSteps;
     double squares = 0;
     double regenerated = 0;
     for (const double rise : kRise) {
-        const double emf = constants_.emf * plant_.velocity() / steps;
-        if (!driven) {
-            plant_.step(0, constants_.emf / steps / resistance * torque_of_current);
-            const double current = emf / resistance;
+        const double emf = emf_ * plant_.velocity();
+        if (!driven) {  // a shorted winding brakes with the current that its EMF drives through it
+            const double current = emf / constants_.resistance;
+            plant_.step(0, emf_ / constants_.resistance * kFullTorque / constants_.full_current);
+            supply_.step(0);
             squares += 1.5 * current * current;
             continue;
         }
         const double torque = reachable(torque_before_ + (torque_ - torque_before_) * rise);
-        const double share = torque / kFullTorque;
-        const double volts = emf + share * constants_.full_current * resistance;
-        const double watts = 1.5 * volts * constants_.volts_of_one * share * full_amperes;
-        const double current = share * constants_.full_current;
+        const double current = torque * (constants_.full_current / kFullTorque);
+        const double watts = 1.5 * (emf + current * constants_.resistance) * current *
+                             constants_.volts_of_one * constants_.amperes_of_one;
         squares += 1.5 * current * current;
         if (supply_.dumping()) regenerated += std::max(-watts, 0.0);
-        supply_.step(watts, seconds);
+        supply_.step(watts);
         plant_.step(torque);
     }
     torque_before_ = driven ? torque_ : 0;
-    if (!driven) supply_.step(0, constants_.outer_period);
     warm(squares / kOuterSteps, regenerated / kOuterSteps);
 }
 
 /// What the supply can drive against the EMF, through resistance and inductance.
 double Servo::reachable(double torque) const {
-    const double per_inner = plant_.velocity() * kOuterSteps / kInnerSamples;
+    const double current_of_torque = constants_.full_current / kFullTorque;
     const double available = CurrentRegulator::kRange * supply_.volts() / constants_.nominal_volts;
     const double sign = torque < 0 ? -1 : 1;
-    const double emf = constants_.emf * per_inner * sign;
-    const double current_of_torque = constants_.full_current / kFullTorque;
+    const double emf = emf_ * plant_.velocity() * sign;
+    const double reactance = std::abs(reactance_ * plant_.velocity());
     const double current = torque * sign * current_of_torque;
-    constexpr double kTwoPi = 6.28318530717958647692;
-    const double time_constant = (1 + constants_.decay) / (2 * (1 - constants_.decay));  // inner samples
-    const double reactance =
-        kTwoPi / constants_.counts_a_field * per_inner * time_constant * constants_.resistance;
+    if (std::abs(emf) + (constants_.resistance + reactance) * current <= available) return torque;
     const double square = constants_.resistance * constants_.resistance + reactance * reactance;
     const double along = emf * constants_.resistance;
     const double spare = emf * emf - available * available;
@@ -290,6 +290,19 @@ void Servo::warm(double squares, double regenerated) {
     i2t_ += (heat - i2t_) * (constants_.outer_period / constants_.copper_seconds);
     const double dumped = regenerated / constants_.dump_watts * kAtLimit;
     uit_ += (dumped - uit_) * (constants_.outer_period / constants_.dump_seconds);
+}
+
+/// What was written into the registers since is what the sums go on from.
+void Servo::take_sums(const MotorMemory& memory) {
+    if (memory.get(cell::I2T) != i2t_shown_) i2t_ = memory.get(cell::I2T);
+    if (memory.get(cell::UIT) != uit_shown_) uit_ = memory.get(cell::UIT);
+}
+
+void Servo::show_sums(MotorMemory& memory) {
+    memory.show(cell::I2T, rounded(i2t_));
+    memory.show(cell::UIT, rounded(uit_));
+    i2t_shown_ = memory.get(cell::I2T);
+    uit_shown_ = memory.get(cell::UIT);
 }
 
 void Servo::show_supply(MotorMemory& memory) const {

@@ -93,6 +93,7 @@ class Tormentor {
     void calm() {
         motor_.plant().load().torque = 0;
         motor_.supply().set_source(is_mac800(motor_.model()) ? 325 : 48);
+        motor_.supply().settle();
         motor_.surroundings() = {};
     }
 
@@ -185,7 +186,8 @@ class Tormentor {
             case 5:
                 return motor_.power_cycle();
             case 6:
-                return motor_.supply().set_source(static_cast<double>(below(600)));
+                motor_.supply().set_source(static_cast<double>(below(600)));
+                return motor_.supply().settle();
             case 7:
                 motor_.surroundings().celsius = static_cast<std::int32_t>(below(120));
                 motor_.surroundings().encoder_broken = below(4) == 0;

@@ -252,6 +252,17 @@ TEST(Heat, I2TIsAPartialSumOfTheSquares) {
     }
 }
 
+// The sums go on from what is written.
+TEST(Heat, I2TCanBeWritten) {
+    MotorBench b;
+    b.set(I2T, 9000);
+    b.samples(10);
+    EXPECT_NEAR(b.reg(I2T), 9000, 10);  // 10 samples of 30 s take 6 off
+    b.set(I2T, 50'000);
+    b.samples(1);
+    EXPECT_NEAR(b.reg(I2T), 50'000, 10);
+}
+
 // 004's units: 325 V are 366, 24 V of the logic supply 1787; 25 degrees are 205.
 TEST(Supply, RegistersOfTheMac800) {
     MotorBench b(Model::mac800);

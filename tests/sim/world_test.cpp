@@ -170,6 +170,37 @@ TEST_F(WorldRun, PulsesReachOnlyAMotorWithAnInputForThem) {
     EXPECT_NEAR(big.mac().read(kVExt), 100, 1);
 }
 
+// 24 V / 53.7 mV = 447 (001 §3.2.151).
+TEST_F(WorldRun, TheSupplyCanSag) {
+    world_.set_supply({.volts = 24});
+    run_to(500ms);
+    EXPECT_NEAR(world_.mac().read(151), 447, 2);
+}
+
+// 004: ERR_STAT bits 8, 15 and 17; the encoder is whole again after power off and on.
+TEST_F(WorldRun, AMac800FeelsItsSurroundings) {
+    WorldOptions options;
+    options.motor = registers::Model::mac800;
+    World big(table(), options);
+    const auto err_stat_after = [&big](Time time) {
+        const Time end = big.now() + time;
+        while (big.now() < end) big.step(end);
+        return big.mac().read(registers::ERR_STAT);
+    };
+    EXPECT_EQ(err_stat_after(20ms) & 0x2BB8F, 0);
+    big.set_temperature(120);
+    EXPECT_EQ(err_stat_after(20ms) & 0x2BB8F, 1 << 8);
+    big.set_supply({.volts = 12, .logic = true});
+    EXPECT_EQ(err_stat_after(20ms) & 0x2BB8F, 1 << 8 | 1 << 17);
+    big.break_encoder();
+    EXPECT_EQ(err_stat_after(20ms) & 0x2BB8F, 1 << 8 | 1 << 15 | 1 << 17);
+    big.set_temperature(25);
+    big.set_supply({.volts = 24, .logic = true});
+    big.power_motor(false);
+    big.power_motor(true);
+    EXPECT_EQ(err_stat_after(20ms) & 0x2BB8F, 0);
+}
+
 TEST_F(WorldRun, SnapshotsHandOverTheOrdersOnce) {
     ASSERT_TRUE(run_until([&] { return step() == 1; }, 1s));
     const Snapshot first = world_.take_snapshot();

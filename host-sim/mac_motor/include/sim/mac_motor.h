@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <deque>
@@ -72,7 +73,8 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     /// The same by the register's own width.
     void write(std::uint8_t reg, std::int32_t value);
 
-    std::uint16_t mode() const;  ///< MODE_REG
+    /// MODE_REG
+    std::uint16_t mode() const { return static_cast<std::uint16_t>(memory_.get(cell::MODE_REG)); }
     bool is_mode(MotorMode mode) const { return this->mode() == number(mode); }
     std::int32_t p_ist() const { return memory_.get(cell::P_IST); }
     std::int32_t v_ist() const { return memory_.get(cell::V_IST); }
@@ -253,7 +255,9 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     int test_samples_ = 0;              // of TESTU and TESTA
     std::int32_t brake_direction_ = 0;  // BREAK: the sign of the motion that it ends
     std::int32_t uv_timer_ = 0;         // UV_TIMER, samples
-    std::deque<std::int32_t> v_history_;
+    std::array<std::int32_t, 16> v_history_{};
+    std::size_t v_next_ = 0;
+    std::int32_t v_sum_ = 0;
     std::string_view note_;
 };
 

@@ -102,7 +102,9 @@ class MotorMemory {
     }
     /// For what the motor shows: a value beyond the cell's range stands at its end.
     void show(Cell cell, std::int32_t value) {
-        set(cell, is_wide(cell) ? value : std::clamp(value, -0x8000, 0x7FFF));
+        if (is_wide(cell)) return set(cell, value);
+        set(cell, cell.kind == Cell::Kind::word ? std::clamp(value, 0, 0xFFFF)
+                                                : std::clamp(value, -0x8000, 0x7FFF));
     }
 
     /// As the line sees it: 16 bits, or with `longword` 32. MAC50-141: a longword is `reg` and the number

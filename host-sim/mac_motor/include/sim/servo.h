@@ -78,6 +78,8 @@ class Servo {
     void show_currents(MotorMemory& memory) const;
     void warm(double squares, double regenerated);
     void show_supply(MotorMemory& memory) const;
+    void take_sums(const MotorMemory& memory);
+    void show_sums(MotorMemory& memory);
 
     const MotorConstants& constants_;
     Depth depth_;
@@ -85,6 +87,8 @@ class Servo {
     Supply supply_;
     Regulator regulator_;
     InnerLoop inner_;
+    double emf_;        // voltage units a count/step of the shaft, outer_loop only
+    double reactance_;  // and for each current unit
     Drive drive_;
     std::int32_t man_i_nom_ = 0;
     std::int32_t man_alpha_ = 0;
@@ -94,6 +98,8 @@ class Servo {
     double torque_before_ = 0;  // of the sample before, outer_loop only
     double i2t_ = 0;
     double uit_ = 0;
+    std::int32_t i2t_shown_ = 0;
+    std::int32_t uit_shown_ = 0;
     std::int64_t last_counts_ = 0;
     std::int32_t v_ist_ = 0;
     std::array<std::uint32_t, 64> settings_{};  // the registers that were taken

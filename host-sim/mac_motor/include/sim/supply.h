@@ -17,12 +17,14 @@ class Supply {
     };
     static constexpr double kLeast = 1;  // V, what keeps a division alive
     static constexpr double kMost = 1000;
+    static constexpr double kHold = 1.004;  ///< times dump_volts: what the dump keeps the bus at
 
-    explicit Supply(const Constants& constants)
+    /// `seconds`: of a step.
+    Supply(const Constants& constants, double seconds)
         : constants_(constants),
-          source_siemens_(1 / constants.source_ohms),
-          dump_siemens_(1 / constants.dump_ohms),
-          per_farad_(1 / constants.farads),
+          volts_of_ampere_(seconds / constants.farads),
+          charged_(volts_of_ampere_ / (volts_of_ampere_ + constants.source_ohms)),
+          dumped_(volts_of_ampere_ / (volts_of_ampere_ + constants.dump_ohms)),
           volts_(constants.source_volts) {}
 
     /// What the source gives without load; may be changed at any time.
@@ -32,22 +34,23 @@ class Supply {
     double volts() const { return volts_; }
     bool dumping() const { return volts_ > constants_.dump_volts; }
 
-    /// `watts` go to the windings for `seconds`; negative: they come back.
-    void step(double watts, double seconds) {
-        double amperes = -watts / volts_;
-        const double missing = constants_.source_volts - volts_;
-        if (missing > 0) amperes += missing * source_siemens_;
-        if (dumping()) amperes -= volts_ * dump_siemens_;
-        volts_ = std::clamp(volts_ + amperes * seconds * per_farad_, kLeast, kMost);
+    /// `watts` go to the windings for a step; negative: they come back. Source and dump in implicit steps,
+    /// which no step is too long for.
+    void step(double watts) {
+        double volts = volts_ - watts / volts_ * volts_of_ampere_;
+        const double held = constants_.dump_volts * kHold;
+        if (volts > held) volts = std::max(volts - volts * dumped_, held);
+        if (volts < constants_.source_volts) volts += (constants_.source_volts - volts) * charged_;
+        volts_ = std::clamp(volts, kLeast, kMost);
     }
     /// The bus of a source that was switched off and on, or one that has had time.
     void settle() { volts_ = std::max(constants_.source_volts, kLeast); }
 
   private:
     Constants constants_;
-    double source_siemens_;
-    double dump_siemens_;
-    double per_farad_;
+    double volts_of_ampere_;
+    double charged_;  // of what is missing, in a step
+    double dumped_;
     double volts_;
 };
 
