@@ -28,7 +28,7 @@ void MacMotor::fail(std::uint32_t error) {
     go_passive(true);
 }
 
-/// A limit of 0 is none.
+/// A limit of 0 is none (001 §4.5.4, §4.5.5).
 bool MacMotor::exceeds(Cell value, Cell limit) const {
     const std::int64_t v = memory_.get(value);
     const std::int64_t most = memory_.get(limit);
@@ -37,9 +37,9 @@ bool MacMotor::exceeds(Cell value, Cell limit) const {
 
 // 001 §4.5.1 to §4.5.5
 void MacMotor::watch_limits() {
-    if (exceeds(cell::I2T, cell::I2TLIM)) fail(err::I2T_ERR);
+    if (is_above(cell::I2T, cell::I2TLIM)) fail(err::I2T_ERR);
     const bool feeds_back = is_mac800(model()) || memory_.get(cell::U_SUPPLY) > kAbove52V;
-    if (exceeds(cell::UIT, cell::UITLIM) && feeds_back) fail(err::UIT_ERR);
+    if (is_above(cell::UIT, cell::UITLIM) && feeds_back) fail(err::UIT_ERR);
     if (exceeds(cell::FLWERR, cell::FLWERRMAX)) fail(err::FLW_ERR);
     if (exceeds(cell::FNCERR, cell::FNCERRMAX)) fail(err::FNC_ERR);
     const std::int32_t low = memory_.get(cell::MIN_P_IST);
@@ -84,7 +84,7 @@ void MacMotor::watch_mac800() {
     const bool too_fast = (v < 0 ? -v : v) * kNanosecondsInMinute >
                           kFastest * counts_per_revolution() * sample_period().count();
     if (too_fast) fail(err800::SPEED_ERR);
-    if (exceeds(cell::DEGC, cell::DEGCMAX)) fail(err800::DEGC_ERR);
+    if (is_above(cell::DEGC, cell::DEGCMAX)) fail(err800::DEGC_ERR);
     if (memory_.get(cell::U_SUPPLY) > kHighBus) fail(err800::OV_ERR);
     if (memory_.get(cell::U_24V) < kLowLogic) fail(err800::U24V_ERR);
     if (surroundings_.encoder_broken) fail(err800::INDEX_ERR);

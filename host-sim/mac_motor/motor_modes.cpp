@@ -16,8 +16,12 @@ const ModeFacts& MacMotor::facts() const {
     return *facts_of(mode());
 }
 
-bool MacMotor::error_forbids_motion() const {
-    return (error_status() & bits().keeps_init) != 0;
+/// INIT is not left with an error (001 §4.4.1), nor the STOP that leads to it. R: an error's STOP runs to its
+/// end, even if the error is reset meanwhile.
+bool MacMotor::error_keeps_mode() const {
+    if (is_mode(MotorMode::stop) && emergency_) return true;
+    return (is_mode(MotorMode::stop) || is_mode(MotorMode::init)) &&
+           (error_status() & bits().keeps_init) != 0;
 }
 
 void MacMotor::request_mode(std::uint16_t mode) {
@@ -27,7 +31,7 @@ void MacMotor::request_mode(std::uint16_t mode) {
     }
     if (facts_of(mode) == nullptr) return;
     if (mode == number(MotorMode::init)) return request_init();
-    if (!error_forbids_motion()) leave_for(mode);
+    if (!error_keeps_mode()) leave_for(mode);
 }
 
 // R: AT and the tests end in INIT whatever they are left for, and a test runs to its end.

@@ -51,8 +51,10 @@ void MacMotor::clear_volatile(MotorMemory& memory) {
 }
 
 void MacMotor::store_registers() {
+    const std::int32_t version = stored_.get(cell::PROG_VERSION);  // 001 §3.2.1: not to be stored
     stored_ = memory_;
     clear_volatile(stored_);
+    stored_.set(cell::PROG_VERSION, version);
     // The bits of ERR_STAT that are settings are kept (001 §3.2.35).
     constexpr std::uint32_t kSettings = err::DIS_P_LIM;
     stored_.set(cell::ERR_STAT, static_cast<std::int32_t>(error_status() & (kSettings | bits().relpos_p_soll |

@@ -95,6 +95,41 @@ TEST(Coil, AWrongSetupMovesNothing) {
     EXPECT_EQ(narrow.after(1'000), 10);
 }
 
+// R: a thread or stop that is moved while it winds counts from the next sample on; a place beyond it comes
+// in.
+TEST(Coil, ThreadsAndStopsMayBeMovedWhileItWinds) {
+    Winding w;
+    w.start();
+    EXPECT_EQ(w.after(40'000), 52'000);
+    w.setup.right_stop = 50'000;  // P3
+    EXPECT_EQ(w.after(0), 50'000);
+    w.setup.right_thread = 55'000;  // P4: 52,000 + 4,000 are 1,000 beyond it
+    EXPECT_EQ(w.after(4'000), 50'000);
+    EXPECT_EQ(w.after(4'001), 49'999) << "54,000 to the left less 4,001";
+    w.setup.left_thread = 45'000;  // P1, and P2
+    w.setup.left_stop = 46'000;
+    EXPECT_EQ(w.after(5'000), 46'000) << "4,999 to the thread and 1 back: 45,001";
+    EXPECT_EQ(w.after(1'000), 46'001);
+    w.setup.start = 47'000;  // P5 and P6: nothing before the next start
+    w.setup.direction = -1;
+    EXPECT_EQ(w.after(10), 46'011);
+    EXPECT_EQ(w.start(), 47'000);
+    EXPECT_EQ(w.after(10), 46'990);
+}
+
+// R: a setup that breaks the rules meanwhile is where the motor stops; mended, it goes on from the place it
+// had.
+TEST(Coil, AWrongSetupWhileItWindsStops) {
+    Winding w;
+    w.start();
+    w.after(20'000);
+    w.setup.left_stop = 59'000;
+    w.coil.step(w.setup, false, 16 * 500);
+    EXPECT_EQ(w.coil.target_16(w.setup, 77), 77);
+    w.setup.left_stop = 12'000;
+    EXPECT_EQ(w.after(500), 32'500);
+}
+
 MotorBench coiling() {
     MotorBench b(registers::Model::mac800);
     const std::int32_t setup[] = {10'000, 12'000, 58'000, 60'000, 12'000, 1};

@@ -198,6 +198,17 @@ TEST(SafeMode, FlashIsWrittenThereOnlyAndResets) {
     EXPECT_EQ(bench.motor.read(65), 777);
 }
 
+// 001 §3.2.1: can be changed, but not in flash.
+TEST(SafeMode, ProgVersionIsNotWrittenToFlash) {
+    Bench bench;
+    const std::int32_t version = bench.motor.read(1);
+    bench.motor.write(1, 99, false);
+    EXPECT_EQ(bench.motor.read(1), 99);
+    bench.ask("54 54 54 08 F7 AA AA");
+    bench.ask("56 56 56 08 F7 AA AA");
+    EXPECT_EQ(bench.motor.read(1), version);
+}
+
 TEST(SafeMode, ResetIsTakenInInitAndSafe) {
     Bench bench;
     bench.motor.write(65, 777, false);

@@ -120,6 +120,46 @@ TEST(ModeMatrix, AnErrorKeepsInit) {
     }
 }
 
+// 001 §3.2.35, §4.4.1: it is INIT that cannot be left. UV_ERR alone (§3.2.160 bit 0) stops nothing, so a
+// motor that runs goes on doing what it is told, to a stop too.
+TEST(ModeMatrix, AnErrorThatStopsNothingKeepsNoOtherMode) {
+    constexpr std::int32_t kUvErr = 1 << 12;
+    for (const int to : {2, 3, 11, 14}) {
+        MotorBench b;
+        b.set(MODE_REG, 1);
+        b.samples(60);
+        b.set(ERR_STAT, kUvErr);
+        b.set(MODE_REG, to);
+        EXPECT_EQ(b.reg(MODE_REG), to);
+        b.set(MODE_REG, 0);
+        b.samples(600);
+        b.set(MODE_REG, to);
+        EXPECT_EQ(b.reg(MODE_REG), 0) << to;
+    }
+}
+
+// §4.5: an error leads to INIT through STOP. R: nothing leads elsewhere before, though the error is reset.
+TEST(ModeMatrix, AnErrorsStopRunsToItsEnd) {
+    for (const int to : {0, 1, 2, 4, 7, 11, 12}) {
+        MotorBench b;
+        b.set(ACC_EMERG, 20);
+        b.set(MODE_REG, 1);
+        b.samples(60);
+        b.motor.overload();
+        EXPECT_EQ(b.reg(MODE_REG), 11);
+        b.command(protocol::fastmac::Number::reset_error);
+        EXPECT_EQ(b.reg(ERR_STAT) & 0x0F, 0);
+        b.set(MODE_REG, to);
+        EXPECT_EQ(b.reg(MODE_REG), 11) << to;
+        const std::int32_t before = b.reg(FNC_OUT);
+        b.samples(1);
+        EXPECT_EQ(b.reg(FNC_OUT), before - 20) << to;
+        EXPECT_EQ(until_another(b, 11), 0) << to;
+        if (to != 0) b.set(MODE_REG, to);
+        EXPECT_EQ(b.reg(MODE_REG), to) << "INIT is left as ever";
+    }
+}
+
 TEST(ModeMatrix, NumbersThatAreNoModes) {
     for (const int to : {25, 99, 100, 255, 256, 257, 258, 0xFFFF}) {
         MotorBench b;

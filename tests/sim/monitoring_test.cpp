@@ -80,13 +80,31 @@ TEST(Monitoring, PositionLimit) {
     expect_error(b, 1 << 7, [&] { b.set(P_IST, 0); });
 }
 
-// R: a limit of 0 is none.
+// 001 §3.2.22, §3.2.26, §4.5.3: a limit of 0 is none.
 TEST(Monitoring, LimitsOfZeroAreNone) {
     MotorBench b = running();
     for (const int limit : {FLWERRMAX, FNCERRMAX, MIN_P_IST, MAX_P_IST}) b.set(limit, 0);
     b.motor.plant().load().torque = -900;
     b.samples(2000);
     EXPECT_EQ(b.reg(ERR_STAT) & 0xFF & ~0x70, 0);
+}
+
+// Of heat nothing like that is said (001 §4.5.1, §4.5.2; 004, DEGCMAX): above 0 is above.
+TEST(Monitoring, AHeatLimitOfZeroIsOne) {
+    MotorBench b = running();
+    b.set(I2T, 50);
+    b.set(I2TLIM, 0);
+    b.samples(1);
+    EXPECT_EQ(b.reg(ERR_STAT) & 0x0F, 0x01);
+    MotorBench c = running(registers::Model::mac800);
+    c.set(UIT, 50);
+    c.set(UITLIM, 0);
+    c.samples(1);
+    EXPECT_EQ(c.reg(ERR_STAT) & 0x0F, 0x08);
+    MotorBench d = running(registers::Model::mac800);
+    d.set(31, 0);
+    d.samples(1);
+    EXPECT_NE(d.reg(ERR_STAT) & 1 << 8, 0);
 }
 
 // 001 §4.5.6 with U_MIN_SUP 400: below 400 it is low, well above 500 (1.25 x). Without a bit in UV_HANDLE
@@ -319,6 +337,16 @@ TEST(Monitoring, IxErrStopsNothing) {
     b.samples(3);
     EXPECT_NE(b.reg(ERR_STAT) & 1 << 11, 0);
     EXPECT_EQ(b.reg(MODE_REG), 1);
+}
+
+// 004 bit 12, the same provoked: there it is an error.
+TEST(Monitoring, IpeakErrOfMac800) {
+    MotorBench b = running(registers::Model::mac800);
+    const std::int32_t offset = b.reg(186);
+    b.set(186, 2047);
+    b.samples(1);
+    b.set(186, offset);
+    expect_error(b, 1 << 12, [] {});
 }
 
 }  // namespace

@@ -166,7 +166,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     void begin_stop(std::uint16_t then, bool emergency);
     void begin_at_measured_speed();
     void end_mode_by_itself();
-    bool error_forbids_motion() const;
+    bool error_keeps_mode() const;
     const ModeFacts& facts() const;
     bool is_driven() const { return facts().driven(); }
     bool below_300_rpm() const;
@@ -181,6 +181,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     void watch_currents();
     void watch_mac800();
     bool exceeds(Cell value, Cell limit) const;
+    bool is_above(Cell value, Cell limit) const { return memory_.get(value) > memory_.get(limit); }
 
     // MANI, TESTU, TESTA, BREAK, TESTKI: mode_test.cpp
     void begin_test();
