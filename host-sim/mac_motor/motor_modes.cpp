@@ -12,10 +12,6 @@ constexpr std::int32_t kMostCounts = 0xFFFF;
 
 using Leave = ModeFacts::Leave;
 
-const ModeFacts& MacMotor::facts() const {
-    return *facts_of(mode());
-}
-
 bool MacMotor::error_forbids_motion() const {
     return (error_status() & bits().keeps_init) != 0;
 }
