@@ -55,12 +55,6 @@ PerPhase<std::int32_t> InnerLoop::emf() const {
     return emf;
 }
 
-double InnerLoop::squares() const {
-    double sum = 0;
-    for (const double current : regulator_.measured()) sum += current * current;
-    return sum;
-}
-
 double InnerLoop::regenerated() const {
     double sum = 0;
     for (std::size_t p = 0; p < kPhases; ++p) sum -= regulator_.measured()[p] * regulator_.voltage()[p];

@@ -125,8 +125,10 @@ void MacMotor::read_inputs() {
     memory_.set(cell::ANINP, wrap32(std::int64_t{voltage} + memory_.get(cell::ANINP_OFFSET)));
     analogue_was_on_ = analogue_level_.on();
     analogue_level_.update(memory_.get(cell::ANINP));
-    memory_.set(cell::DEGC, memory_.get(cell::DEGC) + surroundings_.degc());
-    memory_.set(cell::U_24V, surroundings_.u_24v());
+    if (is_mac800(model())) {
+        memory_.set(cell::DEGC, memory_.get(cell::DEGC) + surroundings_.degc());
+        memory_.set(cell::U_24V, surroundings_.u_24v());
+    }
 
     const std::int32_t pulses = terminals_.next_pulses(sample_period(), pulse_input_);
     if (!facts().counts_pulses) return;

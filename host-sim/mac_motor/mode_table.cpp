@@ -1,7 +1,5 @@
 #include "sim/mode_table.h"
 
-#include <array>
-
 namespace nplc::sim {
 namespace {
 
@@ -37,7 +35,9 @@ constexpr ModeFacts at_rest(std::string_view name, Kind drive, Leave leave = Lea
     return {.name = name, .drive = drive, .leave = leave, .begins_at_rest = true};
 }
 
-constexpr std::array<ModeFacts, 25> kModes{{
+}  // namespace
+
+constexpr std::array<ModeFacts, kModeCount> kModes{{
     {.name = "INIT", .counts_pulses = true},
     driven("V_MODE", Block::velocity, InPosition::velocity),
     positioned("P_MODE"),
@@ -64,11 +64,5 @@ constexpr std::array<ModeFacts, 25> kModes{{
     at_rest("TESTTQ_MODE", Kind::shorted),
     geared("GF_MODE"),
 }};
-
-}  // namespace
-
-const ModeFacts* facts_of(std::uint16_t mode) {
-    return mode < kModes.size() ? &kModes[mode] : nullptr;
-}
 
 }  // namespace nplc::sim

@@ -28,13 +28,6 @@ void MacMotor::fail(std::uint32_t error) {
     go_passive(true);
 }
 
-/// A limit of 0 is none (001 §4.5.4, §4.5.5).
-bool MacMotor::exceeds(Cell value, Cell limit) const {
-    const std::int64_t v = memory_.get(value);
-    const std::int64_t most = memory_.get(limit);
-    return most > 0 && (v < 0 ? -v : v) > most;
-}
-
 // 001 §4.5.1 to §4.5.5
 void MacMotor::watch_limits() {
     if (is_above(cell::I2T, cell::I2TLIM)) fail(err::I2T_ERR);

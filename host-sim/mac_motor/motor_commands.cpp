@@ -139,15 +139,6 @@ void MacMotor::clear_in_position() {
     set_error_bits(err::IN_POS, false);
 }
 
-void MacMotor::set_error_bits(std::uint32_t mask, bool on) {
-    const std::uint32_t status = error_status();
-    memory_.set(cell::ERR_STAT, static_cast<std::int32_t>(on ? status | mask : status & ~mask));
-}
-
-std::uint32_t MacMotor::error_status() const {
-    return static_cast<std::uint32_t>(memory_.get(cell::ERR_STAT));
-}
-
 void MacMotor::show_framing_error(bool seen) {
     if (bits().frame_err_tx != 0) set_error_bits(bits().frame_err_tx, seen);
 }

@@ -12,10 +12,6 @@ constexpr std::int32_t kMostCounts = 0xFFFF;
 
 using Leave = ModeFacts::Leave;
 
-const ModeFacts& MacMotor::facts() const {
-    return *facts_of(mode());
-}
-
 /// INIT is not left with an error (001 §4.4.1), nor the STOP that leads to it. R: an error's STOP runs to its
 /// end, even if the error is reset meanwhile.
 bool MacMotor::error_keeps_mode() const {

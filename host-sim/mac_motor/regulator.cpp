@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "sim/bounds.h"
+
 namespace nplc::sim {
 namespace {
 
@@ -12,53 +14,60 @@ constexpr double kLeastGain = 1e-6;       // below it no FNC_OUT would have help
 constexpr double kCorrectionBound = 1e8;  // 1/16 counts/sample
 
 void remember(Regulator::Taps& history, double value) {
-    for (std::size_t i = history.size() - 1; i > 0; --i) history[i] = history[i - 1];
-    history[0] = value;
+    const auto [a, b, c, d, e, oldest] = history;
+    history = {value, a, b, c, d, e};
 }
 
-double filtered(const Regulator::Taps& coefficients, const Regulator::Taps& history) {
-    double even = coefficients[0] * history[0] + coefficients[2] * history[2] + coefficients[4] * history[4];
-    double odd = coefficients[1] * history[1] + coefficients[3] * history[3] + coefficients[5] * history[5];
+/// `before`: without `newest`, which is not remembered yet.
+double filtered(const Regulator::Taps& c, double newest, const Regulator::Taps& before) {
+    const double even = c[0] * newest + c[2] * before[1] + c[4] * before[3];
+    const double odd = c[1] * before[0] + c[3] * before[2] + c[5] * before[4];
     return even + odd;
+}
+
+/// Of its own outputs so far.
+double fed_back(const Regulator::Taps& c, const Regulator::Taps& before) {
+    return (c[0] * before[0] + c[2] * before[2] + c[4] * before[4]) +
+           (c[1] * before[1] + c[3] * before[3] + c[5] * before[5]);
 }
 
 }  // namespace
 
 Regulator::Output Regulator::step(const Input& input) {
+    Newest newest{.fnc_out = static_cast<double>(input.fnc_out), .v_ist = static_cast<double>(input.v_ist)};
     Output out;
-    remember(fnc_out_, input.fnc_out);
-    remember(v_ist_, input.v_ist);
-    out.ff_out = filtered(c_.ff, fnc_out_);
-    out.vb_out = filtered(c_.vb, v_ist_);
-    remember(error_, out.ff_out - out.vb_out);
-    remember(torque_,
-             std::clamp(filtered(c_.vfx, error_) + filtered(c_.vfy, torque_), -kTorqueBound, kTorqueBound));
+    out.ff_out = filtered(c_.ff, newest.fnc_out, fnc_out_);
+    out.vb_out = filtered(c_.vb, newest.v_ist, v_ist_);
+    newest.error = out.ff_out - out.vb_out;
+    newest.torque = within(filtered(c_.vfx, newest.error, error_) + fed_back(c_.vfy, torque_), kTorqueBound);
 
-    const double torque = torque_[0] * input.kvout;
-    const double limit = input.torque_limit;
-    const double limited = std::clamp(torque, -limit, limit);
+    const double torque = newest.torque * input.kvout;
+    const double limited = within(torque, input.torque_limit);
     out.torque = static_cast<std::int32_t>(limited);
     if (torque != limited) {
-        out.correction = correct(limited - torque, input.kvout);
+        out.correction = correct(limited - torque, input.kvout, newest);
         out.ff_out += c_.ff[0] * out.correction;
     }
+    remember(fnc_out_, newest.fnc_out);
+    remember(v_ist_, newest.v_ist);
+    remember(error_, newest.error);
+    remember(torque_, newest.torque);
     lag_16_ = std::clamp(lag_16_ + input.fnc_out + out.correction - 16 * std::int64_t{input.v_ist},
                          -kLagBound, kLagBound);
     return out;
 }
 
 /// Takes `excess` of torque back out of the filters, as if FNC_OUT had been another.
-std::int32_t Regulator::correct(double excess, double kvout) {
+std::int32_t Regulator::correct(double excess, double kvout, Newest& newest) const {
     const double gain = c_.ff[0] * c_.vfx[0] * kvout;
     if (gain < kLeastGain) {  // R: coefficients that no velocity can answer for: the output alone is held
-        torque_[0] += excess / std::max(kvout, kLeastGain);
+        newest.torque += excess / std::max(kvout, kLeastGain);
         return 0;
     }
-    const auto correction =
-        static_cast<std::int32_t>(std::clamp(excess / gain, -kCorrectionBound, kCorrectionBound));
-    fnc_out_[0] += correction;
-    error_[0] += c_.ff[0] * correction;
-    torque_[0] += c_.vfx[0] * c_.ff[0] * correction;
+    const auto correction = static_cast<std::int32_t>(within(excess / gain, kCorrectionBound));
+    newest.fnc_out += correction;
+    newest.error += c_.ff[0] * correction;
+    newest.torque += c_.vfx[0] * c_.ff[0] * correction;
     return correction;
 }
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "sim/analogue_input.h"
+#include "sim/bounds.h"
 
 namespace nplc::sim {
 namespace {
@@ -17,17 +17,13 @@ constexpr int kOuterSteps = 3;      // of the shaft in an outer sample, without 
 /// 0.65^n in its n-th sample, 0.65 being the loop's pole with the coefficients from the box.
 constexpr std::array<double, kOuterSteps> kRise{0.583, 0.952, 0.994};
 
-/// The registers that regulators are made of, by family.
-struct Range {
-    std::size_t first, last;
-};
-constexpr std::array<Range, 4> kSmallSettings{{{89, 111}, {124, 127}, {140, 142}, {148, 150}}};
-constexpr std::array<Range, 4> kBigSettings{{{121, 149}, {172, 174}, {186, 189}, {172, 172}}};
-
-constexpr std::int32_t kHallInt = 1 << 5;  // CNTRL_BITS
+bool hall_int(const MotorMemory& memory) {
+    constexpr std::int32_t kHallInt = 1 << 5;  // CNTRL_BITS
+    return !is_mac800(memory.model()) && (memory.get(cell::CNTRL_BITS) & kHallInt) != 0;
+}
 
 double kvout_of(const MotorMemory& memory) {
-    if (is_mac800(memory.model())) return std::clamp(memory.get(cell::KVOUT) / 65536.0, 0.0, 255.0);
+    if (is_mac800(memory.model())) return within(memory.get(cell::KVOUT) / 65536.0, 0, 255);
     return memory.get(cell::KVOUT) / 256.0;
 }
 
@@ -38,9 +34,15 @@ double reactance_of(const MotorConstants& c) {
     return kTwoPi / c.counts_a_field * kOuterSteps / kInnerSamples * inner_samples * c.resistance;
 }
 
+/// Of the three currents, at the torque that is borne for ever.
+double nominal_squares_of(const MotorConstants& c) {
+    const double nominal = c.full_current / 3;
+    return 1.5 * nominal * nominal;
+}
+
 std::int32_t rounded(double value) {
     constexpr double kMost = 2'000'000'000;
-    return static_cast<std::int32_t>(std::clamp(value, -kMost, kMost));
+    return static_cast<std::int32_t>(within(value, kMost));
 }
 
 }  // namespace
@@ -53,7 +55,11 @@ Servo::Servo(registers::Model model, Depth depth, const Load& load)
               constants_.outer_period / (depth == Depth::current_loop ? kInnerSamples : kOuterSteps)),
       inner_(model),
       emf_(constants_.emf * kOuterSteps / kInnerSamples),
-      reactance_(reactance_of(constants_)) {}
+      reactance_(reactance_of(constants_)),
+      current_of_torque_(constants_.full_current / kFullTorque),
+      nominal_squares_(nominal_squares_of(constants_)),
+      copper_share_(constants_.outer_period / constants_.copper_seconds),
+      dump_share_(constants_.outer_period / constants_.dump_seconds) {}
 
 void Servo::power_up(MotorMemory& memory) {
     regulator_.reset();
@@ -67,36 +73,26 @@ void Servo::power_up(MotorMemory& memory) {
     for (int p = 0; p < measured; ++p) {
         memory.set(cell::IA_OFFSET[p], InnerLoop::kMiddle[static_cast<std::size_t>(p)]);
     }
-    settings_.fill(~0U);
-    take_settings(memory);
+    use_settings(memory);
     show_sums(memory);
     show_currents(memory);
     show_supply(memory);
 }
 
-/// Coefficients are worked out anew only when one of their registers is another.
-void Servo::take_settings(const MotorMemory& memory) {
-    const bool mac800 = is_mac800(memory.model());
-    bool changed = false;
-    std::uint32_t* taken = settings_.data();
-    for (const Range& range : mac800 ? kBigSettings : kSmallSettings) {
-        const std::span<const std::uint32_t> now = memory.stored(range.first, range.last);
-        if (std::memcmp(taken, now.data(), now.size_bytes()) != 0) {
-            std::copy(now.begin(), now.end(), taken);
-            changed = true;
-        }
-        taken += now.size();
-    }
-    const bool hall_int = !mac800 && (memory.get(cell::CNTRL_BITS) & kHallInt) != 0;
-    changed |= *taken != std::uint32_t{hall_int};
-    *taken = hall_int;
-    if (!changed) return;
-    regulator_.use(regulator_coefficients(memory));
-    const Cell forwards = mac800 ? cell::ELDEG_OFFSET : cell::ELDEGP_OFFSET;
+/// Coefficients are worked out anew only when one of their registers was written.
+void Servo::take_settings(MotorMemory& memory) {
+    const bool written = memory.take_settings_written();
+    if (written || hall_int_ != hall_int(memory)) use_settings(memory);
+}
+
+void Servo::use_settings(const MotorMemory& memory) {
+    const Cell forwards = is_mac800(memory.model()) ? cell::ELDEG_OFFSET : cell::ELDEGP_OFFSET;
     constexpr std::int32_t kTurn = CurrentRegulator::kTurn;
+    hall_int_ = hall_int(memory);
+    regulator_.use(regulator_coefficients(memory));
     inner_.use(current_settings(memory), {.eldegp_offset = memory.get(forwards) & (kTurn - 1),
                                           .eldegn_offset = memory.get(cell::ELDEGN_OFFSET) & (kTurn - 1),
-                                          .always = hall_int});
+                                          .always = hall_int_});
 }
 
 std::int32_t Servo::advance(MotorMemory& memory, const Terminals& terminals, InnerWatcher* watcher) {
@@ -116,12 +112,17 @@ std::int32_t Servo::advance(MotorMemory& memory, const Terminals& terminals, Inn
 }
 
 void Servo::run_inner(MotorMemory& memory, const Terminals& terminals, InnerWatcher* watcher) {
+    const bool by_torque = drive_.kind == Drive::Kind::velocity || drive_.kind == Drive::Kind::torque;
     double squares = 0;
     double regenerated = 0;
     inner_.clear_at_the_end();
     for (int n = 0; n < kInnerSamples; ++n) {
         inner_.sense(plant_.counts());
-        set_voltages(memory, terminals);
+        if (by_torque) {  // by far the most of all samples: in the loop itself
+            inner_.drive_torque(torque_);
+        } else {
+            set_voltages(memory, terminals);
+        }
         if (watcher != nullptr) {
             show_currents(memory);
             memory.set(cell::VF_OUT, torque_);
@@ -183,7 +184,7 @@ void Servo::run_outer(const MotorMemory& memory, const Terminals& terminals) {
             continue;
         }
         const double torque = reachable(torque_before_ + (torque_ - torque_before_) * rise);
-        const double current = torque * (constants_.full_current / kFullTorque);
+        const double current = torque * current_of_torque_;
         const double watts = 1.5 * (emf + current * constants_.resistance) * current *
                              constants_.volts_of_one * constants_.amperes_of_one;
         squares += 1.5 * current * current;
@@ -197,12 +198,11 @@ void Servo::run_outer(const MotorMemory& memory, const Terminals& terminals) {
 
 /// What the supply can drive against the EMF, through resistance and inductance.
 double Servo::reachable(double torque) const {
-    const double current_of_torque = constants_.full_current / kFullTorque;
     const double available = CurrentRegulator::kRange * supply_.volts() / constants_.nominal_volts;
     const double sign = torque < 0 ? -1 : 1;
     const double emf = emf_ * plant_.velocity() * sign;
     const double reactance = std::abs(reactance_ * plant_.velocity());
-    const double current = torque * sign * current_of_torque;
+    const double current = torque * sign * current_of_torque_;
     if (std::abs(emf) + (constants_.resistance + reactance) * current <= available) return torque;
     const double square = constants_.resistance * constants_.resistance + reactance * reactance;
     const double along = emf * constants_.resistance;
@@ -210,7 +210,7 @@ double Servo::reachable(double torque) const {
     if (square * current * current + 2 * along * current + spare <= 0) return torque;
     const double root = along * along - square * spare;
     const double most = root <= 0 ? 0 : std::max((std::sqrt(root) - along) / square, 0.0);
-    return sign * std::min(current, most) / current_of_torque;
+    return sign * std::min(current, most) / current_of_torque_;
 }
 
 Servo::Result Servo::carry_out(const Drive& drive, MotorMemory& memory) {
@@ -285,11 +285,10 @@ void Servo::show_currents(MotorMemory& memory) const {
 
 // 001 §3.2.16, §3.2.18. R: leaky sums that come to rest at 10000 with what is borne for ever.
 void Servo::warm(double squares, double regenerated) {
-    const double nominal = constants_.full_current / 3;
-    const double heat = squares / (1.5 * nominal * nominal) * kAtLimit;
-    i2t_ += (heat - i2t_) * (constants_.outer_period / constants_.copper_seconds);
+    const double heat = squares / nominal_squares_ * kAtLimit;
+    i2t_ += (heat - i2t_) * copper_share_;
     const double dumped = regenerated / constants_.dump_watts * kAtLimit;
-    uit_ += (dumped - uit_) * (constants_.outer_period / constants_.dump_seconds);
+    uit_ += (dumped - uit_) * dump_share_;
 }
 
 /// What was written into the registers since is what the sums go on from.

@@ -24,6 +24,7 @@ void Terminals::set_pulse_rate(std::int32_t per_second, PulseFormat format) {
 }
 
 std::int32_t Terminals::next_pulses(std::chrono::nanoseconds period, const PulseInput& input) {
+    if (pulse_rate_ == 0) return 0;
     constexpr std::int64_t kSecond = 1'000'000'000;
     fraction_ += pulse_rate_ * period.count() * input.quarters(pulse_format_, pulse_rate_) / 4;
     const std::int64_t whole = fraction_ / kSecond;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "sim/bounds.h"
 #include "sim/motor_memory.h"
 #include "sim/sine_table.h"
 
@@ -80,7 +81,7 @@ class CurrentRegulator {
     static constexpr double kLargest = 32767;
 
     static std::int32_t limited(double value, double limit) {
-        return static_cast<std::int32_t>(std::clamp(value, -limit, limit));
+        return static_cast<std::int32_t>(within(value, limit));
     }
 
     Settings s_;

@@ -61,8 +61,12 @@ class InnerLoop {
     std::int32_t v_eldeg() const { return v_eldeg_; }  ///< V_ELDEG
     std::uint32_t hall_bits() const;                   ///< the three hall elements, bit 0 to 2
     PerPhase<std::int32_t> emf() const;                ///< EMK_A ..., voltage units
-    double squares() const;                            ///< IA_IST^2 + IB_IST^2 + IC_IST^2
-    double regenerated() const;                        ///< Preg of 001 §3.2.18, watts, 0 at the least
+    std::int32_t squares() const {                     ///< IA_IST^2 + IB_IST^2 + IC_IST^2
+        std::int32_t sum = 0;
+        for (const std::int32_t current : regulator_.measured()) sum += current * current;
+        return sum;
+    }
+    double regenerated() const;  ///< Preg of 001 §3.2.18, watts, 0 at the least
 
     /// What the converters give without a current is the negative of this (ours): what IA_OFFSET ... find.
     static constexpr PerPhase<std::int32_t> kMiddle{1021, 1030, 1017};
@@ -74,7 +78,7 @@ class InnerLoop {
     /// A converter's half that the motor uses: 0 down to -2047.
     static std::int32_t converted(double current, std::int32_t middle) {
         constexpr std::int32_t kSpan = 2047, kFar = 100'000;
-        const double bounded = std::clamp<double>(current + kFar, 0, 2 * kFar) + 0.5;  // a cast rounds down
+        const double bounded = within(current + kFar, 0, 2 * kFar) + 0.5;  // a cast rounds down
         return std::clamp(static_cast<std::int32_t>(bounded) - kFar - middle, -kSpan, 0);
     }
     // 001 §3.2.124, §3.2.125, §3.2.36: at the mark the motor takes the register for its angle.

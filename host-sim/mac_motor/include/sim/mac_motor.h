@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <cstdlib>
 #include <deque>
 #include <optional>
 #include <string_view>
@@ -33,7 +34,7 @@ struct MacMotorOptions {
     /// The register codes of the example in 001 §5.2.1.5 in place of §5.2.1.4's list.
     bool old_register_codes = false;
     std::size_t order_limit = 100'000;
-    /// How much of the motor is computed. `outer_loop` is some 15 times as fast, and close in position and
+    /// How much of the motor is computed. `outer_loop` is some seven times as fast, and close in position and
     /// velocity.
     Servo::Depth depth = Servo::Depth::current_loop;
     Load load{};
@@ -132,7 +133,9 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     void execute(const protocol::fastmac::Command& command) override;
     std::uint32_t read_register(std::uint8_t reg, bool longword) const override;
     void write_register(std::uint8_t reg, std::uint32_t value, bool longword) override;
-    std::uint32_t error_status() const override;
+    std::uint32_t error_status() const override {
+        return static_cast<std::uint32_t>(memory_.get(cell::ERR_STAT));
+    }
     void show_framing_error(bool seen) override;
     bool in_safe_mode() const override { return is_mode(MotorMode::safe); }
     std::uint8_t my_address() const override;
@@ -167,7 +170,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     void begin_at_measured_speed();
     void end_mode_by_itself();
     bool error_keeps_mode() const;
-    const ModeFacts& facts() const;
+    const ModeFacts& facts() const { return *facts_of(mode()); }
     bool is_driven() const { return facts().driven(); }
     bool below_300_rpm() const;
     void begin_correction();
@@ -180,7 +183,11 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     void watch_supply();
     void watch_currents();
     void watch_mac800();
-    bool exceeds(Cell value, Cell limit) const;
+    /// A limit of 0 is none (001 §4.5.4, §4.5.5).
+    bool exceeds(Cell value, Cell limit) const {
+        const std::int64_t most = memory_.get(limit);
+        return most > 0 && std::abs(std::int64_t{memory_.get(value)}) > most;
+    }
     bool is_above(Cell value, Cell limit) const { return memory_.get(value) > memory_.get(limit); }
 
     // MANI, TESTU, TESTA, BREAK, TESTKI: mode_test.cpp
@@ -224,7 +231,10 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     std::int32_t acceleration() const;
     std::int32_t torque_limit() const;
     std::int32_t v_soll() const;
-    void set_error_bits(std::uint32_t mask, bool on);
+    void set_error_bits(std::uint32_t mask, bool on) {
+        const std::uint32_t status = error_status();
+        memory_.set(cell::ERR_STAT, static_cast<std::int32_t>(on ? status | mask : status & ~mask));
+    }
     const FamilyBits& bits() const { return family_bits(model()); }
 
     MacMotorOptions options_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -79,7 +81,12 @@ struct ModeFacts {
     bool geared() const { return block == Block::gear || block == Block::coil; }
 };
 
+inline constexpr std::size_t kModeCount = 25;
+extern const std::array<ModeFacts, kModeCount> kModes;
+
 /// Null: there is no such mode.
-const ModeFacts* facts_of(std::uint16_t mode);
+inline const ModeFacts* facts_of(std::uint16_t mode) {
+    return mode < kModes.size() ? &kModes[mode] : nullptr;
+}
 
 }  // namespace nplc::sim

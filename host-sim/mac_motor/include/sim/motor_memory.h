@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <utility>
 
 #include "registers/mac.h"
 
@@ -77,6 +77,14 @@ inline constexpr Cell ELDEGN_OFFSET = word(124, 0), ELDEGP_OFFSET = word(125, 0)
                       OUTLOOPDIV = word(0, 157), U_MIN_SUP = word(152, 0), UV_HANDLE = word(160, 23);
 }  // namespace cell
 
+/// A register that the regulators' filters and the commutation are made of (001 §3.2.89 to §3.2.111, §3.2.124
+/// to §3.2.127, §3.2.140 to §3.2.142, §3.2.148 to §3.2.150; 004).
+constexpr bool is_setting(registers::Model model, std::uint8_t reg) {
+    const auto in = [reg](int first, int last) { return reg >= first && reg <= last; };
+    if (is_mac800(model)) return in(121, 149) || in(172, 174) || in(186, 189);
+    return in(89, 111) || in(124, 127) || in(140, 142) || in(148, 150);
+}
+
 /// All registers of one motor. MAC50-141: 16-bit words by register number, a LongInt takes its number (low
 /// word) and the next (001 §3.1, §3.2). MAC800: a longword each (004). Registers nobody wrote read 0; nothing
 /// is refused.
@@ -90,8 +98,8 @@ class MotorMemory {
     std::int32_t get(Cell cell) const {
         const std::uint8_t number = number_of(cell);
         if (number == 0) return 0;
-        if (is_wide(cell)) return static_cast<std::int32_t>(read(number, true));
-        const auto word = static_cast<std::uint16_t>(cells_[number]);
+        if (is_wide(cell)) return static_cast<std::int32_t>(longword(place_of(number)));
+        const std::uint16_t word = words_[number];
         return cell.kind == Cell::Kind::integer ? static_cast<std::int16_t>(word) : word;
     }
     /// Cut to the cell's width.
@@ -110,29 +118,44 @@ class MotorMemory {
     /// As the line sees it: 16 bits, or with `longword` 32. MAC50-141: a longword is `reg` and the number
     /// after it. MAC800: a word is the register's low half.
     std::uint32_t read(std::uint8_t reg, bool longword) const {
-        if (is_mac800(model_)) return longword ? cells_[reg] : cells_[reg] & 0xFFFF;
-        return longword ? cells_[reg] | (cells_[reg + 1U] << 16) : cells_[reg];
+        const std::size_t place = place_of(reg);
+        return longword ? this->longword(place) : words_[place];
     }
     void write(std::uint8_t reg, std::uint32_t value, bool longword) {
-        if (is_mac800(model_)) {
-            cells_[reg] = longword ? value : (cells_[reg] & 0xFFFF0000) | (value & 0xFFFF);
-            return;
-        }
-        cells_[reg] = value & 0xFFFF;
-        if (longword) cells_[reg + 1U] = value >> 16;
+        const std::size_t place = place_of(reg);
+        words_[place] = static_cast<std::uint16_t>(value);
+        if (longword) words_[place + 1] = static_cast<std::uint16_t>(value >> 16);
+        const bool setting = is_setting(model_, reg) || (longword && is_setting(model_, next(reg)));
+        if (setting) settings_written_.yes = true;
     }
 
-    /// The registers from `first` to `last` as they are stored, to see whether one has changed.
-    std::span<const std::uint32_t> stored(std::size_t first, std::size_t last) const {
-        return std::span(cells_).subspan(first, last - first + 1);
-    }
+    /// A setting may have been written since this was asked last. All of a copy may be new.
+    bool take_settings_written() { return std::exchange(settings_written_.yes, false); }
 
   private:
+    /// A copy does not know what was read of the original.
+    struct Written {
+        bool yes = true;
+
+        Written() = default;
+        Written(const Written& /*other*/) {}
+        Written& operator=(const Written& /*other*/) {
+            yes = true;
+            return *this;
+        }
+    };
+
     std::uint8_t number_of(Cell cell) const { return is_mac800(model_) ? cell.big : cell.small; }
     bool is_wide(Cell cell) const { return is_mac800(model_) || cell.kind == Cell::Kind::long_int; }
+    std::size_t place_of(std::uint8_t reg) const { return is_mac800(model_) ? 2U * reg : reg; }
+    static constexpr std::uint8_t next(std::uint8_t reg) { return static_cast<std::uint8_t>(reg + 1); }
+    std::uint32_t longword(std::size_t place) const {
+        return words_[place] | static_cast<std::uint32_t>(words_[place + 1]) << 16;
+    }
 
     registers::Model model_;
-    std::array<std::uint32_t, 257> cells_{};  // one more, so that 255 has a next
+    Written settings_written_;
+    std::array<std::uint16_t, 512> words_{};  // the low half first
 };
 
 /// The values of a motor from its box; ours, see the folder's README.

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "sim/bounds.h"
+
 namespace nplc::sim {
 
 /// A mechanical end of travel.
@@ -34,11 +36,11 @@ class Plant {
     /// One step with the motor's `torque`, and `brake` of torque against each count/step of velocity.
     void step(double torque, double brake = 0) {
         const double of_one = this->of_one();
-        const double push = std::clamp(torque + load_.torque, -kTorqueBound, kTorqueBound) * of_one;
+        const double push = within(torque + load_.torque, kTorqueBound) * of_one;
         const double pushed = brake == 0 ? velocity_ + push : (velocity_ + push) / (1 + brake * of_one);
         const double before = velocity_;
         velocity_ = rubbed(pushed, std::max(load_.friction_torque, 0) * of_one);
-        velocity_ = std::clamp(velocity_, -fastest_, fastest_);
+        velocity_ = within(velocity_, fastest_);
         const std::int64_t from = position_;
         position_ += static_cast<std::int64_t>((before + velocity_) * (kCount / 2));
         if (load_.low_stop || load_.high_stop) keep_within_stops(from);

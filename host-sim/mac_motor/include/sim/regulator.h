@@ -50,7 +50,14 @@ class Regulator {
     std::int64_t lag_16() const { return lag_16_; }
 
   private:
-    std::int32_t correct(double excess, double gain);
+    /// What this sample adds to the histories.
+    struct Newest {
+        double fnc_out;
+        double v_ist;
+        double error = 0;
+        double torque = 0;
+    };
+    std::int32_t correct(double excess, double kvout, Newest& newest) const;
 
     Coefficients c_;
     Taps fnc_out_{};

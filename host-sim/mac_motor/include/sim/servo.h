@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "sim/drive.h"
@@ -68,7 +67,8 @@ class Servo {
     const Supply& supply() const { return supply_; }
 
   private:
-    void take_settings(const MotorMemory& memory);
+    void take_settings(MotorMemory& memory);
+    void use_settings(const MotorMemory& memory);
     void run_inner(MotorMemory& memory, const Terminals& terminals, InnerWatcher* watcher);
     void set_voltages(const MotorMemory& memory, const Terminals& terminals);
     void run_outer(const MotorMemory& memory, const Terminals& terminals);
@@ -89,6 +89,10 @@ class Servo {
     InnerLoop inner_;
     double emf_;        // voltage units a count/step of the shaft, outer_loop only
     double reactance_;  // and for each current unit
+    double current_of_torque_;
+    double nominal_squares_;
+    double copper_share_;  // of I2T's way to where it would end, in a sample
+    double dump_share_;    // and of UIT's
     Drive drive_;
     std::int32_t man_i_nom_ = 0;
     std::int32_t man_alpha_ = 0;
@@ -102,7 +106,7 @@ class Servo {
     std::int32_t uit_shown_ = 0;
     std::int64_t last_counts_ = 0;
     std::int32_t v_ist_ = 0;
-    std::array<std::uint32_t, 64> settings_{};  // the registers that were taken
+    bool hall_int_ = false;
 };
 
 }  // namespace nplc::sim

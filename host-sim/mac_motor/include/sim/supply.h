@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/bounds.h"
+
 namespace nplc::sim {
 
 /// The motor's power supply: a source that gives but does not take, the capacitor of the bus, and the power
@@ -41,7 +43,7 @@ class Supply {
         const double held = constants_.dump_volts * kHold;
         if (volts > held) volts = std::max(volts - volts * dumped_, held);
         if (volts < constants_.source_volts) volts += (constants_.source_volts - volts) * charged_;
-        volts_ = std::clamp(volts, kLeast, kMost);
+        volts_ = within(volts, kLeast, kMost);
     }
     /// The bus of a source that was switched off and on, or one that has had time.
     void settle() { volts_ = std::max(constants_.source_volts, kLeast); }

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 
+#include "sim/bounds.h"
 #include "sim/current_regulator.h"
 #include "sim/sine_table.h"
 
@@ -37,8 +37,7 @@ class Winding {
             const double across = (voltage[p] - middle) * supply;
             const double shape = shapes[p];
             const double before = current_[p];
-            current_[p] =
-                std::clamp(before * c_.decay + (across - field * shape) * conductance_, -kMost, kMost);
+            current_[p] = within(before * c_.decay + (across - field * shape) * conductance_, kMost);
             const double mean = (before + current_[p]) / 2;
             done.torque += mean * shape;
             done.power += mean * across;
