@@ -115,6 +115,7 @@ enum class Result : std::uint8_t {
     storage_failed = 15,
     nothing_stored = 16,
     not_running = 17,
+    not_enabled = 18,
     table_no_end = 32,
     table_ragged = 33,
     bad_next_step = 34,
