@@ -16,7 +16,10 @@ base::Status TableKeeper::mount() {
 
 /// A store that held a table and has none that is whole is a bad table, not a new board.
 void TableKeeper::start(base::Instant now) {
-    if (slots_.has_current() || slots_.is_fallback()) static_cast<void>(load_stored(now));
+    if (slots_.has_current() || slots_.is_fallback()) {
+        static_cast<void>(load_stored(now));
+        if (slots_.is_fallback()) gateway_.distrust_table(now);
+    }
     gateway_.end_start_up();
 }
 
@@ -40,6 +43,7 @@ Outcome TableKeeper::load_stored(base::Instant now) {
         if (length.error() != base::Error::busy) static_cast<void>(take(0, now));
         return {length.error() == base::Error::busy ? Result::busy : Result::nothing_stored};
     }
+    if (slots_.is_fallback()) gateway_.end_start_up();
     const auto loaded = take(length.value(), now);
     if (!loaded.ok) return {result_of(loaded.fault.error), loaded.fault.term};
     gateway_.note(Event::table_activated);

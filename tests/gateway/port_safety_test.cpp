@@ -69,6 +69,49 @@ TEST_F(PortSafety, ATableBecomesActiveOnlyWhileTheMotorStandsStill) {
     EXPECT_TRUE(command(Command::activate));
 }
 
+TEST_F(PortSafety, AnOlderTableThatStandsInForADamagedOneDoesNotStartByItself) {
+    const Bytes newer{{0xC0, 0, 0, 0x3E, 0x80, 0x0F, 0, 0}};
+    ASSERT_TRUE(upload(kTable));
+    ASSERT_TRUE(upload(newer));
+    flash.flip(store::Layout(kFlash, kTables).content(1) + 3, 0);
+    start({.safe_outputs = 0x02, .autostart = true});
+    run(1s);
+    EXPECT_EQ(read(reg::TABLE_CRC), base::crc32(kTable));
+    EXPECT_EQ(read(reg::STORE_FLAGS), 1U);
+    EXPECT_EQ(state(), reg::RunState::stopped);
+    EXPECT_EQ(read(reg::SAFE_REASON), 5U) << "bad table";
+    EXPECT_EQ(board.out, 0x02);
+    EXPECT_TRUE(command(Command::run));
+    run(10ms);
+    EXPECT_EQ(state(), reg::RunState::running);
+    EXPECT_EQ(read(reg::SAFE_REASON), 0U);
+}
+
+TEST_F(PortSafety, APowerCutInMidUploadDoesNotKeepTheOldTableFromStarting) {
+    ASSERT_TRUE(upload(Bytes{{0xC0, 0, 0, 0x3E, 0x80, 0x0F, 0, 0}}));
+    ASSERT_TRUE(upload(kTable));
+    ASSERT_TRUE(command(Command::upload_begin));
+    run(100ms);
+    ASSERT_TRUE(send(std::array<std::uint8_t, 128>{}));
+    start({.autostart = true});
+    run(10ms);
+    EXPECT_EQ(read(reg::TABLE_CRC), base::crc32(kTable));
+    EXPECT_EQ(state(), reg::RunState::running);
+}
+
+TEST_F(PortSafety, WithTheEnableInputOffNothingStarts) {
+    ASSERT_TRUE(set(store::Setting::enable_input, 5));
+    ASSERT_TRUE(upload_and_activate(kTable));
+    for (const Command order : {Command::run, Command::scan, Command::step}) {
+        EXPECT_FALSE(command(order));
+        EXPECT_EQ(result(), result_of(Result::not_enabled, reg::COMMAND));
+    }
+    board.in = 0x20;
+    run(100ms);
+    EXPECT_EQ(state(), reg::RunState::stopped);
+    EXPECT_TRUE(command(Command::run));
+}
+
 TEST_F(PortSafety, AnActivatedTableDoesNotStartByItself) {
     start({.autostart = true});
     ASSERT_TRUE(upload_and_activate(kTable));
