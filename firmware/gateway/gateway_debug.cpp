@@ -4,6 +4,10 @@
 namespace nplc::gateway {
 
 base::Status Gateway::run() {
+    if (has_single()) {
+        hold_after_ = HoldAfter::never;
+        return {};
+    }
     return run_until(HoldAfter::never);
 }
 

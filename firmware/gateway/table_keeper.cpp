@@ -60,8 +60,15 @@ void TableKeeper::poll() {
         gateway_.note(Event::upload_failed, static_cast<std::uint16_t>(result_of(slots_.error())));
 }
 
-base::Status TableKeeper::begin_upload() {
+void TableKeeper::abandon_upload() {
+    constexpr std::uint32_t kMost = 0xFFFF;
+    if (uploads())
+        gateway_.note(Event::upload_given_up, static_cast<std::uint16_t>(std::min(kMost, uploaded())));
     slots_.abandon();
+}
+
+base::Status TableKeeper::begin_upload() {
+    abandon_upload();
     return slots_.begin();
 }
 

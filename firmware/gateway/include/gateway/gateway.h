@@ -73,17 +73,21 @@ class Gateway {
     /// Has the motor the order of this term, if it has one?
     bool motor_takes(sequencer::TermView term) const;
 
-    /// From the beginning, or on from where it is held. Errors: no_table; not_stopped when it runs already;
-    /// not_enabled: from the beginning only with the enable input on, so that closing a guard starts nothing.
+    /// From the beginning, or on from where it is held; without hold if has_single(). Errors: no_table;
+    /// not_stopped when it runs already; not_enabled: from the beginning only with the enable input on, so
+    /// that closing a guard starts nothing.
     base::Status run();
     /// One scan, or scans until the step changes, from where it is held or from the beginning; then it is
     /// held. Errors as run().
+    /// Until then has_single(); run() and hold() give it up.
     base::Status scan_once() { return run_until(HoldAfter::scan); }
     base::Status step_once() { return run_until(HoldAfter::step); }
     /// Holds it at the end of the scan: its orders are executed and the motor is told to stop first, unless
     /// Settings::virtual_motor says otherwise. The timer stands meanwhile, the outputs stay. Error: no_table
     /// if it is stopped.
     base::Status hold();
+    /// A scan_once() or step_once() is not done yet.
+    bool has_single() const { return hold_after_ == HoldAfter::scan || hold_after_ == HoldAfter::step; }
     void stop(base::Instant now) { enter_safe_state(SafeReason::stop_command, now); }
     /// Ends forces and breakpoints too.
     void make_safe(base::Instant now);

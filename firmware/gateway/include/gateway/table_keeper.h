@@ -39,7 +39,7 @@ class TableKeeper final : private store::TermCheck {
         return slots_.write(offset, piece);
     }
     base::Status commit(std::uint32_t length, std::uint32_t crc) { return slots_.finish(length, crc); }
-    void abandon_upload() { slots_.abandon(); }
+    void abandon_upload();
     bool uploads() const;
     std::uint32_t upload_state() const;  ///< register UPLOAD_STATE
     std::uint32_t uploaded() const { return slots_.received(); }
