@@ -41,10 +41,18 @@ sequencer::Table::LoadResult Gateway::load(std::span<const std::uint8_t> bytes, 
     if (!result.ok) {
         enter_safe_state(SafeReason::bad_table, now);
     } else if (starting_up_ && settings_.autostart) {
-        static_cast<void>(run());
+        start_by_itself(now);
     }
     starting_up_ = false;
     return result;
+}
+
+/// The pin itself, since nothing was debounced yet. Without it nothing stays armed.
+void Gateway::start_by_itself(base::Instant now) {
+    debouncer_.update(ports_.inputs.read(), now);
+    const base::Status started = run();
+    if (!started && started.error() == base::Error::not_enabled)
+        set_safe_reason(SafeReason::enable_lost, now);
 }
 
 sequencer::Table::LoadResult Gateway::checked_for_motor(const sequencer::Table::LoadResult& loaded) const {
@@ -71,8 +79,9 @@ void Gateway::serve_sequence(base::Instant now) {
             ports_.watchdog.feed();
             break;
         case RunState::waiting_for_motor:
-            start_when_ready(now);
             ports_.watchdog.feed();
+            if (!enabled()) return enter_safe_state(SafeReason::enable_lost, now);
+            start_when_ready(now);
             break;
         case RunState::running:
         case RunState::holding:
@@ -101,7 +110,7 @@ void Gateway::start_when_ready(base::Instant now) {
         ports_.motor.stop();
         stop_ordered_ = true;
     }
-    if (!ports_.motor.settled() || !enabled()) return;
+    if (!ports_.motor.settled()) return;
     run_state_ = RunState::running;
     stop_after_loss_ = false;
     in_scan_ = false;

@@ -4,12 +4,17 @@
 namespace nplc::gateway {
 
 base::Status Gateway::run() {
+    if (has_single()) {
+        hold_after_ = HoldAfter::never;
+        return {};
+    }
     return run_until(HoldAfter::never);
 }
 
 base::Status Gateway::run_until(HoldAfter hold_after) {
     if (table_.empty()) return base::Error::no_table;
     if (run_state_ != RunState::stopped && run_state_ != RunState::held) return base::Error::not_stopped;
+    if (!enabled()) return base::Error::not_enabled;
     quiet_key_.reset();
     hold_after_ = hold_after;
     broke_ = false;

@@ -60,7 +60,7 @@ void SettingsKeeper::start(const store::SettingValues& initial) {
     const auto mounted = store_.mount();
     damaged_ = !mounted;
     if (mounted && store_.slots().has_current()) values_ = mounted.value();
-    stored_ = values_;
+    stored_ = at_start_ = values_;
 }
 
 void SettingsKeeper::attach(Gateway& gateway) {

@@ -16,7 +16,10 @@ base::Status TableKeeper::mount() {
 
 /// A store that held a table and has none that is whole is a bad table, not a new board.
 void TableKeeper::start(base::Instant now) {
-    if (slots_.has_current() || slots_.is_fallback()) static_cast<void>(load_stored(now));
+    if (slots_.has_current() || slots_.is_fallback()) {
+        static_cast<void>(load_stored(now));
+        if (slots_.is_fallback()) gateway_.distrust_table(now);
+    }
     gateway_.end_start_up();
 }
 
@@ -40,6 +43,7 @@ Outcome TableKeeper::load_stored(base::Instant now) {
         if (length.error() != base::Error::busy) static_cast<void>(take(0, now));
         return {length.error() == base::Error::busy ? Result::busy : Result::nothing_stored};
     }
+    if (slots_.is_fallback()) gateway_.end_start_up();
     const auto loaded = take(length.value(), now);
     if (!loaded.ok) return {result_of(loaded.fault.error), loaded.fault.term};
     gateway_.note(Event::table_activated);
@@ -56,8 +60,15 @@ void TableKeeper::poll() {
         gateway_.note(Event::upload_failed, static_cast<std::uint16_t>(result_of(slots_.error())));
 }
 
-base::Status TableKeeper::begin_upload() {
+void TableKeeper::abandon_upload() {
+    constexpr std::uint32_t kMost = 0xFFFF;
+    if (uploads())
+        gateway_.note(Event::upload_given_up, static_cast<std::uint16_t>(std::min(kMost, uploaded())));
     slots_.abandon();
+}
+
+base::Status TableKeeper::begin_upload() {
+    abandon_upload();
     return slots_.begin();
 }
 

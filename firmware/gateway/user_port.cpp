@@ -21,7 +21,7 @@ constexpr std::uint32_t kMaySendAll = 2;
 
 void UserPort::poll(base::Instant now) {
     own_.poll();
-    decoder_.take_long_writes(static_cast<std::uint8_t>(settings_.get(store::Setting::gateway_address)));
+    decoder_.take_long_writes(static_cast<std::uint8_t>(settings_.at_start(store::Setting::gateway_address)));
     receive(now);
     go_on(now);
     transmit();
@@ -43,12 +43,12 @@ void UserPort::receive(base::Instant now) {
 }
 
 bool UserPort::is_for_motor(std::uint8_t address) const {
-    return address == mactalk::kEveryone || address == settings_.get(store::Setting::motor_address);
+    return address == mactalk::kEveryone || address == settings_.at_start(store::Setting::motor_address);
 }
 
 void UserPort::begin(const Request& request, base::Instant now) {
     ++own_.port().messages;
-    const bool own = request.address == settings_.get(store::Setting::gateway_address);
+    const bool own = request.address == settings_.at_start(store::Setting::gateway_address);
     if (!own && !is_for_motor(request.address)) return;
     drop();
     begun_ = now;

@@ -136,6 +136,8 @@ std::string_view describe(Result result) {
             return "no table is stored, or it is damaged";
         case Result::not_running:
             return "the sequence does not run";
+        case Result::not_enabled:
+            return "the enable input is off; switch it on, then run";
         case Result::table_no_end:
             return "the table has no end term";
         case Result::table_ragged:

@@ -1,5 +1,7 @@
 #include "store/settings.h"
 
+#include <algorithm>
+
 #include "base/bytes.h"
 
 namespace nplc::store {
@@ -7,10 +9,12 @@ namespace {
 
 // R: the manuals name none of these; ranges are what the firmware can do.
 constexpr std::array<SettingInfo, kSettings> kAll{{
-    {Setting::gateway_address, "gateway_address", "", 128, 1, 253, false, "address on the user's port"},
-    {Setting::user_baud, "user_baud", "Bd", 19'200, 1'200, 921'600, false, "speed of the user's port"},
+    {Setting::gateway_address, "gateway_address", "", 128, 1, 253, false,
+     "address on the user's port from the next reset on, if kept"},
+    {Setting::user_baud, "user_baud", "Bd", 19'200, 1'200, 921'600, false,
+     "speed of the user's port, a standard one, from the next reset on if kept"},
     {Setting::motor_baud, "motor_baud", "Bd", 19'200, 1'200, 921'600, false,
-     "speed of the line to the motor"},
+     "speed of the line to the motor, a standard one, from the next reset on if kept"},
     {Setting::autostart, "autostart", "", 1, 0, 1, false,
      "1: the table runs from power-up, 0: it waits for a command"},
     {Setting::on_start, "on_start", "", 0, 0, 1, false,
@@ -30,7 +34,7 @@ constexpr std::array<SettingInfo, kSettings> kAll{{
     {Setting::status_output, "status_output", "", kNone, 0, 3, true,
      "output that shows the gateway's state; 255: none"},
     {Setting::motor_address, "motor_address", "", 254, 1, 254, false,
-     "the motor's address on the user's port, beside 255"},
+     "the motor's address on the user's port, beside 255, from the next reset on if kept"},
     {Setting::motor_is_mac800, "motor_is_mac800", "", 0, 0, 1, false,
      "1: the motor is a MAC800, whose registers have 32 bits"},
     {Setting::safe_communication, "safe_communication", "", 1, 0, 1, false,
@@ -51,7 +55,15 @@ const SettingInfo* find_setting(std::uint8_t id) {
     return id >= 1 && id <= kAll.size() ? &kAll[id - 1U] : nullptr;
 }
 
+bool is_standard_rate(std::uint32_t baud) {
+    constexpr std::array<std::uint32_t, 11> kRates{1'200,  2'400,   4'800,   9'600,   19'200, 38'400,
+                                                   57'600, 115'200, 230'400, 460'800, 921'600};
+    return std::find(kRates.begin(), kRates.end(), baud) != kRates.end();
+}
+
 bool is_allowed(const SettingInfo& info, std::uint32_t value) {
+    const bool is_rate = info.id == Setting::user_baud || info.id == Setting::motor_baud;
+    if (is_rate && !is_standard_rate(value)) return false;
     return (value >= info.lowest && value <= info.highest) || (info.has_none && value == kNone);
 }
 

@@ -41,7 +41,11 @@ class BoundPath {
 class SocketServer final : public ByteServer {
   public:
     SocketServer(FileDescriptor listener, std::string name, BoundPath path, std::size_t seats)
-        : listener_(std::move(listener)), clients_(seats), path_(std::move(path)), name_(std::move(name)) {}
+        : listener_(std::move(listener)),
+          clients_(seats),
+          visits_(seats),
+          path_(std::move(path)),
+          name_(std::move(name)) {}
 
     const std::string& name() const override { return name_; }
 
@@ -51,6 +55,10 @@ class SocketServer final : public ByteServer {
                            [](const FileDescriptor& client) { return static_cast<bool>(client); });
     }
     std::size_t seats() const override { return clients_.size(); }
+    std::uint64_t visit(std::size_t seat) override {
+        accept_clients();
+        return clients_[seat] ? visits_[seat] : 0;
+    }
 
     std::size_t read_seat(std::size_t seat, std::span<std::uint8_t> out) override {
         accept_clients();
@@ -82,6 +90,7 @@ class SocketServer final : public ByteServer {
             const int on = 1;
             ::setsockopt(next.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
             *seat = std::move(next);
+            visits_[static_cast<std::size_t>(seat - clients_.begin())] = ++visitors_;
         }
     }
 
@@ -93,6 +102,8 @@ class SocketServer final : public ByteServer {
 
     FileDescriptor listener_;
     std::vector<FileDescriptor> clients_;
+    std::vector<std::uint64_t> visits_;  ///< of the client in each seat
+    std::uint64_t visitors_ = 0;
     BoundPath path_;
     std::string name_;
 };

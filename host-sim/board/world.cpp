@@ -91,7 +91,11 @@ void World::start_table(bool first) {
 }
 
 std::uint8_t World::gateway_address() const {
-    return static_cast<std::uint8_t>(settings_->get(store::Setting::gateway_address));
+    return static_cast<std::uint8_t>(settings_->at_start(store::Setting::gateway_address));
+}
+
+std::uint8_t World::motor_address() const {
+    return static_cast<std::uint8_t>(settings_->at_start(store::Setting::motor_address));
 }
 
 base::Instant World::instant() const {

@@ -98,7 +98,9 @@ class Door {
         std::fflush(stdout);
     }
     void take_in(Session& session) {
-        if (is_open()) session.user_sends(line_->to_line(session.now(), session.gateway_address()));
+        if (!is_open()) return;
+        session.user_sends(
+            line_->to_line(session.now(), {session.gateway_address(), session.motor_address()}));
     }
     void hand_out(Session& session) {
         if (is_open()) line_->from_line(session.user_received(), session.now());

@@ -34,6 +34,7 @@ class Session {
     void user_sends(std::span<const std::uint8_t> bytes) { world_.user_sends(bytes); }
     std::vector<std::uint8_t> user_received() { return world_.user_received(); }
     std::uint8_t gateway_address() const { return world_.gateway_address(); }
+    std::uint8_t motor_address() const { return world_.motor_address(); }
 
     void press(unsigned input);  ///< toggles it
 

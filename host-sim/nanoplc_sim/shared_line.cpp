@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace nplc::sim {
 
@@ -11,21 +12,38 @@ namespace {
 
 /// Samples are 8 or 16 bytes: over once nothing more comes.
 constexpr Time kSilenceAfterSamples = std::chrono::milliseconds{20};
-constexpr std::size_t kMostWaiting = 64;
+/// At 19200 baud, the user's port's own speed.
+constexpr Time kCharacter = std::chrono::microseconds{521};
+constexpr std::size_t kMostWaiting = 16;  ///< of one client
+
+bool is_for_somebody(std::uint8_t address, const SharedLine::Addresses& addresses) {
+    return address == addresses.gateway || address == addresses.motor || address == mactalk::kEveryone;
+}
 
 }  // namespace
 
-SharedLine::SharedLine(hal_linux::ByteServer& server) : server_(server), decoders_(server.seats()) {}
+SharedLine::SharedLine(hal_linux::ByteServer& server)
+    : server_(server), seats_(server.seats()), last_(seats_.size() - 1) {}
 
-void SharedLine::listen(std::size_t seat, std::uint8_t gateway_address) {
+void SharedLine::welcome(Seat& seat, std::size_t number, std::uint64_t visit) {
+    seat = Seat{};
+    seat.visit = visit;
+    if (asking_ != number) return;
+    asker_is_gone_ = true;
+    until_ = std::min(until_, sent_ + kBriefly);
+}
+
+void SharedLine::listen(std::size_t number, std::uint8_t gateway_address) {
     std::array<std::uint8_t, 4096> bytes;
-    mactalk::RequestDecoder& decoder = decoders_[seat];
+    Seat& seat = seats_[number];
+    if (const auto visit = server_.visit(number); visit != seat.visit) welcome(seat, number, visit);
+    mactalk::RequestDecoder& decoder = seat.decoder;
     decoder.take_long_writes(gateway_address);
-    const std::size_t count = server_.read_seat(seat, bytes);
+    const std::size_t count = server_.read_seat(number, bytes);
     for (const std::uint8_t byte : std::span(bytes).first(count)) {
         const auto request = decoder.receive(byte);
-        if (!request || frames_.size() == kMostWaiting) continue;
-        Frame frame{seat, request->kind, {}};
+        if (!request || seat.frames.size() == kMostWaiting) continue;
+        Frame frame{request->kind, request->address, {}};
         const bool is_long = request->kind == mactalk::Kind::write && request->length > 4;
         const auto take = [&frame](auto&& encoded) {
             frame.bytes.assign(encoded.view().begin(), encoded.view().end());
@@ -35,48 +53,65 @@ void SharedLine::listen(std::size_t seat, std::uint8_t gateway_address) {
         } else {
             take(mactalk::encode(*request));
         }
-        frames_.push_back(std::move(frame));
+        seat.frames.push_back(std::move(frame));
     }
 }
 
-/// While an answer is to come only the same client may go on.
-std::deque<SharedLine::Frame>::iterator SharedLine::next_frame() {
-    if (!asking_) return frames_.begin();
-    return std::find_if(frames_.begin(), frames_.end(),
-                        [this](const Frame& frame) { return frame.seat == *asking_; });
+/// While an answer is to come only the same client may go on, and only once.
+std::optional<std::size_t> SharedLine::next_seat() const {
+    if (asking_) {
+        const bool goes_on = !asked_again_ && !asker_is_gone_ && !seats_[*asking_].frames.empty();
+        return goes_on ? asking_ : std::nullopt;
+    }
+    for (std::size_t i = 1; i <= seats_.size(); ++i) {
+        const std::size_t number = (last_ + i) % seats_.size();
+        if (!seats_[number].frames.empty()) return number;
+    }
+    return std::nullopt;
 }
 
-std::vector<std::uint8_t> SharedLine::to_line(Time now, std::uint8_t gateway_address) {
-    for (std::size_t seat = 0; seat < decoders_.size(); ++seat) listen(seat, gateway_address);
-    if (asking_ && now >= until_) asking_.reset();
-    const auto next = next_frame();
-    if (next == frames_.end()) return {};
-    const Frame frame = std::move(*next);
-    frames_.erase(next);
-    expect(frame, now);
+std::vector<std::uint8_t> SharedLine::to_line(Time now, const Addresses& addresses) {
+    for (std::size_t number = 0; number < seats_.size(); ++number) listen(number, addresses.gateway);
+    if (asking_ && now >= until_) end_turn(samples_);
+    const auto next = next_seat();
+    if (!next) return {};
+    const Frame frame = std::move(seats_[*next].frames.front());
+    seats_[*next].frames.pop_front();
+    expect(*next, frame, now, addresses);
     return frame.bytes;
 }
 
-void SharedLine::expect(const Frame& frame, Time now) {
+void SharedLine::expect(std::size_t number, const Frame& frame, Time now, const Addresses& addresses) {
     const mactalk::Answer answer = mactalk::answer_to(frame.kind);
-    last_ = frame.seat;
-    asking_.reset();
-    if (answer == mactalk::Answer::none) return;
-    asking_ = frame.seat;
-    until_ = now + kLongestAnswer;
+    const bool again = asking_.has_value();
+    if (again) end_turn(false);
+    last_ = number;
+    asker_is_gone_ = false;
+    if (answer == mactalk::Answer::none || !is_for_somebody(frame.address, addresses)) return;
+    asking_ = number;
+    asked_again_ = again;
+    sent_ = now + kCharacter * static_cast<int>(frame.bytes.size());
+    until_ = seats_[number].unanswered ? sent_ + kBriefly : now + kLongestAnswer;
     samples_ = answer == mactalk::Answer::samples;
     const bool is_block = frame.kind == mactalk::Kind::read_block;
     const std::size_t bytes = is_block ? mactalk::kBlockBytes : mactalk::kReadBytes;
     answer_.expect(answer, answer == mactalk::Answer::registers ? bytes : 0);
 }
 
+void SharedLine::end_turn(bool answered) {
+    if (!asker_is_gone_) seats_[*asking_].unanswered = !answered;
+    asking_.reset();
+    asker_is_gone_ = false;
+}
+
+/// An answer that nobody waits for any more may have been for someone who left.
 void SharedLine::from_line(std::span<const std::uint8_t> bytes, Time now) {
     if (bytes.empty()) return;
-    server_.write_seat(asking_.value_or(last_), bytes);
+    if (!asker_is_gone_) server_.write_seat(asking_.value_or(last_), bytes);
     if (!asking_) return;
     if (samples_) until_ = now + kSilenceAfterSamples;
     for (const std::uint8_t byte : bytes) {
-        if (!samples_ && answer_.receive(byte)) asking_.reset();
+        if (!samples_ && asking_ && answer_.receive(byte)) end_turn(true);
     }
 }
 

@@ -108,7 +108,7 @@ class Run {
     void ask() {
         for (int i = 0; i < 40; ++i) poll(base::Microseconds(1000));
         board_.sent.clear();
-        const auto address = static_cast<std::uint8_t>(settings_.get(store::Setting::gateway_address));
+        const auto address = static_cast<std::uint8_t>(settings_.at_start(store::Setting::gateway_address));
         const auto question =
             mactalk::encode({.kind = mactalk::Kind::read, .address = address, .reg = reg::IDENTITY});
         for (const std::uint8_t byte : question.view()) {

@@ -69,6 +69,49 @@ TEST_F(PortSafety, ATableBecomesActiveOnlyWhileTheMotorStandsStill) {
     EXPECT_TRUE(command(Command::activate));
 }
 
+TEST_F(PortSafety, AnOlderTableThatStandsInForADamagedOneDoesNotStartByItself) {
+    const Bytes newer{{0xC0, 0, 0, 0x3E, 0x80, 0x0F, 0, 0}};
+    ASSERT_TRUE(upload(kTable));
+    ASSERT_TRUE(upload(newer));
+    flash.flip(store::Layout(kFlash, kTables).content(1) + 3, 0);
+    start({.safe_outputs = 0x02, .autostart = true});
+    run(1s);
+    EXPECT_EQ(read(reg::TABLE_CRC), base::crc32(kTable));
+    EXPECT_EQ(read(reg::STORE_FLAGS), 1U);
+    EXPECT_EQ(state(), reg::RunState::stopped);
+    EXPECT_EQ(read(reg::SAFE_REASON), 5U) << "bad table";
+    EXPECT_EQ(board.out, 0x02);
+    EXPECT_TRUE(command(Command::run));
+    run(10ms);
+    EXPECT_EQ(state(), reg::RunState::running);
+    EXPECT_EQ(read(reg::SAFE_REASON), 0U);
+}
+
+TEST_F(PortSafety, APowerCutInMidUploadDoesNotKeepTheOldTableFromStarting) {
+    ASSERT_TRUE(upload(Bytes{{0xC0, 0, 0, 0x3E, 0x80, 0x0F, 0, 0}}));
+    ASSERT_TRUE(upload(kTable));
+    ASSERT_TRUE(command(Command::upload_begin));
+    run(100ms);
+    ASSERT_TRUE(send(std::array<std::uint8_t, 128>{}));
+    start({.autostart = true});
+    run(10ms);
+    EXPECT_EQ(read(reg::TABLE_CRC), base::crc32(kTable));
+    EXPECT_EQ(state(), reg::RunState::running);
+}
+
+TEST_F(PortSafety, WithTheEnableInputOffNothingStarts) {
+    ASSERT_TRUE(set(store::Setting::enable_input, 5));
+    ASSERT_TRUE(upload_and_activate(kTable));
+    for (const Command order : {Command::run, Command::scan, Command::step}) {
+        EXPECT_FALSE(command(order));
+        EXPECT_EQ(result(), result_of(Result::not_enabled, reg::COMMAND));
+    }
+    board.in = 0x20;
+    run(100ms);
+    EXPECT_EQ(state(), reg::RunState::stopped);
+    EXPECT_TRUE(command(Command::run));
+}
+
 TEST_F(PortSafety, AnActivatedTableDoesNotStartByItself) {
     start({.autostart = true});
     ASSERT_TRUE(upload_and_activate(kTable));
@@ -224,6 +267,53 @@ TEST_F(PortSafety, SingleScansAndSteps) {
     EXPECT_EQ(state(), reg::RunState::held);
     EXPECT_EQ(read(reg::STEP), 1U);
     EXPECT_EQ(board.stops, stops + 1);
+}
+
+TEST_F(PortSafety, AStepUnderWayIsShownAndRunOrHoldGivesItUp) {
+    start_table();
+    EXPECT_FALSE(command(Command::run));
+    EXPECT_EQ(result(), result_of(Result::not_stopped, reg::COMMAND)) << "it runs already";
+    ASSERT_TRUE(command(Command::hold));
+    run(10ms);
+    EXPECT_EQ(status() & reg::kSingle, 0U);
+    ASSERT_TRUE(command(Command::step));
+    run(10ms);
+    EXPECT_NE(status() & reg::kSingle, 0U);
+    ASSERT_TRUE(command(Command::run));
+    EXPECT_EQ(status() & reg::kSingle, 0U);
+    board.in = 1;
+    run(10ms);
+    EXPECT_EQ(state(), reg::RunState::running) << "the step changed, and it was not held";
+    ASSERT_TRUE(command(Command::hold));
+    run(10ms);
+    ASSERT_TRUE(command(Command::step));
+    ASSERT_TRUE(command(Command::hold));
+    run(10ms);
+    EXPECT_EQ(state(), reg::RunState::held);
+    EXPECT_EQ(status() & reg::kSingle, 0U);
+}
+
+TEST_F(PortSafety, AnUploadThatIsGivenUpIsLogged) {
+    ASSERT_TRUE(command(Command::upload_begin));
+    ASSERT_TRUE(send(std::array<std::uint8_t, 128>{}));
+    ASSERT_TRUE(command(Command::clear_log));
+    ASSERT_TRUE(command(Command::upload_begin));
+    EXPECT_EQ(read(reg::LOG + 1), 27U | (128U << 16));
+    ASSERT_TRUE(command(Command::upload_abort));
+    ASSERT_TRUE(command(Command::upload_abort));
+    EXPECT_EQ(read(reg::LOG_COUNT), 2U) << "nothing was left to be given up";
+}
+
+TEST_F(PortSafety, AddressesTakeHoldAtTheNextReset) {
+    ASSERT_TRUE(set(store::Setting::gateway_address, 6));
+    ASSERT_TRUE(set(store::Setting::motor_address, 9));
+    EXPECT_EQ(read(reg::IDENTITY, 6), std::nullopt);
+    ASSERT_TRUE(read(5, kMotor).has_value());
+    ASSERT_TRUE(command(Command::keep_settings)) << "at the old address";
+    start({.autostart = false});
+    EXPECT_EQ(read(reg::IDENTITY, 6), reg::kIdentity);
+    EXPECT_EQ(read(reg::IDENTITY), std::nullopt);
+    EXPECT_TRUE(read(5, 9).has_value());
 }
 
 TEST_F(PortSafety, AMotorThatCannotBeStoppedEndsTheHoldInTheSafeState) {

@@ -112,10 +112,8 @@ TEST_F(Safety, StopCommandIsTheSafeStateAtOnce) {
 
 TEST_F(Safety, LosingTheEnableInputStops) {
     Gateway gateway(board.ports(), {.safe_outputs = 0x02, .enable_input = 5}, StartCause::power_up);
-    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
-    board.run(gateway, 100ms);
-    EXPECT_EQ(gateway.run_state(), RunState::waiting_for_motor) << "not without it";
     board.in = 0x20;
+    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
     board.run(gateway, 10ms);
     EXPECT_EQ(board.out, 0x0F);
     board.in = 0;
@@ -131,12 +129,68 @@ TEST_F(Safety, LosingTheEnableInputStops) {
     EXPECT_EQ(board.out, 0x0F);
 }
 
+TEST_F(Safety, TheEnableInputItselfStartsNothing) {
+    Gateway gateway(board.ports(), {.safe_outputs = 0x02, .enable_input = 5}, StartCause::power_up);
+    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
+    board.run(gateway, 10ms);
+    EXPECT_EQ(gateway.run_state(), RunState::stopped) << "autostart does not wait for it";
+    expect_safe(gateway, SafeReason::enable_lost);
+    EXPECT_EQ(gateway.run().error(), base::Error::not_enabled);
+    EXPECT_EQ(gateway.step_once().error(), base::Error::not_enabled);
+    EXPECT_EQ(gateway.scan_once().error(), base::Error::not_enabled);
+    board.in = 0x20;
+    board.run(gateway, 1s);
+    EXPECT_EQ(gateway.run_state(), RunState::stopped);
+    expect_safe(gateway, SafeReason::enable_lost);
+    EXPECT_EQ(gateway.scans(), 0U);
+    ASSERT_TRUE(gateway.run().ok());
+    board.run(gateway, 1ms);
+    EXPECT_EQ(board.out, 0x0F);
+}
+
+TEST_F(Safety, AStartThatWaitsForTheMotorEndsWithTheEnableInput) {
+    Gateway gateway(board.ports(), {.safe_outputs = 0x02, .enable_input = 5}, StartCause::power_up);
+    board.in = 0x20;
+    board.link_state = motor::Link::down;
+    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
+    board.run(gateway, 10ms);
+    ASSERT_EQ(gateway.run_state(), RunState::waiting_for_motor);
+    board.in = 0;
+    board.run(gateway, 10ms);
+    board.in = 0x20;
+    board.link_state = motor::Link::up;
+    board.run(gateway, 1s);
+    EXPECT_EQ(gateway.run_state(), RunState::stopped);
+    expect_safe(gateway, SafeReason::enable_lost);
+}
+
+TEST_F(Safety, AfterALostLinkTheMotorIsStoppedBeforeTheSequenceGoesOn) {
+    const Bytes sends{{0xC0, 0x00, 0x00, 0x3E, 0x60, 0x0F, 0, 0}};
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    board.room = -1;
+    ASSERT_TRUE(gateway.load(sends, board.now).ok);
+    board.run(gateway, 10ms);
+    board.link_state = motor::Link::down;
+    board.run(gateway, 10ms);
+    board.stops = 0;
+    board.sent.clear();
+    board.link_state = motor::Link::unacknowledged;
+    board.is_settled = false;  // as a driver that has to send the stop
+    board.run(gateway, 10ms);
+    EXPECT_EQ(board.stops, 1);
+    EXPECT_TRUE(board.sent.empty());
+    board.is_settled = true;
+    board.run(gateway, 10ms);
+    EXPECT_EQ(board.stops, 1);
+}
+
 TEST_F(Safety, AnEnableInputThatDoesNotExistNeverEnables) {
     Gateway gateway(board.ports(), {.safe_outputs = 0x02, .enable_input = 200}, StartCause::power_up);
     ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
     board.in = 0x3F;
     board.run(gateway, 100ms);
-    expect_safe(gateway, SafeReason::not_started);
+    EXPECT_EQ(gateway.run().error(), base::Error::not_enabled);
+    expect_safe(gateway, SafeReason::enable_lost);
 }
 
 TEST_F(Safety, ABadTableIsTheSafeStateAndNothingRuns) {

@@ -244,5 +244,22 @@ TEST_F(ByteServerTest, SeveralSeatsHaveAClientEach) {
     for (const int client : {second, third, next}) ::close(client);
 }
 
+TEST_F(ByteServerTest, EachClientOfASocketHasAVisitOfItsOwn) {
+    const auto server = open("unix:" + path("line"));
+    EXPECT_EQ(server->visit(0), 0U);
+    const int first = connect_unix(path("line"));
+    const auto visit = server->visit(0);
+    EXPECT_NE(visit, 0U);
+    EXPECT_EQ(server->visit(0), visit);
+    ::close(first);
+    std::array<std::uint8_t, 1> none{};
+    EXPECT_EQ(server->read(none), 0U);
+    EXPECT_EQ(server->visit(0), 0U);
+    const int second = connect_unix(path("line"));
+    EXPECT_NE(server->visit(0), 0U);
+    EXPECT_NE(server->visit(0), visit);
+    ::close(second);
+}
+
 }  // namespace
 }  // namespace nplc::hal_linux

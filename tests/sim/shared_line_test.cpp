@@ -14,11 +14,13 @@ using namespace std::chrono_literals;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint8_t kGateway = 128;
+constexpr std::uint8_t kMotor = 1;
 
 struct Clients final : hal_linux::ByteServer {
     const std::string& name() const override { return name_; }
     bool has_client() override { return true; }
     std::size_t seats() const override { return 2; }
+    std::uint64_t visit(std::size_t seat) override { return visits[seat]; }
     std::size_t read_seat(std::size_t seat, std::span<std::uint8_t> out) override {
         const std::size_t count = std::min(out.size(), sends[seat].size());
         std::copy_n(sends[seat].begin(), count, out.begin());
@@ -30,6 +32,7 @@ struct Clients final : hal_linux::ByteServer {
     }
     int descriptor() const override { return -1; }
 
+    std::array<std::uint64_t, 2> visits{1, 2};
     std::array<Bytes, 2> sends;
     std::array<Bytes, 2> hears;
     std::string name_ = "clients";
@@ -53,7 +56,7 @@ Bytes reply_of(std::uint8_t reg) {
 }
 
 struct SharedLineTest : testing::Test {
-    Bytes on_the_line() { return line.to_line(now, kGateway); }
+    Bytes on_the_line() { return line.to_line(now, {kGateway, kMotor}); }
     void answer(const Bytes& answer) { line.from_line(answer, now); }
 
     Clients clients;
@@ -106,6 +109,62 @@ TEST_F(SharedLineTest, ARefusedMessageKeepsTheLineForAWhileOrUntilItsClientAsksA
     now += SharedLine::kLongestAnswer;
     clients.sends[0] = read_of(1);
     EXPECT_EQ(on_the_line(), read_of(1)) << "the other one has waited long enough";
+}
+
+TEST_F(SharedLineTest, AMessageForNobodyKeepsNothing) {
+    const Bytes wrong = bytes(mactalk::encode({.kind = Kind::read, .address = 77, .reg = 5}));
+    for (int i = 0; i < 3; ++i) clients.sends[0].insert(clients.sends[0].end(), wrong.begin(), wrong.end());
+    EXPECT_EQ(on_the_line(), wrong);
+    clients.sends[1] = read_of(17);
+    EXPECT_EQ(on_the_line(), read_of(17)) << "at once, and before the other one's next";
+}
+
+TEST_F(SharedLineTest, WhomNobodyAnswersIsWaitedForOnlyBriefly) {
+    for (int i = 0; i < 9; ++i) {
+        const Bytes refused = write_of(16);
+        clients.sends[0].insert(clients.sends[0].end(), refused.begin(), refused.end());
+    }
+    EXPECT_EQ(on_the_line(), write_of(16));
+    EXPECT_EQ(on_the_line(), write_of(16)) << "may ask once more";
+    clients.sends[1] = read_of(17);
+    now += SharedLine::kBriefly + 20ms;  // 16 characters take 8.3 ms at 19200 baud
+    EXPECT_EQ(on_the_line(), read_of(17));
+    answer(reply_of(17));
+    EXPECT_EQ(on_the_line(), write_of(16));
+    EXPECT_EQ(on_the_line(), write_of(16));
+    clients.sends[1] = read_of(18);
+    now += SharedLine::kBriefly + 20ms;
+    EXPECT_EQ(on_the_line(), read_of(18));
+}
+
+TEST_F(SharedLineTest, ClientsTakeTurns) {
+    for (int i = 0; i < 4; ++i) {
+        const Bytes question = read_of(16);
+        clients.sends[0].insert(clients.sends[0].end(), question.begin(), question.end());
+    }
+    EXPECT_EQ(on_the_line(), read_of(16));
+    clients.sends[1] = read_of(17);
+    EXPECT_TRUE(on_the_line() == read_of(16)) << "a follow-up of the same client";
+    answer(reply_of(16));
+    EXPECT_EQ(on_the_line(), read_of(17));
+    answer(reply_of(17));
+    EXPECT_EQ(on_the_line(), read_of(16));
+}
+
+TEST_F(SharedLineTest, WhatAClientLeftBehindIsDropped) {
+    for (int i = 0; i < 4; ++i) {
+        const Bytes refused = write_of(16);
+        clients.sends[0].insert(clients.sends[0].end(), refused.begin(), refused.end());
+    }
+    EXPECT_EQ(on_the_line(), write_of(16));
+    clients.visits[0] = 3;  // another one came in its place
+    clients.sends[1] = read_of(17);
+    EXPECT_TRUE(on_the_line().empty()) << "the answer may be on its way";
+    answer(bytes(mactalk::encode_accept()));
+    EXPECT_TRUE(clients.hears[0].empty()) << "not for the new one";
+    EXPECT_EQ(on_the_line(), read_of(17));
+    answer(reply_of(17));
+    EXPECT_TRUE(on_the_line().empty());
 }
 
 TEST_F(SharedLineTest, WhatIsNeverAnsweredKeepsNothing) {

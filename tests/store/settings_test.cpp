@@ -52,6 +52,16 @@ TEST(Settings, TakeTheirValuesAndNoOthers) {
     EXPECT_EQ(SettingValues().set(Setting{0}, 1).error(), base::Error::bad_setting);
 }
 
+TEST(Settings, OfSpeedsOnlyStandardOnes) {
+    for (const Setting setting : {Setting::user_baud, Setting::motor_baud}) {
+        SettingValues values;
+        for (const std::uint32_t baud : {1'201U, 14'400U, 19'201U, 100'000U})
+            EXPECT_EQ(values.set(setting, baud).error(), base::Error::bad_setting) << baud;
+        for (const std::uint32_t baud : {1'200U, 9'600U, 38'400U, 921'600U})
+            EXPECT_TRUE(values.set(setting, baud).ok()) << baud;
+    }
+}
+
 TEST(Settings, AreStoredAsNumberAndFourBytes) {
     SettingValues values;
     ASSERT_TRUE(values.set(Setting::motor_baud, 115'200).ok());  // 0001C200h

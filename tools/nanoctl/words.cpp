@@ -58,7 +58,7 @@ std::string_view name_of(RunState state) {
 }
 
 std::string_view name_of_event(std::uint8_t event) {
-    constexpr std::array<std::string_view, 27> kNames{"none",
+    constexpr std::array<std::string_view, 28> kNames{"none",
                                                       "not started",
                                                       "stop command",
                                                       "link down",
@@ -84,7 +84,8 @@ std::string_view name_of_event(std::uint8_t event) {
                                                       "table stored",
                                                       "upload failed",
                                                       "settings kept",
-                                                      "stored table or settings damaged"};
+                                                      "stored table or settings damaged",
+                                                      "upload given up"};
     if (event >= kNames.size() || kNames[event].empty()) return "unknown";
     return kNames[event];
 }

@@ -6,6 +6,9 @@
 namespace nplc::nanoctl::cli {
 namespace {
 
+/// Others may keep a shared line for seconds: a machine is stopped all the same.
+constexpr unsigned kStopAttempts = 60;
+
 void tell_state(Session& session) {
     const Status status = session.status();
     session.tell(fmt::format("{}, step {}", name_of(status.run_state), session.names().step(status.step)),
@@ -15,6 +18,7 @@ void tell_state(Session& session) {
 void add_order(CLI::App& app, Common& common, gw::Command order, const char* text) {
     CLI::App& command = add_command(app, std::string(name_of(order)), text);
     command.callback([order, &common] {
+        if (order == gw::Command::stop || order == gw::Command::safe) common.attempts = kStopAttempts;
         work(common, [&](Session& session) {
             session.gateway().command(order);
             tell_state(session);

@@ -39,8 +39,9 @@ void fail(Common& common, int exit_code, const std::string& text) {
 Session::Session(const Common& common)
     : common_(common),
       wire_(open(common)),
-      master_(*wire_,
-              {.baud = common.baud, .patience = base::Milliseconds{common.patience_ms}, .attempts = 10}),
+      master_(*wire_, {.baud = common.baud,
+                       .patience = base::Milliseconds{common.patience_ms},
+                       .attempts = common.attempts}),
       gateway_(master_, static_cast<std::uint8_t>(common.address)) {
     gateway_.identify();
     if (common.symbols.empty()) return;

@@ -35,6 +35,7 @@ struct Common {
     unsigned patience_ms = 150;
     bool json = false;
     std::string symbols;
+    unsigned attempts = 10;  ///< of each message
     int exit_code = kOk;
 };
 

@@ -53,11 +53,14 @@ void go(Session& session, gw::Command order, const StepOptions& options) {
         session.gateway().command(order);
         if (!wait_until_held(session, base::Milliseconds{1000 * options.seconds})) {
             const Status status = session.status();
+            const bool gives_up = status.run_state != gw::RunState::stopped;
+            if (gives_up) session.gateway().command(gw::Command::hold);
             throw Refused(
                 gw::Result::not_running, gw::COMMAND, 0,
-                fmt::format("nothing happened in {} s: the sequence is {} in step {} and waits for its "
-                            "conditions; `nanoctl hold` holds it there",
-                            options.seconds, name_of(status.run_state), session.names().step(status.step)));
+                fmt::format(
+                    "nothing happened in {} s: the sequence was {} in step {}{}", options.seconds,
+                    name_of(status.run_state), session.names().step(status.step),
+                    gives_up ? " and its conditions did not come; it is given up and held there" : ""));
         }
         tell_held(session);
     }

@@ -29,7 +29,7 @@ struct Settings {
     OnStart on_start = OnStart::stop;
     bool autostart = true;  ///< run() is not needed after a power-up with a good table
     std::optional<std::uint8_t>
-        enable_input{};  ///< input 0..5 that must be 1 to run; losing it is a safe state
+        enable_input{};  ///< input 0..5 that must be 1 to start and to run; losing it is a safe state
     /// An input counts once it has been steady for this long. Over 9 ms the safe state takes more than 10 ms
     /// from the loss of the enable input.
     base::Microseconds debounce{3'000};
@@ -67,20 +67,27 @@ class Gateway {
 
     /// The start-up is over: no table starts by itself any more.
     void end_start_up() { starting_up_ = false; }
+    /// The table just loaded may be another one than the last that was stored: bad_table until run().
+    void distrust_table(base::Instant now) { enter_safe_state(SafeReason::bad_table, now); }
 
     /// Has the motor the order of this term, if it has one?
     bool motor_takes(sequencer::TermView term) const;
 
-    /// From the beginning, or on from where it is held. Errors: no_table; not_stopped when it runs already.
+    /// From the beginning, or on from where it is held; without hold if has_single(). Errors: no_table;
+    /// not_stopped when it runs already; not_enabled: from the beginning only with the enable input on, so
+    /// that closing a guard starts nothing.
     base::Status run();
     /// One scan, or scans until the step changes, from where it is held or from the beginning; then it is
     /// held. Errors as run().
+    /// Until then has_single(); run() and hold() give it up.
     base::Status scan_once() { return run_until(HoldAfter::scan); }
     base::Status step_once() { return run_until(HoldAfter::step); }
     /// Holds it at the end of the scan: its orders are executed and the motor is told to stop first, unless
     /// Settings::virtual_motor says otherwise. The timer stands meanwhile, the outputs stay. Error: no_table
     /// if it is stopped.
     base::Status hold();
+    /// A scan_once() or step_once() is not done yet.
+    bool has_single() const { return hold_after_ == HoldAfter::scan || hold_after_ == HoldAfter::step; }
     void stop(base::Instant now) { enter_safe_state(SafeReason::stop_command, now); }
     /// Ends forces and breakpoints too.
     void make_safe(base::Instant now);
@@ -148,6 +155,7 @@ class Gateway {
     void set_safe_reason(SafeReason reason, base::Instant now);
     static motor::Order to_motor(const sequencer::MotorOrder& order);
     sequencer::Table::LoadResult checked_for_motor(const sequencer::Table::LoadResult& loaded) const;
+    void start_by_itself(base::Instant now);
     void start_when_ready(base::Instant now);
     void watch_link(base::Instant now);
     void work(base::Instant now);

@@ -36,6 +36,8 @@ constexpr Result result_of(base::Error error) {
             return Result::not_stopped;
         case base::Error::no_table:
             return Result::no_table;
+        case base::Error::not_enabled:
+            return Result::not_enabled;
         case base::Error::busy:
             return Result::busy;
         case base::Error::bad_offset:

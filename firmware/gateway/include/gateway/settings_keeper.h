@@ -22,6 +22,8 @@ class SettingsKeeper {
 
     const store::SettingValues& values() const { return values_; }
     std::uint32_t get(store::Setting setting) const { return values_.get(setting); }
+    /// As it was at the start: for addresses and the lines' settings, which take hold at a reset.
+    std::uint32_t at_start(store::Setting setting) const { return at_start_.get(setting); }
     /// All below need attach(). Only while stopped; not 255 or the motor's address for the gateway.
     Result set(std::uint8_t id, std::uint32_t value);
 
@@ -35,6 +37,7 @@ class SettingsKeeper {
     Gateway* gateway_ = nullptr;
     store::SettingsStore store_;
     store::SettingValues values_;
+    store::SettingValues at_start_;
     store::SettingValues stored_;
     store::SettingValues saving_;
     base::Status begun_;

@@ -25,7 +25,8 @@ class TableKeeper final : private store::TermCheck {
     /// For the start-up: looks at the store. Error as Slots::mount.
     base::Status mount();
     /// Then: the stored table, if there is one, becomes the active one. It needs no question to the motor,
-    /// since run() stops it before the first scan.
+    /// since run() stops it before the first scan. One that stands in for a damaged one does not start by
+    /// itself: the gateway is stopped with bad_table until run().
     void start(base::Instant now);
     /// Or: `table` becomes the active one.
     sequencer::Table::LoadResult use(std::span<const std::uint8_t> table, base::Instant now);
@@ -38,7 +39,7 @@ class TableKeeper final : private store::TermCheck {
         return slots_.write(offset, piece);
     }
     base::Status commit(std::uint32_t length, std::uint32_t crc) { return slots_.finish(length, crc); }
-    void abandon_upload() { slots_.abandon(); }
+    void abandon_upload();
     bool uploads() const;
     std::uint32_t upload_state() const;  ///< register UPLOAD_STATE
     std::uint32_t uploaded() const { return slots_.received(); }

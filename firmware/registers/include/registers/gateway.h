@@ -115,6 +115,7 @@ enum class Result : std::uint8_t {
     storage_failed = 15,
     nothing_stored = 16,
     not_running = 17,
+    not_enabled = 18,
     table_no_end = 32,
     table_ragged = 33,
     bad_next_step = 34,
@@ -139,6 +140,7 @@ enum StatusBit : std::uint32_t {
     kSettingsDiffer = 1U << 14,
     kEnabled = 1U << 15,
     kVirtualMotor = 1U << 16,
+    kSingle = 1U << 17,
 };
 
 enum class RunState : std::uint8_t { stopped = 0, waiting = 1, running = 2, holding = 3, held = 4 };
@@ -156,6 +158,7 @@ enum class Event : std::uint8_t {
     upload_failed = 24,
     settings_kept = 25,
     store_damaged = 26,
+    upload_given_up = 27,
 };
 
 enum class Access : std::uint8_t { read, read_write, write };

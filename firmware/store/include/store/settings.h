@@ -53,6 +53,8 @@ inline constexpr std::size_t kSettings = 18;
 const std::array<SettingInfo, kSettings>& all_settings();
 /// nullptr if there is none.
 const SettingInfo* find_setting(std::uint8_t id);
+/// Of a speed: 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800 or 921600 baud.
+bool is_standard_rate(std::uint32_t baud);
 bool is_allowed(const SettingInfo& info, std::uint32_t value);
 
 /// A value for every setting; always an allowed one.

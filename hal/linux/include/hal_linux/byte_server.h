@@ -32,6 +32,9 @@ class ByteServer {
     virtual const std::string& name() const = 0;
     virtual bool has_client() = 0;
     virtual std::size_t seats() const { return 1; }
+    /// Another number for each client that took the seat; 0: nobody has it. Always 1 where clients cannot be
+    /// told apart.
+    virtual std::uint64_t visit(std::size_t /*seat*/) { return 1; }
     /// From a seat's client; how many bytes it put into `out`.
     virtual std::size_t read_seat(std::size_t seat, std::span<std::uint8_t> out) = 0;
     virtual void write_seat(std::size_t seat, std::span<const std::uint8_t> bytes) = 0;

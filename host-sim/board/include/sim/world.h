@@ -84,6 +84,7 @@ class World final : public Stage, private gateway::Observer {
     /// What has arrived there since the last call.
     std::vector<std::uint8_t> user_received() { return std::exchange(user_received_, {}); }
     std::uint8_t gateway_address() const;
+    std::uint8_t motor_address() const;  ///< on the user's port
     const gateway::TableKeeper& tables() const { return *tables_; }
     bool motor_powered() const { return motor_powered_; }
 
