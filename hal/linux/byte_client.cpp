@@ -29,7 +29,7 @@ ByteClient::Opened ByteClient::open(const std::string& endpoint, std::uint32_t b
         return open_terminal_client(endpoint, endpoint, baud);
     return {nullptr, "'" + endpoint +
                          "': write a serial line's path such as /dev/ttyUSB0, or pty:PATH, unix:PATH or "
-                         "tcp:HOST:PORT"};
+                         "tcp:127.0.0.1:PORT"};
 }
 
 bool DescriptorClient::write(std::span<const std::uint8_t> bytes) {

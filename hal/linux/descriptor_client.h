@@ -28,7 +28,7 @@ class DescriptorClient : public ByteClient {
 
 ByteClient::Opened open_terminal_client(const std::string& path, const std::string& name, std::uint32_t baud);
 ByteClient::Opened open_unix_client(const std::string& path);
-/// `where`: HOST:PORT
+/// `where`: 127.0.0.1:PORT; what is not of this machine is refused.
 ByteClient::Opened open_tcp_client(const std::string& where);
 
 }  // namespace nplc::hal_linux

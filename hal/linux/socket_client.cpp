@@ -1,5 +1,4 @@
 #include <fcntl.h>
-#include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
@@ -11,6 +10,7 @@
 #include <memory>
 
 #include "descriptor_client.h"
+#include "tcp_address.h"
 
 namespace nplc::hal_linux {
 namespace {
@@ -58,26 +58,16 @@ ByteClient::Opened open_unix_client(const std::string& path) {
 
 ByteClient::Opened open_tcp_client(const std::string& where) {
     const std::string name = "tcp:" + where;
-    const auto colon = where.rfind(':');
-    if (colon == std::string::npos || colon == 0 || colon + 1 == where.size())
-        return {nullptr, name + ": write tcp:HOST:PORT"};
-    addrinfo hints{};
-    hints.ai_socktype = SOCK_STREAM;
-    addrinfo* found = nullptr;
-    const int trouble =
-        ::getaddrinfo(where.substr(0, colon).c_str(), where.substr(colon + 1).c_str(), &hints, &found);
-    if (trouble != 0) return {nullptr, name + ": " + ::gai_strerror(trouble)};
-    const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> all(found, ::freeaddrinfo);
-    int reason = ECONNREFUSED;
-    for (const addrinfo* one = found; one != nullptr; one = one->ai_next) {
-        FileDescriptor socket(::socket(one->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-        reason = socket ? join(socket.get(), one->ai_addr, one->ai_addrlen) : errno;
-        if (reason != 0) continue;
-        const int on = 1;
-        ::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-        return {std::make_unique<DescriptorClient>(std::move(socket), name), {}};
-    }
-    return {nullptr, cannot_connect(name, reason)};
+    const auto address = tcp_address(where);
+    if (!address || address->sin_port == 0)
+        return {nullptr, name + ": write tcp:127.0.0.1:PORT (this machine only), PORT 1..65535"};
+    FileDescriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+    const int reason =
+        socket ? join(socket.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address) : errno;
+    if (reason != 0) return {nullptr, cannot_connect(name, reason)};
+    const int on = 1;
+    ::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+    return {std::make_unique<DescriptorClient>(std::move(socket), name), {}};
 }
 
 }  // namespace nplc::hal_linux

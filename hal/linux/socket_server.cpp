@@ -10,12 +10,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
-#include <optional>
 #include <vector>
 
 #include "file_descriptor.h"
+#include "tcp_address.h"
 
 namespace nplc::hal_linux {
 namespace {
@@ -123,26 +122,6 @@ bool is_stale_socket(const std::string& path, const sockaddr_un& address) {
     if (::lstat(path.c_str(), &status) != 0 || !S_ISSOCK(status.st_mode)) return false;
     const FileDescriptor probe = make_socket(AF_UNIX);
     return ::connect(probe.get(), generic(address), sizeof address) != 0 && errno == ECONNREFUSED;
-}
-
-/// These lines know no password: nobody outside of this machine may move a motor.
-bool is_loopback(const sockaddr_in& address) {
-    return ntohl(address.sin_addr.s_addr) >> 24 == IN_LOOPBACKNET;
-}
-
-std::optional<sockaddr_in> tcp_address(const std::string& where) {
-    const auto colon = where.rfind(':');
-    if (colon == std::string::npos) return std::nullopt;
-    const std::string host = where.substr(0, colon) == "localhost" ? "127.0.0.1" : where.substr(0, colon);
-    const std::string digits = where.substr(colon + 1);
-    std::uint16_t port = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port);
-    const bool sound = error == std::errc() && end == digits.data() + digits.size() && !digits.empty() &&
-                       ::inet_pton(AF_INET, host.c_str(), &address.sin_addr) == 1;
-    return sound && is_loopback(address) ? std::optional(address) : std::nullopt;
 }
 
 std::string tcp_name(int listener) {

@@ -56,6 +56,13 @@ std::string load_flash(const std::string& path, MacMotor& motor) {
     return {};
 }
 
+std::string try_flash(const std::string& path) try {
+    OutputFile file(path);
+    return {};
+} catch (const FileError& error) {
+    return error.what();
+}
+
 std::string save_flash(const std::string& path, const MacMotor& motor) try {
     OutputFile file(path);
     file.write(heading(motor.model()) + "\n");

@@ -50,6 +50,7 @@ std::string Service::open_flash(const MacsimOptions& options) {
             i == 0 ? options.flash : fmt::format("{}.{}", options.flash, options.rack.units[i].address);
         flash_.push_back({path});
         if (std::string error = load_flash(path, rack_.motor(i)); !error.empty()) return error;
+        if (std::string error = try_flash(path); !error.empty()) return error;
     }
     return {};
 }

@@ -262,6 +262,7 @@ class Mistakes(Case):
         with open(self.path("flash"), "w", encoding="ascii") as file:
             file.write("# parameter flash of a virtual MAC140\n65 = many\n")
         self.refused("--flash", self.path("flash"), "--mactalk", "pty:" + self.path("x"), says="flash:2")
+        self.refused("--flash", self.path("none/flash"), "--mactalk", "pty:" + self.path("x"), says="none/flash")
         self.refused("--model", "MAC800", "--flash", self.path("flash"), "--mactalk", "pty:" + self.path("x"),
                      says="MAC800")
         self.start("--mactalk", "unix:" + self.path("socket"))

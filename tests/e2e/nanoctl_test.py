@@ -10,6 +10,7 @@ import random
 import shutil
 import signal
 import socket
+import stat
 import subprocess
 import sys
 import tempfile
@@ -308,6 +309,119 @@ class Talking(Case):
             file.write(bytes.fromhex("C000003E80010000 3F00000000000000"))
         self.ctl("upload", self.path("other.bin"), "--stop")
         self.assertIn("belongs to another table", self.ctl(*self.sym(), "status", exit_code=2)["error"])
+
+
+class Files(Case):
+    def refused(self, words, *arguments):
+        result = self.call(*arguments)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn(words, result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+
+    def test_what_is_no_table_is_refused(self):
+        self.start()
+        with open(self.table, "rb") as file:
+            table = file.read()
+        with open(self.path("long.bin"), "wb") as file:
+            file.write(table + bytes(8))
+        self.refused(f"term {len(table) // 8 - 1} ends the table and 8 bytes follow it", "upload", self.path("long.bin"))
+        self.refused("it is a folder", "upload", self.folder.name)
+        self.refused("more than", "upload", "/dev/zero")
+        missing = self.ctl("verify", self.table, exit_code=1)["error"]
+        self.assertIn("neither stored nor active", missing)
+
+    def test_a_download_replaces_no_link_and_no_pipe(self):
+        self.start()
+        self.ctl("upload", self.table)
+        with open(self.table, "rb") as file:
+            table = file.read()
+        os.symlink("target.bin", self.path("link.bin"))
+        self.ctl("download", "-o", self.path("link.bin"))
+        self.assertTrue(os.path.islink(self.path("link.bin")))
+        with open(self.path("target.bin"), "rb") as file:
+            self.assertEqual(file.read(), table)
+        os.mkfifo(self.path("fifo"))
+        end = os.open(self.path("fifo"), os.O_RDONLY | os.O_NONBLOCK)
+        self.ctl("download", "-o", self.path("fifo"))
+        self.assertEqual(os.read(end, 10_000), table)
+        os.close(end)
+        self.assertTrue(stat.S_ISFIFO(os.stat(self.path("fifo")).st_mode))
+        self.refused("No space left", "download", "-o", "/dev/full")
+
+    def test_a_full_standard_output_is_said(self):
+        with open("/dev/full", "w", encoding="ascii") as full:
+            for command in ([NANOCTL, "man"], [SEQC, "disasm", self.table]):
+                result = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.assertIn("cannot write to standard output", result.stderr)
+
+
+class Patience(Case):
+    def interrupt(self, *arguments, after):
+        """Its answer to SIGTERM at the time when after() comes back."""
+        process = subprocess.Popen([NANOCTL, "--port", self.endpoint, "--patience", "500", "--json", *arguments],
+                                   stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.running.append(process)
+        after()
+        process.send_signal(signal.SIGTERM)
+        text = process.communicate(timeout=LONG)[0]
+        self.assertEqual(process.returncode, 130, text)
+        return json.loads(text)["error"]
+
+    def big_table(self):
+        with open(self.path("big.bin"), "wb") as file:
+            for term in range(900):
+                file.write(bytes([0xC0 | term % 60, term % 256, 0x3F, 0x3E, 0x80, 1, 0, 0]))
+            file.write(bytes([0x3F, 0, 0, 0, 0, 0, 0, 0]))
+        return self.path("big.bin")
+
+    def test_an_upload_is_given_up_at_a_signal(self):
+        self.start()
+        crc = self.ctl("upload", self.table)["crc32"]
+        said = self.interrupt("upload", self.big_table(), after=lambda: self.until(lambda status: status["upload"]))
+        self.assertIn("the upload was given up", said)
+        status = self.ctl("status")
+        self.assertEqual((status["upload"], status["stored_crc32"]), (False, crc))
+
+    def test_a_step_that_comes_to_nothing_is_cancelled(self):
+        self.start()
+        self.ctl("upload", self.table, "--run")
+        self.until(lambda status: status["step"] == 1)
+        self.assertIn("nanoctl hold", self.ctl("step", exit_code=1)["error"])
+        self.assertIn("runs already", self.ctl("run", exit_code=1)["error"])
+        self.assertEqual(self.ctl("hold")["state"], "held")
+        said = self.ctl("step", "--wait", "1", exit_code=1)["error"]
+        self.assertIn("was cancelled: the sequence is held in step 1", said)
+        said = self.interrupt("step", after=lambda: self.until(lambda status: status["state"] == "running"))
+        self.assertIn("interrupted and cancelled: the sequence is held", said)
+
+
+class Words(Case):
+    def test_wrong_usage_is_a_document_too(self):
+        for arguments, words in ((["badcmd"], "'badcmd' is no command"), (["settings", "foo"], "'foo' is no command"),
+                                 (["step", "0"], "0")):
+            said = self.ctl(*arguments, exit_code=2)["error"]
+            self.assertIn(words, said)
+
+    def test_settings_say_which_and_why(self):
+        self.start()
+        said = self.ctl("settings", "set", "motor_address=128", exit_code=1)["error"]
+        self.assertIn("motor_address=128: the address is taken", said)
+        self.ctl("settings", "set", "user_baud=1201", exit_code=2)
+        text = self.call("settings", "set", "user_baud=38400").stdout
+        self.assertIn("only if kept", text)
+
+    def test_forces(self):
+        self.start()
+        self.assertIn("named twice", self.ctl("force", "IN0=1", "IN0=0", exit_code=2)["error"])
+        self.assertTrue(self.ctl("force", "OUT2=1")["outputs_kept_safe"])
+        self.assertIn("the safe state keeps the outputs", self.call("force").stdout)
+
+    def test_terms_are_counted_as_seqc_does(self):
+        self.start()
+        terms = os.path.getsize(self.table) // 8 - 1
+        self.assertIn(f"{terms} terms and the end term", self.call("upload", self.table).stdout)
+        self.assertIn(f"{terms} terms and the end term", self.call("status").stdout)
 
 
 class Generated(unittest.TestCase):

@@ -132,8 +132,10 @@ TEST_F(Endpoint, WhatCannotBeOpenedIsNamedWithWhatToDo) {
     expect_error(path("no_such"), 19'200, "there is no such port");
     expect_error("unix:" + path("no_such"), 19'200, "is the program running?");
     expect_error("tcp:127.0.0.1:1", 19'200, "nobody listens there");
-    expect_error("tcp:127.0.0.1", 19'200, "write tcp:HOST:PORT");
-    expect_error("tcp::80", 19'200, "write tcp:HOST:PORT");
+    for (const char* wrong : {"tcp:127.0.0.1", "tcp::80", "tcp:127.0.0.1:99999", "tcp:127.0.0.1:65536",
+                              "tcp:127.0.0.1:0", "tcp:127.0.0.1:-1", "tcp:127.0.0.1:80x",
+                              "tcp:localhost:http", "tcp:192.0.2.1:80", "tcp:example.org:80"})
+        expect_error(wrong, 19'200, "write tcp:127.0.0.1:PORT (this machine only), PORT 1..65535");
     expect_error("unix:" + std::string(200, 'x'), 19'200, "too long");
     expect_error("/dev/null", 19'200, "not a serial line");
     expect_error(path("tty"), 19'201, "no serial line has 19201 baud");

@@ -151,6 +151,49 @@ TEST(Client, ASlowStorageIsWaitedFor) {
     EXPECT_EQ(bench.gateway.read(gw::STORED_CRC), base::crc32(sent));
 }
 
+TEST(Client, AMovingMotorIsNotWaitedForWithoutEnd) {
+    Bench bench;
+    upload(bench.gateway, table(20), kQuiet);
+    bench.unit.board.motor_registers[12] = 100;
+    const base::Instant begun = bench.wire.now();
+    EXPECT_EQ(bench.refusal([&] { bench.gateway.activate(); }), gw::Result::moving);
+    const auto waited = bench.wire.now() - begun;
+    EXPECT_GE(waited, GatewayClient::kStillWait);
+    EXPECT_LE(waited, 2 * GatewayClient::kStillWait) << "in virtual time";
+}
+
+TEST(Client, WhatTakesLongEndsWhenTheUserHasHadEnough) {
+    Bench bench;
+    const auto old = table(20);
+    upload(bench.gateway, old, kQuiet);
+    bool goes_on = true;
+    bench.gateway.set_goes_on([&] { return goes_on; });
+    EXPECT_THROW(
+        upload(bench.gateway, table(200, 2), [&](std::size_t done, std::size_t) { goes_on = done < 500; }),
+        Interrupted);
+    EXPECT_FALSE(bench.status().has(gw::kUpload)) << "given up";
+    EXPECT_EQ(bench.gateway.read(gw::STORED_CRC), base::crc32(old));
+    bench.unit.board.motor_registers[12] = 100;
+    EXPECT_THROW(bench.gateway.activate(), Interrupted);
+    bench.unit.board.motor_registers[12] = 0;
+    goes_on = true;
+    bench.gateway.activate();
+    EXPECT_THROW(download(bench.gateway, [&](std::size_t, std::size_t) { goes_on = false; }), Interrupted);
+}
+
+TEST(Client, AnUploadThatAnotherClientDisturbedIsRefused) {
+    Bench bench;
+    bool taken = false;
+    EXPECT_EQ(bench.refusal([&] {
+        upload(bench.gateway, table(100), [&](std::size_t done, std::size_t all) {
+            if (done < all || taken) return;
+            taken = true;
+            bench.gateway.command(Command::upload_begin);
+        });
+    }),
+              gw::Result::wrong_check);
+}
+
 struct BadLine : testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(BadLine, TablesArriveWholeAndCommandsAreDoneOnce) {

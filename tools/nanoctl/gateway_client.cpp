@@ -16,8 +16,15 @@ constexpr unsigned kAttempts = 12;
 constexpr base::Milliseconds kBusyPause{50};
 constexpr unsigned kBusyTries = 100;
 constexpr base::Milliseconds kStartPause{200};
-constexpr unsigned kStillTries = 50;
 constexpr unsigned kStartLooks = 5;
+
+/// What to do where it depends on the command.
+std::string reason(gw::Command command, gw::Result result) {
+    if (result == gw::Result::not_stopped && command == gw::Command::run) return "the sequence runs already";
+    if (result == gw::Result::not_stopped && (command == gw::Command::step || command == gw::Command::scan))
+        return "the sequence runs; hold it first with `nanoctl hold`";
+    return std::string(gw::describe(result));
+}
 
 }  // namespace
 
@@ -49,8 +56,12 @@ GatewayClient::LastResult GatewayClient::last_result() {
             static_cast<std::uint16_t>(value >> 16)};
 }
 
-void GatewayClient::refuse(const LastResult& last, const std::string& what) {
-    throw Refused(last.result, last.reg, last.detail, fmt::format("{}: {}", what, gw::describe(last.result)));
+void GatewayClient::refuse(const LastResult& last, const std::string& what, const std::string& why) {
+    throw Refused(last.result, last.reg, last.detail, fmt::format("{}: {}", what, why));
+}
+
+void GatewayClient::look_for_interruption() const {
+    if (goes_on_ && !goes_on_()) throw Interrupted("interrupted");
 }
 
 void GatewayClient::lost(const std::string& what) const {
@@ -67,7 +78,7 @@ void GatewayClient::write(std::uint8_t reg, std::uint32_t value) {
         if (master_.try_write(address_, reg, value, Width::longword)) return;
         const LastResult last = last_result();
         if (last.reg != reg || last.result == gw::Result::done) continue;
-        if (++refusals == 2) refuse(last, what);
+        if (++refusals == 2) refuse(last, what, std::string(gw::describe(last.result)));
     }
     lost(what);
 }
@@ -82,7 +93,7 @@ void GatewayClient::command_once(gw::Command command, base::Microseconds more_pa
         const LastResult last = last_result();
         if (last.reg != gw::COMMAND) continue;
         if (last.result == gw::Result::done) return;
-        refuse(last, what);
+        refuse(last, what, reason(command, last.result));
     }
     lost(what);
 }
@@ -101,13 +112,20 @@ void GatewayClient::command(gw::Command command, base::Microseconds more_patienc
 }
 
 void GatewayClient::activate() {
-    for (unsigned i = 1;; ++i) {
+    const base::Instant end = master_.wire().now() + kStillWait;
+    for (;;) {
         try {
             return command(gw::Command::activate, base::Milliseconds{2'000});
         } catch (const Refused& refused) {
-            if (refused.result() != gw::Result::moving || i == kStillTries) throw;
+            if (refused.result() != gw::Result::moving) throw;
+            if (master_.wire().now() >= end)
+                throw Refused(refused.result(), refused.reg(), refused.detail(),
+                              "activate: the motor does not stand still, also not after 5 s; stop it first, "
+                              "then `nanoctl activate`");
         }
+        look_for_interruption();
         master_.pause(kStartPause);
+        look_for_interruption();
     }
 }
 
@@ -119,11 +137,13 @@ void GatewayClient::reset() {
         static_cast<void>(master_.try_write(address_, gw::COMMAND,
                                             static_cast<std::uint32_t>(gw::Command::reset), Width::longword));
         for (unsigned look = 0; look < kStartLooks; ++look) {
+            look_for_interruption();
             master_.pause(kStartPause);
             const auto last = try_last_result();
             if (!last) continue;
             if (last->reg == 0) return;
-            if (last->reg == gw::COMMAND && last->result != gw::Result::done) refuse(*last, "reset");
+            if (last->reg == gw::COMMAND && last->result != gw::Result::done)
+                refuse(*last, "reset", reason(gw::Command::reset, last->result));
             break;
         }
     }

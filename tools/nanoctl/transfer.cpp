@@ -38,6 +38,8 @@ UploadStatus upload_status(GatewayClient& gateway) {
 
 [[noreturn]] void upload_failed(const UploadStatus& status) {
     std::string what(gw::describe(status.result));
+    if (status.result == gw::Result::wrong_check)
+        what += " (another client may have uploaded at the same time)";
     if (status.result >= gw::Result::table_no_end) what += fmt::format(" (term {})", status.detail);
     throw Refused(status.result, gw::UPLOAD_STATE, status.detail,
                   "the table was not stored: " + what + "; the stored one is as it was");
@@ -49,6 +51,7 @@ UploadStatus wait_while(GatewayClient& gateway, UploadState state) {
         const UploadStatus status = upload_status(gateway);
         if (status.state == kFailed) upload_failed(status);
         if (status.state != state) return status;
+        gateway.look_for_interruption();
         gateway.master().pause(kPollPause);
     }
     throw LineError(LineError::Kind::no_answer, "the gateway's storage does not come to an end; restart it");
@@ -60,6 +63,7 @@ class Upload {
 
     void send(const Progress& progress) {
         while (sent_ < table_.size()) {
+            gateway_.look_for_interruption();
             progress(sent_, table_.size());
             if (send_piece()) {
                 lost_in_a_row_ = 0;
@@ -120,6 +124,13 @@ void upload_whole(GatewayClient& gateway, std::span<const std::uint8_t> table, c
                       "the table was not stored: the upload was given up; the stored one is as it was");
 }
 
+void give_up(GatewayClient& gateway) {
+    try {
+        gateway.command(gw::Command::upload_abort);
+    } catch (const Refused&) {  // it was given up already
+    }
+}
+
 }  // namespace
 
 void upload(GatewayClient& gateway, std::span<const std::uint8_t> table, const Progress& progress) {
@@ -129,12 +140,13 @@ void upload(GatewayClient& gateway, std::span<const std::uint8_t> table, const P
                       fmt::format("the table has {} bytes and the gateway takes {}", table.size(), most));
     try {
         upload_whole(gateway, table, progress);
-    } catch (const Refused&) {
-        try {
-            gateway.command(gw::Command::upload_abort);
-        } catch (const Refused&) {  // it was given up already
-        }
+    } catch (const Refused& refused) {
+        // What is under way now is another client's if this one was given up.
+        if (refused.reg() != gw::UPLOAD_STATE && refused.result() != gw::Result::no_upload) give_up(gateway);
         throw;
+    } catch (const Interrupted&) {
+        give_up(gateway);
+        throw Interrupted("interrupted; the upload was given up, the stored table is as it was");
     }
 }
 
@@ -146,6 +158,7 @@ std::vector<std::uint8_t> download(GatewayClient& gateway, const Progress& progr
     unsigned lost_in_a_row = 0;
     bool in_place = false;
     while (table.size() < length) {
+        gateway.look_for_interruption();
         progress(table.size(), length);
         if (!in_place) gateway.write(gw::TABLE_POINTER, static_cast<std::uint32_t>(table.size()));
         const auto block = gateway.master().try_read_block(gateway.address(), gw::TABLE_DATA);

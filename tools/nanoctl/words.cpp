@@ -95,6 +95,11 @@ std::string_view name_of_link(std::uint32_t link) {
     return link < kNames.size() ? kNames[link] : "unknown";
 }
 
+std::string terms_text(std::size_t bytes) {
+    const std::size_t terms = bytes / 8 - 1;
+    return fmt::format("{} term{} and the end term", terms, terms == 1 ? "" : "s");
+}
+
 std::string time_text(std::uint32_t milliseconds) {
     const std::uint32_t minutes = milliseconds / 60'000;
     const double seconds = (milliseconds % 60'000) / 1000.0;

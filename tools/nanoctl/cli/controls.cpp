@@ -6,8 +6,17 @@
 namespace nplc::nanoctl::cli {
 namespace {
 
-/// Others may keep a shared line for seconds: a machine is stopped all the same.
+/// Other clients may keep the line busy; a stop is worth waiting for.
 constexpr unsigned kStopAttempts = 60;
+constexpr base::Milliseconds kHoldWait{10'000};
+
+void wait_for_hold(Session& session) {
+    if (session.wait_until_held(kHoldWait)) return;
+    throw Refused(
+        gw::Result::moving, gw::COMMAND, 0,
+        fmt::format("hold: the sequence is {} and not held, also not after 10 s; `nanoctl log` tells more",
+                    name_of(session.status().run_state)));
+}
 
 void tell_state(Session& session) {
     const Status status = session.status();
@@ -21,6 +30,7 @@ void add_order(CLI::App& app, Common& common, gw::Command order, const char* tex
         if (order == gw::Command::stop || order == gw::Command::safe) common.attempts = kStopAttempts;
         work(common, [&](Session& session) {
             session.gateway().command(order);
+            if (order == gw::Command::hold) wait_for_hold(session);
             tell_state(session);
         });
     });
@@ -35,13 +45,15 @@ void add_controls(CLI::App& app, Common& common) {
     add_order(app, common, gw::Command::safe, "Stop, and end forces, breakpoints and an upload too");
     add_order(app, common, gw::Command::hold,
               "Hold the sequence at the end of a scan, the motor stopped, outputs as they are");
-    add_command(app, "activate", "Make the stored table the active one").callback([&common] {
-        work(common, [](Session& session) {
-            session.gateway().activate();
-            const std::uint32_t crc = session.gateway().read(gw::TABLE_CRC);
-            session.tell(fmt::format("the stored table is active, CRC {:08X}h", crc), {{"crc32", crc}});
+    add_command(app, "activate",
+                "Make the stored table the active one; waits 5 s for the motor to stand still")
+        .callback([&common] {
+            work(common, [](Session& session) {
+                session.gateway().activate();
+                const std::uint32_t crc = session.gateway().read(gw::TABLE_CRC);
+                session.tell(fmt::format("the stored table is active, CRC {:08X}h", crc), {{"crc32", crc}});
+            });
         });
-    });
     add_command(app, "reset", "Restart the gateway and wait until it answers; only while stopped")
         .callback([&common] {
             work(common, [](Session& session) {

@@ -79,6 +79,8 @@ void parse_force(const Session& session, const std::string& text, Force& in, For
             fmt::format("'{}': write IN0..IN5 or OUT0..OUT3, or a name of the program with --sym, and "
                         "=0 or =1",
                         text));
+    if (input ? (in.mask >> *input & 1U) != 0 : (out.mask >> *output & 1U) != 0)
+        throw UserError(fmt::format("'{}': {} is named twice; name it once", text, name));
     if (input)
         in.set(*input, level == "1");
     else
@@ -101,8 +103,10 @@ void tell_forces(Session& session) {
     for (unsigned i = 0; i < 4; ++i) {
         if ((out >> (8 + i) & 1U) != 0) add(session.names().output(i), (out >> i & 1U) != 0);
     }
+    const bool kept_safe = (out >> 8 & 0x0F) != 0 && session.status().has(gw::kSafe);
+    if (kept_safe) text += "; the safe state keeps the outputs until the sequence runs";
     session.tell(text.empty() ? "nothing is forced" : fmt::format("forced for {} ms: {}", left, text),
-                 {{"forced", forced}, {"left_ms", left}});
+                 {{"forced", forced}, {"left_ms", left}, {"outputs_kept_safe", kept_safe}});
 }
 
 /// Forces end by themselves unless renewed.

@@ -1,15 +1,14 @@
 #include "cli/files.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "cli/session.h"
+#include "seqc/files.h"
 #include "seqc/intel_hex.h"
 #include "sequencer/table.h"
 
@@ -17,14 +16,27 @@ namespace nplc::nanoctl::cli {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Far more than a table or its symbols have.
+constexpr std::size_t kMostBytes = 4 * 1024 * 1024;
+
+}  // namespace
+
 std::string read_whole(const std::string& path) {
+    std::error_code error;
+    if (fs::is_directory(path, error))
+        throw UserError(fmt::format("{}: cannot be read: it is a folder", path));
     errno = 0;
     std::ifstream file(path, std::ios::binary);
-    std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    std::error_code error;
-    if (!file.is_open() || file.bad() || fs::is_directory(path, error))
+    std::string content(kMostBytes + 1, '\0');
+    file.read(content.data(), static_cast<std::streamsize>(content.size()));
+    if (!file.is_open() || file.bad())
+        throw UserError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+    content.resize(static_cast<std::size_t>(file.gcount()));
+    if (content.size() > kMostBytes)
         throw UserError(
-            fmt::format("{}: cannot be read: {}", path, errno != 0 ? std::strerror(errno) : "it is no file"));
+            fmt::format("{}: has more than {} bytes; name a file of seqc build", path, kMostBytes));
     return content;
 }
 
@@ -40,22 +52,20 @@ std::vector<std::uint8_t> read_table(const std::string& path) {
     if (!loaded.ok)
         throw UserError(fmt::format("{}: term {}: {}; this is no table of seqc build", path,
                                     loaded.fault.term, sequencer::describe(loaded.fault.error)));
-    table.resize((loaded.table.size() + 1) * sequencer::kTermBytes);
+    const std::size_t whole = (loaded.table.size() + 1) * sequencer::kTermBytes;
+    if (table.size() != whole)
+        throw UserError(
+            fmt::format("{}: term {} ends the table and {} bytes follow it; this is no table of "
+                        "seqc build, build it anew",
+                        path, loaded.table.size(), table.size() - whole));
     return table;
 }
 
 void write_table(const std::string& path, std::span<const std::uint8_t> table) {
     const std::string content =
         seqc::has_hex_extension(path) ? seqc::to_intel_hex(table) : std::string(table.begin(), table.end());
-    const std::string temporary = fmt::format("{}.{}", path, ::getpid());
-    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    file << content << std::flush;
-    std::error_code error;
-    if (file) fs::rename(temporary, path, error);
-    if (file && !error) return;
-    const std::string reason = error ? error.message() : std::strerror(errno);
-    fs::remove(temporary, error);
-    throw UserError(fmt::format("{}: cannot be written: {}", path, reason));
+    if (const std::string problem = seqc::write_files({{path, content}}); !problem.empty())
+        throw UserError(problem);
 }
 
 }  // namespace nplc::nanoctl::cli

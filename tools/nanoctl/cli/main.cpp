@@ -2,16 +2,20 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <string_view>
 
 #include "cli/subcommands.h"
 
 namespace {
 
 constexpr const char* kFooter =
-    "PORT is a serial line's path, pty:PATH, unix:PATH or tcp:HOST:PORT. It may stand in the environment's\n"
+    "PORT is a serial line's path, pty:PATH, unix:PATH or tcp:127.0.0.1:PORT. It may stand in the "
+    "environment's\n"
     "NANOCTL_PORT instead. A program that holds the port already is named.\n"
     "Exit codes: 0 done, 1 the gateway refused or tables differ, 2 wrong usage or a file,\n"
-    "3 the port cannot be opened or nobody answers. With --json a failure is {\"ok\": false, \"error\": "
+    "3 the port cannot be opened or nobody answers, 130 ended by Ctrl-C or SIGTERM before it was done (watch "
+    "and\n"
+    "force end with 0). With --json a failure is {\"ok\": false, \"error\": "
     "...}.\n"
     "Example: nanoctl --port /dev/ttyUSB0 upload shuttle.bin --run && nanoctl --port /dev/ttyUSB0 watch";
 
@@ -19,6 +23,14 @@ std::string one_line(std::string text) {
     while (!text.empty() && text.back() == '\n') text.pop_back();
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
+}
+
+/// The library says of an unknown command only that there is none.
+std::string wrong_usage(const CLI::App& app, const CLI::ParseError& error) {
+    const std::string text = one_line(error.what());
+    const auto rest = app.remaining(true);
+    if (text.find("subcommand is required") == std::string::npos || rest.empty()) return text;
+    return fmt::format("'{}' is no command", rest.front());
 }
 
 void add_common(CLI::App& app, nplc::nanoctl::cli::Common& common) {
@@ -60,8 +72,10 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
-        fmt::print(stderr, "nanoctl: {} (see nanoctl --help)\n", one_line(error.what()));
-        return kUsageOrFile;
+        // What stands behind the mistake may not have been read.
+        common.json = std::find(argv, argv + argc, std::string_view("--json")) != argv + argc;
+        fail(common, kUsageOrFile, wrong_usage(app, error) + " (see nanoctl --help)");
+        return common.exit_code;
     }
     return common.exit_code;
 }

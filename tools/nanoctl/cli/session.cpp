@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <system_error>
 
 #include "cli/files.h"
 #include "seqc/symbol_file.h"
@@ -13,8 +14,10 @@ namespace {
 
 volatile std::sig_atomic_t g_ended = 0;
 
-void on_signal(int) {
+/// A second signal ends the program at once.
+void on_signal(int signal) {
     g_ended = 1;
+    std::signal(signal, SIG_DFL);
 }
 
 std::unique_ptr<mactalk_client::Wire> open(const Common& common) {
@@ -26,14 +29,6 @@ std::unique_ptr<mactalk_client::Wire> open(const Common& common) {
     return std::move(opened.wire);
 }
 
-void fail(Common& common, int exit_code, const std::string& text) {
-    common.exit_code = exit_code;
-    if (common.json)
-        fmt::print("{}\n",
-                   Json{{"ok", false}, {"error", text}}.dump(-1, ' ', false, Json::error_handler_t::replace));
-    fmt::print(stderr, "nanoctl: {}\n", text);
-}
-
 }  // namespace
 
 Session::Session(const Common& common)
@@ -43,6 +38,7 @@ Session::Session(const Common& common)
                        .patience = base::Milliseconds{common.patience_ms},
                        .attempts = common.attempts}),
       gateway_(master_, static_cast<std::uint8_t>(common.address)) {
+    gateway_.set_goes_on(goes_on);
     gateway_.identify();
     if (common.symbols.empty()) return;
     const auto reading = seqc::read_symbols(read_whole(common.symbols));
@@ -56,6 +52,18 @@ Session::Session(const Common& common)
     names_ = Names(reading.file);
 }
 
+bool Session::wait_until_held(base::Milliseconds patience) {
+    constexpr base::Milliseconds kPause{20};
+    const base::Instant end = now() + patience;
+    for (;;) {
+        const auto state = status().run_state;
+        if (state == gw::RunState::held) return true;
+        if (state == gw::RunState::stopped || now() >= end) return false;
+        gateway_.look_for_interruption();
+        pause(kPause);
+    }
+}
+
 void Session::tell(const std::string& text, Json document) const {
     if (common_.json) {
         Json whole{{"ok", true}};
@@ -65,6 +73,14 @@ void Session::tell(const std::string& text, Json document) const {
         fmt::print("{}\n", text);
     }
     std::fflush(stdout);
+}
+
+void fail(Common& common, int exit_code, const std::string& text) {
+    common.exit_code = exit_code;
+    if (common.json)
+        fmt::print("{}\n",
+                   Json{{"ok", false}, {"error", text}}.dump(-1, ' ', false, Json::error_handler_t::replace));
+    fmt::print(stderr, "nanoctl: {}\n", text);
 }
 
 void guard(Common& common, const std::function<void()>& what) {
@@ -80,6 +96,9 @@ void guard(Common& common, const std::function<void()>& what) {
         fail(common, kNoAnswer, error.what());
     } catch (const mactalk_client::LineError& error) {
         fail(common, kNoAnswer, error.what());
+    } catch (const Interrupted& error) {
+        fail(common, kInterrupted, error.what());
+    } catch (const std::system_error&) {  // of fmt::print; told below
     }
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
         fmt::print(stderr, "nanoctl: cannot write to standard output\n");

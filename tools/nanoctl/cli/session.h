@@ -14,9 +14,10 @@ namespace nplc::nanoctl::cli {
 
 enum Exit : int {
     kOk = 0,
-    kRefused = 1,      ///< the gateway said no, or two tables differ
-    kUsageOrFile = 2,  ///< wrong usage, or a file that cannot be read, written or understood
-    kNoAnswer = 3,     ///< the port cannot be opened, or nobody answers
+    kRefused = 1,        ///< the gateway said no, or two tables differ
+    kUsageOrFile = 2,    ///< wrong usage, or a file that cannot be read, written or understood
+    kNoAnswer = 3,       ///< the port cannot be opened, or nobody answers
+    kInterrupted = 130,  ///< by SIGINT or SIGTERM, before it was done
 };
 
 using Json = nlohmann::ordered_json;
@@ -33,9 +34,9 @@ struct Common {
     std::uint32_t baud = 19'200;
     unsigned address = gw::kDefaultAddress;
     unsigned patience_ms = 150;
+    unsigned attempts = 10;  ///< of each question
     bool json = false;
     std::string symbols;
-    unsigned attempts = 10;  ///< of each message
     int exit_code = kOk;
 };
 
@@ -50,6 +51,9 @@ class Session {
     Status status() { return Status(gateway_.read_block(gw::STATUS)); }
     void pause(base::Microseconds time) { master_.pause(time); }
     base::Instant now() { return wire_->now(); }
+
+    /// False if it was stopped instead, or after `patience`.
+    bool wait_until_held(base::Milliseconds patience);
 
     /// A line for a person, or the same as a JSON document on one line, with "ok".
     void tell(const std::string& text, Json document) const;
@@ -66,6 +70,9 @@ class Session {
 void work(Common& common, const std::function<void(Session&)>& what);
 /// The same without a gateway.
 void guard(Common& common, const std::function<void()>& what);
+
+/// Tells what went wrong, with --json as a document too.
+void fail(Common& common, int exit_code, const std::string& text);
 
 /// Until SIGINT or SIGTERM came.
 bool goes_on();

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <memory>
 #include <vector>
@@ -30,8 +32,11 @@ std::string value_text(const SettingInfo& info, std::uint32_t value) {
 }
 
 std::string range_text(const SettingInfo& info) {
-    return fmt::format("{} to {}{}", info.lowest, value_text(info, info.highest),
-                       info.has_none ? ", or none" : "");
+    return fmt::format("{} to {}{}{}", info.lowest, value_text(info, info.highest),
+                       info.has_none ? ", or none" : "",
+                       info.id == store::Setting::user_baud || info.id == store::Setting::motor_baud
+                           ? ", of 1200 2400 4800 9600 19200 38400 57600 115200 230400 460800 921600"
+                           : "");
 }
 
 void list(Session& session) {
@@ -77,19 +82,53 @@ Assignment parse(const std::string& text) {
     return {&info, is_none ? store::kNone : value};
 }
 
+bool begins_at_reset(const SettingInfo& info) {
+    return info.id == store::Setting::gateway_address || info.id == store::Setting::user_baud ||
+           info.id == store::Setting::motor_baud;
+}
+
+bool is_taken(Session& session, const Assignment& one) {
+    const auto other = one.info->id == store::Setting::gateway_address ? store::Setting::motor_address
+                                                                       : store::Setting::gateway_address;
+    if (one.info->id != store::Setting::gateway_address && one.info->id != store::Setting::motor_address)
+        return false;
+    return session.gateway().read(reg_of(*store::find_setting(static_cast<std::uint8_t>(other)))) ==
+           one.value;
+}
+
+void write_one(Session& session, const Assignment& one) {
+    try {
+        session.gateway().write(reg_of(*one.info), one.value);
+    } catch (const Refused& refused) {
+        const std::string why = refused.result() == gw::Result::bad_value && is_taken(session, one)
+                                    ? "the address is taken: gateway and motor need one each"
+                                    : std::string(gw::describe(refused.result()));
+        throw Refused(refused.result(), refused.reg(), refused.detail(),
+                      fmt::format("{}={}: {}", one.info->name, one.value, why));
+    }
+}
+
+std::string set_text(const std::vector<Assignment>& assignments, bool keep) {
+    const bool late = std::any_of(assignments.begin(), assignments.end(),
+                                  [](const Assignment& one) { return begins_at_reset(*one.info); });
+    if (keep) return late ? "set and kept; address and speeds count from the next reset on" : "set and kept";
+    return late
+               ? "set, but not kept: address and speeds count from the next reset on, and only if kept; keep "
+                 "them with --keep"
+               : "set until the next reset; keep them with --keep";
+}
+
 /// All are looked at before the first is written.
 void set(Session& session, const std::vector<std::string>& texts, bool keep) {
     std::vector<Assignment> assignments;
     for (const std::string& text : texts) assignments.push_back(parse(text));
     Json changed = Json::object();
     for (const Assignment& one : assignments) {
-        session.gateway().write(reg_of(*one.info), one.value);
+        write_one(session, one);
         changed[std::string(one.info->name)] = one.value;
     }
     if (keep) session.gateway().command(gw::Command::keep_settings, base::Milliseconds{2'000});
-    session.tell(keep ? "set and kept; address and speeds count from the next reset on"
-                      : "set until the next reset; keep them with --keep",
-                 {{"settings", changed}, {"kept", keep}});
+    session.tell(set_text(assignments, keep), {{"settings", changed}, {"kept", keep}});
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ std::string line_of(const Status& status, const Names& names) {
     if (status.has(gw::kForcedInputs) || status.has(gw::kForcedOutputs))
         text += fmt::format(", FORCED for {} ms", status.force_left);
     if (status.has(gw::kSafe)) text += fmt::format(", SAFE: {}", name_of_event(status.safe_reason));
+    if (status.has(gw::kUpload)) text += ", an upload is under way";
     return text;
 }
 
@@ -59,7 +60,7 @@ std::string version_text(std::uint32_t version) {
 }
 
 std::string table_text(std::uint32_t bytes, std::uint32_t crc) {
-    return bytes == 0 ? "none" : fmt::format("{} terms, CRC {:08X}h", bytes / 8 - 1, crc);
+    return bytes == 0 ? "none" : fmt::format("{}, CRC {:08X}h", terms_text(bytes), crc);
 }
 
 void show_status(Session& session) {

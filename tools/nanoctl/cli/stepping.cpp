@@ -8,19 +8,7 @@
 namespace nplc::nanoctl::cli {
 namespace {
 
-constexpr base::Milliseconds kPause{20};
-
-/// Waits until the sequence is held; false if it was stopped instead, or the user has had enough.
-bool wait_until_held(Session& session, base::Milliseconds patience) {
-    const base::Instant end = session.now() + patience;
-    while (goes_on()) {
-        const auto state = session.status().run_state;
-        if (state == gw::RunState::held) return true;
-        if (state == gw::RunState::stopped || session.now() >= end) return false;
-        session.pause(kPause);
-    }
-    return false;
-}
+constexpr base::Milliseconds kHoldWait{10'000};
 
 void tell_held(Session& session) {
     const Status status = session.status();
@@ -48,20 +36,39 @@ struct StepOptions {
     unsigned seconds = 10;
 };
 
+/// A step that is left pending would hold the sequence some time later, unexpectedly.
+std::string cancel(Session& session) {
+    try {
+        session.gateway().command(gw::Command::hold);
+    } catch (const Refused&) {  // it stopped, or was held after all
+    }
+    static_cast<void>(session.wait_until_held(kHoldWait));
+    const Status status = session.status();
+    return fmt::format("the sequence is {} in step {}", name_of(status.run_state),
+                       session.names().step(status.step));
+}
+
+void go_once(Session& session, gw::Command order, unsigned seconds) {
+    session.gateway().command(order);
+    bool held = false;
+    try {
+        held = session.wait_until_held(base::Milliseconds{std::int64_t{1000} * seconds});
+    } catch (const Interrupted&) {
+        session.gateway().set_goes_on({});
+        throw Interrupted("interrupted and cancelled: " + cancel(session));
+    }
+    if (held) return;
+    const bool stopped = session.status().run_state == gw::RunState::stopped;
+    if (stopped) throw Refused(gw::Result::not_running, gw::COMMAND, 0, "the sequence was stopped meanwhile");
+    throw Refused(gw::Result::not_running, gw::COMMAND, 0,
+                  fmt::format("nothing happened in {} s and the {} was cancelled: {}; --wait waits longer",
+                              seconds, name_of(order), cancel(session)));
+}
+
 void go(Session& session, gw::Command order, const StepOptions& options) {
-    for (unsigned i = 0; i < options.times && goes_on(); ++i) {
-        session.gateway().command(order);
-        if (!wait_until_held(session, base::Milliseconds{1000 * options.seconds})) {
-            const Status status = session.status();
-            const bool gives_up = status.run_state != gw::RunState::stopped;
-            if (gives_up) session.gateway().command(gw::Command::hold);
-            throw Refused(
-                gw::Result::not_running, gw::COMMAND, 0,
-                fmt::format(
-                    "nothing happened in {} s: the sequence was {} in step {}{}", options.seconds,
-                    name_of(status.run_state), session.names().step(status.step),
-                    gives_up ? " and its conditions did not come; it is given up and held there" : ""));
-        }
+    for (unsigned i = 0; i < options.times; ++i) {
+        session.gateway().look_for_interruption();
+        go_once(session, order, options.seconds);
         tell_held(session);
     }
 }

@@ -8,6 +8,7 @@
 #include "cli/files.h"
 #include "cli/subcommands.h"
 #include "nanoctl/transfer.h"
+#include "nanoctl/words.h"
 
 namespace nplc::nanoctl::cli {
 namespace {
@@ -59,7 +60,11 @@ void make_active(Session& session, const UploadOptions& options) {
                           "`nanoctl activate`, or upload with --stop");
         gateway.command(gw::Command::stop);
     }
-    gateway.activate();
+    try {
+        gateway.activate();
+    } catch (const Interrupted&) {
+        throw Interrupted("interrupted; the table is stored and not active");
+    }
 }
 
 void upload_file(Session& session, const UploadOptions& options) {
@@ -75,7 +80,7 @@ void upload_file(Session& session, const UploadOptions& options) {
     if (options.run) gateway.command(gw::Command::run);
     const std::uint32_t crc = base::crc32(table);
     const std::size_t terms = table.size() / 8 - 1;
-    session.tell(fmt::format("{} of {} terms {} in {:.1f} s, CRC {:08X}h{}", options.file, terms,
+    session.tell(fmt::format("{} of {} {} in {:.1f} s, CRC {:08X}h{}", options.file, terms_text(table.size()),
                              options.only_store ? "stored" : "stored and active", seconds, crc,
                              options.run ? ", started" : ""),
                  {{"file", options.file},
@@ -100,6 +105,10 @@ void verify(Session& session, const std::string& file, bool all_bytes) {
         ProgressLine line("read", session);
         active = download(session.gateway(), line.callback()) == table;
     }
+    if (about[gw::STORED_BYTES - gw::IDENTITY] == 0 && about[gw::TABLE_BYTES - gw::IDENTITY] == 0)
+        throw Refused(
+            gw::Result::nothing_stored, gw::STORED_CRC, 0,
+            fmt::format("{}: the gateway has no table, neither stored nor active; upload it", file));
     if (!active || !stored)
         throw Refused(gw::Result::wrong_check, gw::TABLE_CRC, 0,
                       fmt::format("{}: {} table of the gateway is another one", file,
@@ -121,7 +130,7 @@ void download_to(Session& session, const std::string& file) {
     if (table.empty())
         throw Refused(gw::Result::no_table, gw::TABLE_DATA, 0, "the gateway has no active table");
     write_table(file, table);
-    session.tell(fmt::format("{}: {} terms, CRC {:08X}h", file, table.size() / 8 - 1, base::crc32(table)),
+    session.tell(fmt::format("{}: {}, CRC {:08X}h", file, terms_text(table.size()), base::crc32(table)),
                  {{"file", file},
                   {"terms", table.size() / 8 - 1},
                   {"bytes", table.size()},
@@ -135,7 +144,7 @@ void add_transfers(CLI::App& app, Common& common) {
     CLI::App& up =
         add_command(app, "upload",
                     "Store a table in the gateway and make it the active one. The sequence must be "
-                    "stopped for that, and the motor stand still");
+                    "stopped for that, and the motor stand still (it is waited for 5 s)");
     up.add_option("table", options->file, "The table that seqc built, F.bin or F.hex")->required();
     up.add_flag("--stop", options->stop, "Stop the sequence first if it runs");
     up.add_flag("--run", options->run, "Start the sequence afterwards");

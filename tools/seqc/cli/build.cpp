@@ -7,9 +7,9 @@
 
 #include "cli/build_targets.h"
 #include "cli/common.h"
-#include "cli/files.h"
 #include "cli/json.h"
 #include "cli/subcommands.h"
+#include "seqc/files.h"
 
 namespace nplc::seqc::cli {
 namespace {

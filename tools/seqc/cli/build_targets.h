@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/files.h"
+#include "seqc/files.h"
 #include "seqc/seqc.h"
 
 namespace nplc::seqc::cli {

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "cli/files.h"
+#include "seqc/files.h"
 
 namespace nplc::seqc::cli {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cli/common.h"
-#include "cli/files.h"
 #include "cli/subcommands.h"
+#include "seqc/files.h"
 #include "seqc/format.h"
 
 namespace nplc::seqc::cli {

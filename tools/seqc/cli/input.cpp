@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <span>
 
-#include "cli/files.h"
+#include "seqc/files.h"
 #include "seqc/intel_hex.h"
 #include "seqc/symbol_file.h"
 #include "sequencer/term.h"

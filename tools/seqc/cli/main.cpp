@@ -2,8 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
+#include <filesystem>
 #include <map>
 #include <string>
+#include <system_error>
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
@@ -57,6 +60,11 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         return file_problem(fmt::format("{} (see seqc --help)", one_line(error.what())));
+    } catch (const std::filesystem::filesystem_error& error) {
+        return file_problem(error.what());
+    } catch (const std::system_error& error) {
+        return file_problem(fmt::format("cannot write to standard output: {}", error.code().message()));
     }
+    if (std::fflush(stdout) != 0) return file_problem("cannot write to standard output");
     return exit_code;
 }

@@ -15,7 +15,7 @@ namespace nplc::hal_linux {
 ///     /dev/ttyUSB0, or any other path    a serial line: 8 data bits, no parity, 1 stop bit, no handshake
 ///     pty:PATH                           the same, of a ByteServer's pseudo-terminal
 ///     unix:PATH                          a stream socket in the file system
-///     tcp:HOST:PORT                      a TCP socket
+///     tcp:127.0.0.1:PORT                 a TCP socket of this machine, PORT 1..65535
 /// A terminal is held exclusively as long as this object lives, and its mode is put back afterwards.
 class ByteClient {
   public:

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "mactalk_client/master.h"
 #include "registers/gateway.h"
@@ -34,14 +36,22 @@ class WrongDevice : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// The user has had enough.
+class Interrupted : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
 /// Sixteen registers taken at one instant.
 using Block = std::array<std::uint32_t, 16>;
 
 /// A gateway's registers over MacTalk. A write that gets no accept was refused or lost; the gateway's RESULT
 /// tells which, and lost ones are sent again. Everything throws mactalk_client::LineError, Refused and
-/// WrongDevice.
+/// WrongDevice, what takes long Interrupted too.
 class GatewayClient {
   public:
+    static constexpr base::Milliseconds kStillWait{5'000};
+
     GatewayClient(mactalk_client::Master& master, std::uint8_t address)
         : master_(master), address_(address) {}
 
@@ -57,8 +67,12 @@ class GatewayClient {
     void command(gw::Command command, base::Microseconds more_patience = {});
     /// Restarts the gateway and waits until it answers.
     void reset();
-    /// The stored table becomes the active one; waits up to 10 s for the motor to stand still.
+    /// The stored table becomes the active one; waits up to kStillWait for the motor to stand still.
     void activate();
+
+    /// Asked between two looks or pieces of what takes long; false ends it by Interrupted.
+    void set_goes_on(std::function<bool()> goes_on) { goes_on_ = std::move(goes_on); }
+    void look_for_interruption() const;
 
     mactalk_client::Master& master() { return master_; }
     std::uint8_t address() const { return address_; }
@@ -71,12 +85,13 @@ class GatewayClient {
     };
     LastResult last_result();
     std::optional<LastResult> try_last_result();
-    [[noreturn]] static void refuse(const LastResult& last, const std::string& what);
+    [[noreturn]] static void refuse(const LastResult& last, const std::string& what, const std::string& why);
     [[noreturn]] void lost(const std::string& what) const;
     void command_once(gw::Command command, base::Microseconds more_patience);
 
     mactalk_client::Master& master_;
     std::uint8_t address_;
+    std::function<bool()> goes_on_;
 };
 
 }  // namespace nplc::nanoctl

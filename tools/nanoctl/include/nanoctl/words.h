@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -15,6 +16,8 @@ std::string_view name_of(registers::gateway::RunState state);
 std::string_view name_of_event(std::uint8_t event);
 /// "down", "starting", "not acknowledged", "up".
 std::string_view name_of_link(std::uint32_t link);
+/// Of a table of so many bytes: "25 terms and the end term".
+std::string terms_text(std::size_t bytes);
 /// "1 min 02.345 s", "2.345 s".
 std::string time_text(std::uint32_t milliseconds);
 

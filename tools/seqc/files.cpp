@@ -1,4 +1,4 @@
-#include "cli/files.h"
+#include "seqc/files.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
