@@ -3,14 +3,13 @@
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
-#include <sys/un.h>
 
 #include <cerrno>
 #include <cstring>
 #include <memory>
 
 #include "descriptor_client.h"
-#include "tcp_address.h"
+#include "socket_address.h"
 
 namespace nplc::hal_linux {
 namespace {
@@ -44,14 +43,11 @@ int join(int socket, const sockaddr* address, socklen_t size) {
 
 ByteClient::Opened open_unix_client(const std::string& path) {
     const std::string name = "unix:" + path;
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    if (path.size() >= sizeof address.sun_path)
-        return {nullptr, name + ": the path is too long for a socket; name a shorter one"};
-    path.copy(address.sun_path, path.size());
+    const auto address = unix_address(path);
+    if (!address) return {nullptr, name + ": the path is too long for a socket; name a shorter one"};
     FileDescriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
     const int reason =
-        socket ? join(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) : errno;
+        socket ? join(socket.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address) : errno;
     if (reason != 0) return {nullptr, cannot_connect(name, reason)};
     return {std::make_unique<DescriptorClient>(std::move(socket), name), {}};
 }

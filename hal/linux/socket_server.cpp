@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "file_descriptor.h"
-#include "tcp_address.h"
+#include "socket_address.h"
 
 namespace nplc::hal_linux {
 namespace {
@@ -137,15 +137,12 @@ std::string tcp_name(int listener) {
 
 ByteServer::Opened open_unix_server(const std::string& path, std::size_t seats) {
     const std::string name = "unix:" + path;
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    if (path.size() >= sizeof address.sun_path)
-        return {nullptr, name + ": the path is too long for a socket; name a shorter one"};
-    path.copy(address.sun_path, path.size());
+    const auto address = unix_address(path);
+    if (!address) return {nullptr, name + ": the path is too long for a socket; name a shorter one"};
     FileDescriptor listener = make_socket(AF_UNIX);
     if (!listener) return {nullptr, name + ": " + reason()};
-    if (is_stale_socket(path, address)) ::unlink(path.c_str());
-    if (::bind(listener.get(), generic(address), sizeof address) != 0) {
+    if (is_stale_socket(path, *address)) ::unlink(path.c_str());
+    if (::bind(listener.get(), generic(*address), sizeof *address) != 0) {
         return {nullptr,
                 name + ": " +
                     (errno == EADDRINUSE ? "there is a file of this name, or another program listens "

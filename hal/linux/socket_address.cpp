@@ -1,4 +1,4 @@
-#include "tcp_address.h"
+#include "socket_address.h"
 
 #include <arpa/inet.h>
 
@@ -27,6 +27,14 @@ std::optional<sockaddr_in> tcp_address(const std::string& where) {
     const bool sound = error == std::errc() && end == digits.data() + digits.size() && !digits.empty() &&
                        ::inet_pton(AF_INET, host.c_str(), &address.sin_addr) == 1;
     return sound && is_loopback(address) ? std::optional(address) : std::nullopt;
+}
+
+std::optional<sockaddr_un> unix_address(const std::string& path) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    if (path.size() >= sizeof address.sun_path) return std::nullopt;
+    path.copy(address.sun_path, path.size());
+    return address;
 }
 
 }  // namespace nplc::hal_linux
