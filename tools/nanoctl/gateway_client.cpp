@@ -136,7 +136,8 @@ void GatewayClient::reset() {
         write(gw::UPLOAD_BYTES, bytes);
         static_cast<void>(master_.try_write(address_, gw::COMMAND,
                                             static_cast<std::uint32_t>(gw::Command::reset), Width::longword));
-        for (unsigned look = 0; look < kStartLooks; ++look) {
+        bool answers = false;
+        for (unsigned look = 0; look < kStartLooks && !answers; ++look) {
             look_for_interruption();
             master_.pause(kStartPause);
             const auto last = try_last_result();
@@ -144,8 +145,9 @@ void GatewayClient::reset() {
             if (last->reg == 0) return;
             if (last->reg == gw::COMMAND && last->result != gw::Result::done)
                 refuse(*last, "reset", reason(gw::Command::reset, last->result));
-            break;
+            answers = true;
         }
+        if (!answers) break;
     }
     throw LineError(LineError::Kind::no_answer,
                     fmt::format("{}: no answer after the reset; if address or speed were changed, name the "

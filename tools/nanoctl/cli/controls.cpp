@@ -8,7 +8,6 @@ namespace {
 
 /// Other clients may keep the line busy; a stop is worth waiting for.
 constexpr unsigned kStopAttempts = 60;
-constexpr base::Milliseconds kHoldWait{10'000};
 
 void wait_for_hold(Session& session) {
     if (session.wait_until_held(kHoldWait)) return;

@@ -28,6 +28,9 @@ class UserError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// The last orders are finished and the motor is stopped within it, or something is wrong.
+inline constexpr base::Milliseconds kHoldWait{10'000};
+
 /// What stands before or behind every subcommand.
 struct Common {
     std::string port;

@@ -8,8 +8,6 @@
 namespace nplc::nanoctl::cli {
 namespace {
 
-constexpr base::Milliseconds kHoldWait{10'000};
-
 void tell_held(Session& session) {
     const Status status = session.status();
     const Fired fired = read_fired(session.gateway());
