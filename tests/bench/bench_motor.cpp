@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <exception>
 #include <tuple>
 #include <vector>
 
+#include "bench_main.h"
 #include "sim/mac_motor.h"
 
 namespace nplc::bench {
@@ -91,10 +91,5 @@ int run_all(int argc, char** argv) {
 }  // namespace nplc::bench
 
 int main(int argc, char** argv) {
-    try {
-        return nplc::bench::run_all(argc, argv);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "bench_motor: %s\n", error.what());
-        return 1;
-    }
+    return nplc::bench::guarded("bench_motor", nplc::bench::run_all, argc, argv);
 }

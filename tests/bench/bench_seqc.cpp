@@ -4,11 +4,11 @@
 
 #include <cstdio>
 #include <cstring>
-#include <exception>
 #include <fstream>
 #include <iterator>
 #include <string>
 
+#include "bench_main.h"
 #include "seqc/seqc.h"
 #include "seqc_programs.h"
 
@@ -66,10 +66,5 @@ int run_all(int argc, char** argv) {
 }  // namespace nplc::bench
 
 int main(int argc, char** argv) {
-    try {
-        return nplc::bench::run_all(argc, argv);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "bench_seqc: %s\n", error.what());
-        return 1;
-    }
+    return nplc::bench::guarded("bench_seqc", nplc::bench::run_all, argc, argv);
 }

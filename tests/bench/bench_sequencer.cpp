@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bench_generated.h"
+#include "bench_main.h"
 #include "machines.h"
 #include "shapes.h"
 
@@ -188,10 +189,5 @@ int run_all(int argc, char** argv) {
 }  // namespace nplc::bench
 
 int main(int argc, char** argv) {
-    try {
-        return nplc::bench::run_all(argc, argv);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "bench_sequencer: %s\n", error.what());
-        return 1;
-    }
+    return nplc::bench::guarded("bench_sequencer", nplc::bench::run_all, argc, argv);
 }
