@@ -51,7 +51,7 @@ void LineDirection::start(std::uint8_t byte, Time now) {
         return;
     }
     ports::ReceivedByte received{byte, false};
-    if (framing < faults_.framing) {
+    if (rates_differ_ || framing < faults_.framing) {
         ++counters_.framing;
         received = {static_cast<std::uint8_t>(byte ^ mask), true};
     } else if (damage < faults_.damage) {
@@ -80,6 +80,12 @@ std::optional<ports::ReceivedByte> LineDirection::take(Time now) {
     return byte;
 }
 
+void LineDirection::set_rates(std::uint32_t sender, std::uint32_t receiver) {
+    baud_ = sender;
+    rates_differ_ = sender != receiver;
+    remainder_ = 0;
+}
+
 void LineDirection::cut() {
     cut_ = true;
     counters_.cut += flying_.size();
@@ -103,6 +109,11 @@ std::size_t VirtualSerialLine::Port::read(std::span<ports::ReceivedByte> out) {
 VirtualSerialLine::VirtualSerialLine(std::uint32_t baud, std::uint64_t seed)
     : to_motor_(baud, 0), from_motor_(baud, 0) {
     reseed(seed);
+}
+
+void VirtualSerialLine::set_rates(std::uint32_t gateway, std::uint32_t other_end) {
+    to_motor_.set_rates(gateway, other_end);
+    from_motor_.set_rates(other_end, gateway);
 }
 
 bool VirtualSerialLine::service(Time now) {

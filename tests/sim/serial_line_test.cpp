@@ -25,6 +25,21 @@ std::vector<ports::ReceivedByte> send_all(LineDirection& line, int count) {
     return received;
 }
 
+TEST(SerialLine, AtUnlikeRatesNoCharacterArrivesAsItWas) {
+    LineDirection line(kBaud, 1);
+    line.set_rates(38'400, kBaud);
+    const auto received = send_all(line, 100);
+    ASSERT_EQ(received.size(), 100U);
+    for (std::size_t i = 0; i < received.size(); ++i) {
+        EXPECT_TRUE(received[i].framing_error);
+        EXPECT_NE(received[i].value, i);
+    }
+    LineDirection same(kBaud, 1);
+    same.set_rates(38'400, 38'400);
+    EXPECT_FALSE(send_all(same, 1).front().framing_error);
+    EXPECT_EQ(same.busy_until(), Time(260'416)) << "10 bits at 38400 baud";
+}
+
 TEST(SerialLine, ACharacterLastsTenBits) {
     LineDirection line(kBaud, 1);
     line.start(0x55, Time(1000));

@@ -50,6 +50,8 @@ class LineDirection {
     void set_faults(const LineFaults& faults) { faults_ = faults; }
     const LineFaults& faults() const { return faults_; }
     void reseed(std::uint64_t seed) { random_.seed(seed); }
+    /// At unlike rates every character arrives changed and with a framing error.
+    void set_rates(std::uint32_t sender, std::uint32_t receiver);
     /// While cut, characters leave and never arrive; those under way are lost too.
     void cut();
     void restore() { cut_ = false; }
@@ -67,6 +69,7 @@ class LineDirection {
     std::uint8_t damage_mask();
 
     std::uint32_t baud_;
+    bool rates_differ_ = false;
     std::uint64_t remainder_ = 0;
     Time busy_until_{0};
     Time last_arrival_{0};
@@ -88,6 +91,8 @@ class VirtualSerialLine {
     LineDirection& from_motor() { return from_motor_; }
     const LineDirection& to_motor() const { return to_motor_; }
     const LineDirection& from_motor() const { return from_motor_; }
+
+    void set_rates(std::uint32_t gateway, std::uint32_t other_end);
 
     /// Lets the gateway's waiting characters leave and fills its receive buffer. True if something was
     /// received.
