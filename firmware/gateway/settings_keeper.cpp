@@ -6,6 +6,10 @@ using store::Setting;
 
 namespace {
 
+/// Of the outer loop, rounded up (001 §1.2, 004).
+constexpr base::Microseconds kSampleMac50To141{1'920};
+constexpr base::Microseconds kSampleMac800{1'299};
+
 std::optional<std::uint8_t> pin(const store::SettingValues& values, Setting setting) {
     const std::uint32_t value = values.get(setting);
     if (value == store::kNone) return std::nullopt;
@@ -53,6 +57,18 @@ store::SettingValues values_of(const Settings& settings) {
     set(Setting::force_timeout, in_milliseconds(settings.force_time));
     set(Setting::status_output, number(settings.status_output));
     return values;
+}
+
+motor::JvlMotor::Settings driver_settings_of(const store::SettingValues& values) {
+    using protocol::fastmac::RegisterCode;
+    motor::JvlMotor::Settings settings;
+    settings.link.baud = values.get(Setting::motor_baud);
+    settings.safe_communication = values.is_on(Setting::safe_communication);
+    settings.register_code =
+        values.is_on(Setting::old_register_codes) ? RegisterCode::older_example : RegisterCode::format_list;
+    settings.registers_are_32_bit = values.is_on(Setting::motor_is_mac800);
+    settings.sample_period = settings.registers_are_32_bit ? kSampleMac800 : kSampleMac50To141;
+    return settings;
 }
 
 void SettingsKeeper::start(const store::SettingValues& initial) {

@@ -7,23 +7,26 @@
 namespace nplc::sim {
 namespace {
 
-motor::JvlMotor::Settings driver_settings(const WorldOptions& options, Time sample_period) {
-    using protocol::fastmac::RegisterCode;
-    motor::JvlMotor::Settings settings;
-    settings.link.baud = options.baud;
-    settings.safe_communication = options.safe_communication;
-    settings.register_code =
-        options.old_register_codes ? RegisterCode::older_example : RegisterCode::format_list;
-    settings.registers_are_32_bit = options.motor == registers::Model::mac800;
-    settings.sample_period = std::chrono::ceil<base::Microseconds>(sample_period);
-    return settings;
-}
-
 MacMotorOptions motor_options(const WorldOptions& options) {
     MacMotorOptions result;
     result.baud = static_cast<std::int32_t>(options.baud);
     result.old_register_codes = options.old_register_codes;
     return result;
+}
+
+/// What the gateway goes by where nothing is stored.
+store::SettingValues initial_settings(const WorldOptions& options) {
+    store::SettingValues values = gateway::values_of(options.gateway);
+    const auto set = [&values](store::Setting setting, std::uint32_t value) {
+        static_cast<void>(values.set(setting, value));
+    };
+    set(store::Setting::motor_address, motor_options(options).address);
+    set(store::Setting::motor_baud, options.baud);
+    set(store::Setting::user_baud, options.user_baud);
+    set(store::Setting::motor_is_mac800, options.motor == registers::Model::mac800 ? 1 : 0);
+    set(store::Setting::safe_communication, options.safe_communication ? 1 : 0);
+    set(store::Setting::old_register_codes, options.old_register_codes ? 1 : 0);
+    return values;
 }
 
 void spoil(LineDirection& direction, const action::SpoilLine& what) {
@@ -62,13 +65,14 @@ void World::start_gateway(gateway::StartCause cause) {
     gateway_.reset();
     on_their_way_.clear();
     followed_ = {};
-    driver_.emplace(line_.port(), driver_settings(options_, mac_.sample_period()));
-    const gateway::Gateway::Ports ports{board_, board_, board_, *driver_};
     ports::Storage& storage = options_.storage != nullptr ? *options_.storage : flash_;
-    store::SettingValues initial = gateway::values_of(options_.gateway);
-    static_cast<void>(initial.set(store::Setting::motor_address, motor_options(options_).address));
     settings_.emplace(storage, kSettingsArea);
-    settings_->start(initial);
+    settings_->start(initial_settings(options_));
+    line_.set_rates(settings_->get(store::Setting::motor_baud), options_.baud);
+    const std::uint32_t user_baud = settings_->get(store::Setting::user_baud);
+    user_line_.set_rates(user_baud, user_baud);
+    driver_.emplace(line_.port(), gateway::driver_settings_of(settings_->values()));
+    const gateway::Gateway::Ports ports{board_, board_, board_, *driver_};
     gateway_.emplace(ports, gateway::settings_of(settings_->values()), cause);
     settings_->attach(*gateway_);
     gateway_->observe(this);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "input_file.h"
+#include "store/settings.h"
 
 namespace nplc::sim {
 namespace {
@@ -59,9 +60,13 @@ bool parse_delay(const std::string& text, LineFaults& faults) {
 
 void add_line_options(CLI::App& app, RunOptions& options) {
     const std::string share = "a share, such as 1%";
-    add_read(app, "--baud", "RATE", "rate of the line to the motor (19200)", "a whole number 300 to 1000000",
-             into(options.baud,
-                  [](const std::string& text) { return whole<std::uint32_t>(text, 300, 1'000'000); }));
+    add_read(app, "--baud", "RATE", "rate of the line to the motor (19200)",
+             "a standard rate, 1200 to 921600",
+             into(options.baud, [](const std::string& text) -> std::optional<std::uint32_t> {
+                 const auto baud = whole<std::uint32_t>(text, 0, UINT32_MAX);
+                 if (!baud || !store::is_standard_rate(*baud)) return std::nullopt;
+                 return baud;
+             }));
     add_read(app, "--seed", "N", "seed of the line's faults (1)", "a whole number 0 to 4294967295",
              into(options.seed,
                   [](const std::string& text) { return whole<std::uint64_t>(text, 0, UINT32_MAX); }));

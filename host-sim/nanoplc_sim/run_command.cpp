@@ -177,6 +177,7 @@ int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted
     Door door(options);
     Session session(options, program, scenario, Palette(wants_colour()), flash.get());
     session.heading();
+    fmt::print(stderr, "{}", session.doubts());
     if (options.realtime) {
         run_realtime(session, door, interrupted);
     } else {

@@ -99,14 +99,38 @@ Session::Session(const RunOptions& options, const Program& program, const Scenar
     });
 }
 
+std::string Session::doubts() const {
+    struct Pair {
+        store::Setting setting;
+        std::uint32_t motor;
+    };
+    const Pair pairs[] = {
+        {store::Setting::motor_baud, options_.baud},
+        {store::Setting::motor_is_mac800, program_.names.motor == registers::Model::mac800 ? 1U : 0U},
+        {store::Setting::old_register_codes, options_.old_register_codes ? 1U : 0U},
+    };
+    std::string text;
+    for (const Pair& pair : pairs) {
+        const std::uint32_t stored = world_.setting(pair.setting);
+        if (stored == pair.motor) continue;
+        const std::string_view name = store::find_setting(static_cast<std::uint8_t>(pair.setting))->name;
+        text += fmt::format(
+            "the gateway's stored setting {} is {} and the motor wants {}: they will not understand each "
+            "other; nanoctl settings set {}={} --keep, then nanoctl reset\n",
+            name, stored, pair.motor, name, pair.motor);
+    }
+    return text;
+}
+
 void Session::heading() const {
     const std::string seed =
         options_.faults == LineFaults{} ? "" : fmt::format(", faults with seed {}", options_.seed);
     const std::string names =
         program_.symbols.empty() ? "" : fmt::format(", names from {}", program_.symbols);
     fmt::print("{}: {} terms, {}, {} baud, {} communication{}{}\n\n", program_.file,
-               world_.gateway().table().size(), registers::name_of(program_.names.motor), options_.baud,
-               options_.rapid ? "rapid" : "safe", seed, names);
+               world_.gateway().table().size(), registers::name_of(program_.names.motor),
+               world_.setting(store::Setting::motor_baud),
+               world_.setting(store::Setting::safe_communication) == 0 ? "rapid" : "safe", seed, names);
     if (!options_.quiet) timeline_.heading();
 }
 

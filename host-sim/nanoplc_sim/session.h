@@ -47,6 +47,8 @@ class Session {
     /// What goes out before every line of the timeline, to wipe a status line away.
     void clear_line_before_each(const std::string& code) { timeline_.begin_lines_with(code); }
     void heading() const;
+    /// Stored settings that the motor cannot work with, a line each.
+    std::string doubts() const;
 
   private:
     void show();

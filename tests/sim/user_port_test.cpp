@@ -162,6 +162,29 @@ TEST_F(UserPortRun, NoTableBecomesActiveWhileTheMotorMoves) {
     EXPECT_TRUE(command(reg::Command::activate));
 }
 
+TEST_F(UserPortRun, KeptSpeedsTakeHoldAtAReset) {
+    const auto setting = [](store::Setting which) {
+        return static_cast<std::uint8_t>(reg::SETTINGS + static_cast<unsigned>(which));
+    };
+    const auto time_of_a_read = [&] {
+        const Time begun = world.now();
+        EXPECT_TRUE(read(reg::kDefaultAddress, reg::IDENTITY));
+        return world.now() - begun;
+    };
+    EXPECT_TRUE(world.take_snapshot().link_up);
+    const Time before = time_of_a_read();
+    ASSERT_TRUE(write(reg::kDefaultAddress, setting(store::Setting::user_baud), 38'400));
+    ASSERT_TRUE(write(reg::kDefaultAddress, setting(store::Setting::motor_baud), 9'600));
+    ASSERT_TRUE(command(reg::Command::keep_settings));
+    EXPECT_EQ(time_of_a_read(), before) << "not yet";
+    EXPECT_TRUE(world.take_snapshot().link_up);
+    world.gateway(action::Gateway::restart);
+    go_on(500ms);
+    // 8 characters of question and 19 of answer, of 260 us instead of 521 each.
+    EXPECT_NEAR(static_cast<double>((before - time_of_a_read()).count()), 27 * 260'417.0, 1e6);
+    EXPECT_FALSE(world.take_snapshot().link_up) << "the motor has 19200 baud";
+}
+
 struct WiredRun : UserPortRun {
     WiredRun() : UserPortRun({.faults = {}, .gateway = {}, .motor_mactalk_wired = true}) {}
 };

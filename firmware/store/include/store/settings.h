@@ -46,6 +46,7 @@ struct SettingInfo {
     std::uint32_t lowest;
     std::uint32_t highest;
     bool has_none;  ///< kNone is a value too
+    bool at_reset;  ///< takes hold at the next reset, if kept
     std::string_view help;
 };
 

@@ -26,13 +26,14 @@ namespace nplc::sim {
 
 struct WorldOptions {
     registers::Model motor = registers::Model::mac140;
-    std::uint32_t baud = 19'200;
+    std::uint32_t baud = 19'200;  ///< the motor's; a standard rate. The gateway's too where nothing is stored
     std::uint64_t seed = 1;
     LineFaults faults;  ///< both directions
     bool safe_communication = true;
     bool old_register_codes = false;
     gateway::Settings gateway{};  ///< where nothing is stored
-    std::uint32_t user_baud = 19'200;
+    std::uint32_t user_baud =
+        19'200;  ///< where nothing is stored; whoever talks there has the gateway's rate
     bool motor_mactalk_wired = false;   ///< the motor's own MacTalk port, to the gateway's second user port
     ports::Storage* storage = nullptr;  ///< for tables and settings; the board's own without it
 };
@@ -83,6 +84,8 @@ class World final : public Stage, private gateway::Observer {
     }
     /// What has arrived there since the last call.
     std::vector<std::uint8_t> user_received() { return std::exchange(user_received_, {}); }
+    /// As it was when the gateway started.
+    std::uint32_t setting(store::Setting setting) const { return settings_->at_start(setting); }
     std::uint8_t gateway_address() const;
     std::uint8_t motor_address() const;  ///< on the user's port
     const gateway::TableKeeper& tables() const { return *tables_; }
