@@ -17,6 +17,9 @@ import tempfile
 import threading
 import time
 import unittest
+import zlib
+
+import zsh
 
 NANOCTL = SIM = SEQC = SHUTTLE = ""
 LONG = 60  # seconds until something that must come is given up
@@ -27,6 +30,7 @@ class NoisyProxy:
 
     def __init__(self, path, target, share, seed):
         self.share = share
+        self.swallow = 0  # messages of the client that never arrive
         self.random = random.Random(seed)
         self.damaged = 0
         self.ends = []
@@ -45,13 +49,16 @@ class NoisyProxy:
             gateway = socket.socket(socket.AF_UNIX)
             self.ends += [client, gateway]
             gateway.connect(self.target)
-            for ends in ((client, gateway), (gateway, client)):
+            for ends in ((client, gateway, True), (gateway, client, False)):
                 threading.Thread(target=self.pump, args=ends, daemon=True).start()
 
-    def pump(self, source, sink):
+    def pump(self, source, sink, from_client):
         while True:
             try:
                 data = bytearray(source.recv(4096))
+                if data and from_client and self.swallow > 0:
+                    self.swallow -= 1
+                    continue
                 for i in range(len(data)):
                     if self.random.random() < self.share:
                         data[i] ^= 1 << self.random.randrange(8)
@@ -247,6 +254,32 @@ class Running(Case):
         watcher.send_signal(signal.SIGTERM)
         self.assertEqual(watcher.wait(LONG), 0)
 
+    def test_of_two_uploads_one_is_told_of_the_other(self):
+        self.start()
+        tables = [self.path("first.bin"), self.path("second.bin")]
+        for number, name in enumerate(tables):
+            with open(name, "wb") as file:
+                for term in range(300):
+                    file.write(bytes([0xC0 | term % 60, term % 256, 0x3F, 0x3E, 0x80, number, 0, 0]))
+                file.write(bytes([0x3F, 0, 0, 0, 0, 0, 0, 0]))
+        uploads = [subprocess.Popen([NANOCTL, "--port", self.endpoint, "--patience", "500", "upload", name],
+                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for name in tables]
+        self.running += uploads
+        said = [upload.communicate(timeout=LONG)[1] for upload in uploads]
+        codes = [upload.returncode for upload in uploads]
+        self.assertTrue(set(codes) <= {0, 1} and 1 in codes, f"{codes} {said}")
+        for code, text in zip(codes, said):
+            if code == 1:
+                self.assertIn("another client", text)
+        # Whatever came of it, what is stored is one of the two, whole, or nothing.
+        whole = {0}
+        for name in tables:
+            with open(name, "rb") as file:
+                whole.add(zlib.crc32(file.read()))
+        self.assertIn(self.ctl("status")["stored_crc32"], whole)
+        self.ctl("upload", tables[1])
+        self.ctl("verify", tables[1], "--bytes")
+
     def test_a_terminal_has_one_client(self):
         self.start(endpoint="pty:" + self.path("tty"))
         watcher = subprocess.Popen([NANOCTL, "--port", self.endpoint, "--json", "watch", "--all"],
@@ -396,6 +429,19 @@ class Patience(Case):
         self.assertIn("interrupted and cancelled: the sequence is held", said)
 
 
+    def test_a_stop_is_asked_for_longer_than_anything_else(self):
+        self.start()
+        self.ctl("upload", self.table, "--run")
+        proxy = NoisyProxy(self.path("deaf"), self.path("port"), 0, 1)
+        deaf = "unix:" + self.path("deaf")
+        proxy.swallow = 30
+        self.ctl("status", port=deaf, patience=100, exit_code=3)
+        proxy.swallow = 30
+        self.ctl("stop", port=deaf, patience=100)
+        self.assertEqual(self.ctl("status")["state"], "stopped")
+        proxy.close()
+
+
 class Words(Case):
     def test_wrong_usage_is_a_document_too(self):
         for arguments, words in ((["badcmd"], "'badcmd' is no command"), (["settings", "foo"], "'foo' is no command"),
@@ -410,6 +456,27 @@ class Words(Case):
         self.ctl("settings", "set", "user_baud=1201", exit_code=2)
         text = self.call("settings", "set", "user_baud=38400").stdout
         self.assertIn("only if kept", text)
+
+    def test_a_kept_address_counts_from_the_reset_on(self):
+        self.start()
+        text = self.call("settings", "set", "gateway_address=6", "--keep").stdout
+        self.assertIn("next reset", text)
+        self.assertEqual(self.ctl("status")["state"], "stopped", "still at 128")
+        self.assertEqual(self.ctl("reset")["address"], 6)
+        self.assertEqual(self.ctl("--address", "6", "status")["state"], "stopped")
+        self.assertIn("no answer from address 128", self.ctl("status", exit_code=3, patience=20)["error"])
+
+    def test_a_motor_speed_that_the_motor_has_not_is_said(self):
+        process = self.start()
+        self.ctl("upload", self.table)
+        self.ctl("settings", "set", "motor_baud=38400", "--keep")
+        self.assertTrue(self.ctl("status")["ok"])
+        process.send_signal(signal.SIGTERM)
+        process.wait(LONG)
+        process = self.start()
+        self.assertNotEqual(self.ctl("status")["link"], "up")
+        process.send_signal(signal.SIGTERM)
+        self.assertIn("setting motor_baud is 38400 and the motor wants 19200", process.communicate(timeout=LONG)[1])
 
     def test_forces(self):
         self.start()
@@ -440,10 +507,19 @@ class Generated(unittest.TestCase):
         self.assertEqual(self.completed("settings", "ge"), ["get"])
         self.assertIn("--json", self.completed("status", "--"))
 
-    def test_zsh_takes_its_completion(self):
+    def test_zsh_completes_commands_and_options(self):
         if shutil.which("zsh") is None:
-            return print("zsh is not installed: its completion is not tried")
-        subprocess.run(["zsh", "-n"], input=self.output("completion", "zsh"), text=True, check=True)
+            self.skipTest("zsh is not installed: its completion is not tried")
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "_nanoctl"), "w", encoding="utf-8") as file:
+                file.write(self.output("completion", "zsh"))
+            shell = zsh.Zsh(folder)
+            try:
+                self.assertTrue(shell.completes("nanoctl up", "nanoctl upload "))
+                self.assertTrue(shell.completes("nanoctl settings ge", "nanoctl settings get "))
+                self.assertTrue(shell.completes("nanoctl upload --only", "--only-store "))
+            finally:
+                shell.close()
 
     def test_the_manual_page_is_sound(self):
         page = self.output("man")

@@ -132,6 +132,8 @@ void GatewayClient::activate() {
 /// The gateway answers nothing to a reset; RESULT, which named a register before, is 0 afterwards.
 void GatewayClient::reset() {
     const std::uint32_t bytes = read(gw::UPLOAD_BYTES);
+    const std::uint8_t before = address_;
+    const auto after = static_cast<std::uint8_t>(read(setting_register(store::Setting::gateway_address)));
     for (unsigned i = 0; i < kAttempts; ++i) {
         write(gw::UPLOAD_BYTES, bytes);
         static_cast<void>(master_.try_write(address_, gw::COMMAND,
@@ -140,19 +142,24 @@ void GatewayClient::reset() {
         for (unsigned look = 0; look < kStartLooks && !answers; ++look) {
             look_for_interruption();
             master_.pause(kStartPause);
-            const auto last = try_last_result();
+            auto last = try_last_result();
+            if (!last && after != before) {
+                address_ = address_ == before ? after : before;
+                last = try_last_result();
+            }
             if (!last) continue;
-            if (last->reg == 0) return;
+            if (last->reg == 0) return identify();
             if (last->reg == gw::COMMAND && last->result != gw::Result::done)
                 refuse(*last, "reset", reason(gw::Command::reset, last->result));
             answers = true;
         }
         if (!answers) break;
     }
-    throw LineError(LineError::Kind::no_answer,
-                    fmt::format("{}: no answer after the reset; if address or speed were changed, name the "
-                                "new ones",
-                                master_.wire().name()));
+    throw LineError(
+        LineError::Kind::no_answer,
+        fmt::format("{}: no answer after the reset; if the port's speed was changed, name the new "
+                    "one with --baud",
+                    master_.wire().name()));
 }
 
 std::optional<GatewayClient::LastResult> GatewayClient::try_last_result() {

@@ -36,20 +36,21 @@ UploadStatus upload_status(GatewayClient& gateway) {
             static_cast<std::uint16_t>(state >> 16), gateway.read(gw::UPLOAD_RECEIVED)};
 }
 
-[[noreturn]] void upload_failed(const UploadStatus& status) {
-    std::string what(gw::describe(status.result));
-    if (status.result == gw::Result::wrong_check)
-        what += " (another client may have uploaded at the same time)";
-    if (status.result >= gw::Result::table_no_end) what += fmt::format(" (term {})", status.detail);
-    throw Refused(status.result, gw::UPLOAD_STATE, status.detail,
-                  "the table was not stored: " + what + "; the stored one is as it was");
+[[noreturn]] void upload_failed(gw::Result result, std::uint16_t detail) {
+    std::string what(gw::describe(result));
+    if (result == gw::Result::wrong_check)
+        what += "; another client uploads at the same time, or the line is bad";
+    if (result == gw::Result::no_upload) what = "the gateway or another client gave the upload up";
+    if (result >= gw::Result::table_no_end) what += fmt::format(" (term {})", detail);
+    throw Refused(result, gw::UPLOAD_STATE, detail,
+                  "the table was not stored: " + what + "; upload it again");
 }
 
 /// Waits while the upload is in `state`.
 UploadStatus wait_while(GatewayClient& gateway, UploadState state) {
     for (unsigned i = 0; i < kMostPolls; ++i) {
         const UploadStatus status = upload_status(gateway);
-        if (status.state == kFailed) upload_failed(status);
+        if (status.state == kFailed) upload_failed(status.result, status.detail);
         if (status.state != state) return status;
         gateway.look_for_interruption();
         gateway.master().pause(kPollPause);
@@ -89,10 +90,8 @@ class Upload {
         good_ = 0;
         piece_ = std::max(piece_ / 2, kSmallestPiece);
         const UploadStatus status = upload_status(gateway_);
-        if (status.state == kFailed) upload_failed(status);
-        if (status.state != kReceiving && status.state != kErasing)
-            throw Refused(gw::Result::no_upload, gw::TABLE_DATA, 0,
-                          "the upload was given up by the gateway or by another client; begin again");
+        if (status.state == kFailed) upload_failed(status.result, status.detail);
+        if (status.state != kReceiving && status.state != kErasing) upload_failed(gw::Result::no_upload, 0);
         const std::size_t before = sent_;
         sent_ = std::min<std::size_t>(status.received, table_.size());
         lost_in_a_row_ = sent_ > before ? 0 : lost_in_a_row_ + 1;
@@ -111,17 +110,23 @@ class Upload {
     unsigned lost_in_a_row_ = 0;
 };
 
+void commit(GatewayClient& gateway) {
+    try {
+        gateway.command(gw::Command::upload_commit);
+    } catch (const Refused& refused) {
+        upload_failed(refused.result(), refused.detail());
+    }
+}
+
 void upload_whole(GatewayClient& gateway, std::span<const std::uint8_t> table, const Progress& progress) {
     gateway.command(gw::Command::upload_begin);
     wait_while(gateway, kErasing);
     Upload(gateway, table).send(progress);
     gateway.write(gw::UPLOAD_CRC, base::crc32(table));
     gateway.write(gw::UPLOAD_BYTES, static_cast<std::uint32_t>(table.size()));
-    gateway.command(gw::Command::upload_commit);
+    commit(gateway);
     const UploadStatus end = wait_while(gateway, kClosing);
-    if (end.state != kStored)
-        throw Refused(gw::Result::no_upload, gw::UPLOAD_STATE, 0,
-                      "the table was not stored: the upload was given up; the stored one is as it was");
+    if (end.state != kStored) upload_failed(gw::Result::no_upload, 0);
 }
 
 void give_up(GatewayClient& gateway) {

@@ -23,6 +23,15 @@ void tell_state(Session& session) {
                  {{"state", name_of(status.run_state)}, {"step", status.step}});
 }
 
+void tell_restarted(Session& session, std::uint8_t address_before) {
+    const Status status = session.status();
+    const std::uint8_t address = session.gateway().address();
+    const std::string moved =
+        address == address_before ? "" : fmt::format(", answers at address {} from now on", address);
+    session.tell(fmt::format("restarted: {}{}", name_of(status.run_state), moved),
+                 {{"state", name_of(status.run_state)}, {"step", status.step}, {"address", address}});
+}
+
 void add_order(CLI::App& app, Common& common, gw::Command order, const char* text) {
     CLI::App& command = add_command(app, std::string(name_of(order)), text);
     command.callback([order, &common] {
@@ -56,8 +65,9 @@ void add_controls(CLI::App& app, Common& common) {
     add_command(app, "reset", "Restart the gateway and wait until it answers; only while stopped")
         .callback([&common] {
             work(common, [](Session& session) {
+                const std::uint8_t before = session.gateway().address();
                 session.gateway().reset();
-                tell_state(session);
+                tell_restarted(session, before);
             });
         });
 }

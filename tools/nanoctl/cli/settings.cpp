@@ -15,7 +15,7 @@ namespace {
 using store::SettingInfo;
 
 std::uint8_t reg_of(const SettingInfo& info) {
-    return static_cast<std::uint8_t>(gw::SETTINGS + static_cast<unsigned>(info.id));
+    return setting_register(info.id);
 }
 
 const SettingInfo& find(const std::string& name) {
@@ -81,11 +81,6 @@ Assignment parse(const std::string& text) {
     return {&info, is_none ? store::kNone : value};
 }
 
-bool begins_at_reset(const SettingInfo& info) {
-    return info.id == store::Setting::gateway_address || info.id == store::Setting::user_baud ||
-           info.id == store::Setting::motor_baud;
-}
-
 bool is_taken(Session& session, const Assignment& one) {
     const auto other = one.info->id == store::Setting::gateway_address ? store::Setting::motor_address
                                                                        : store::Setting::gateway_address;
@@ -109,12 +104,12 @@ void write_one(Session& session, const Assignment& one) {
 
 std::string set_text(const std::vector<Assignment>& assignments, bool keep) {
     const bool late = std::any_of(assignments.begin(), assignments.end(),
-                                  [](const Assignment& one) { return begins_at_reset(*one.info); });
-    if (keep) return late ? "set and kept; address and speeds count from the next reset on" : "set and kept";
-    return late
-               ? "set, but not kept: address and speeds count from the next reset on, and only if kept; keep "
-                 "them with --keep"
-               : "set until the next reset; keep them with --keep";
+                                  [](const Assignment& one) { return one.info->at_reset; });
+    if (keep)
+        return late ? "set and kept; it counts from the next reset on (`nanoctl reset`)" : "set and kept";
+    return late ? "set, but not kept: what counts from the next reset on does so only if kept; keep it with "
+                  "--keep"
+                : "set until the next reset; keep them with --keep";
 }
 
 /// All are looked at before the first is written.

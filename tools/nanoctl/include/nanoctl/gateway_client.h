@@ -10,6 +10,7 @@
 
 #include "mactalk_client/master.h"
 #include "registers/gateway.h"
+#include "store/settings.h"
 
 namespace nplc::nanoctl {
 
@@ -42,6 +43,10 @@ class Interrupted : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+constexpr std::uint8_t setting_register(store::Setting setting) {
+    return static_cast<std::uint8_t>(gw::SETTINGS + static_cast<unsigned>(setting));
+}
+
 /// Sixteen registers taken at one instant.
 using Block = std::array<std::uint32_t, 16>;
 
@@ -65,7 +70,7 @@ class GatewayClient {
     /// Carried out exactly once. `more_patience`: how long it may take. For a `busy` gateway it waits up to 5
     /// s.
     void command(gw::Command command, base::Microseconds more_patience = {});
-    /// Restarts the gateway and waits until it answers.
+    /// Restarts the gateway and waits until it answers; address() may be another one then.
     void reset();
     /// The stored table becomes the active one; waits up to kStillWait for the motor to stand still.
     void activate();
