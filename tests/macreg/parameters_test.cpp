@@ -72,7 +72,14 @@ TEST(Parameters, EveryProblemOfAFileIsToldWithItsLine) {
         const std::string problem = problem_of(head + line + "\nT_SOLL = 100%\n");
         EXPECT_NE(problem.find(part), std::string::npos) << line << ": " << problem;
     }
-    EXPECT_EQ(parse_parameters(head + "A = 1\nB = 2\nV_SOLL = x\n").problems.size(), 3U);
+    EXPECT_EQ(parse_parameters(head + "A = 1\nB = 2\nV_SOLL = x\nT_SOLL = 5\n").problems.size(), 3U);
+}
+
+// SAMPLE1 is 1 to 164 (001 §3.2.112), and 0 in a motor that never recorded.
+TEST(Parameters, WhatAMotorHadIsTakenBackEvenOutOfRange) {
+    EXPECT_EQ(parse_parameters("model = MAC140\nSAMPLE1 = raw:0\n").set.values.at(112), 0);
+    EXPECT_NE(problem_of("model = MAC140\nSAMPLE1 = 0\nT_SOLL = 1\n"), "");
+    EXPECT_NE(problem_of("model = MAC140\nSAMPLE1 = raw:65536\nT_SOLL = 1\n"), "");
 }
 
 TEST(Parameters, AnIncompleteFileSaysSo) {

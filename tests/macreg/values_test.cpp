@@ -33,7 +33,7 @@ TEST(Values, TakesUnitsRawHexAndNames) {
 
 TEST(Values, SaysWhatIsWrong) {
     for (const auto& [name, text, part] :
-         std::vector<std::array<const char*, 3>>{{"T_SOLL", "1024", "0 to 100 %peak (raw 0 to 1023)"},
+         std::vector<std::array<const char*, 3>>{{"T_SOLL", "1024", "0 %peak to 100 %peak (raw 0 to 1023)"},
                                                  {"T_SOLL", "101%", "out of range"},
                                                  {"T_SOLL", "20A", "T_SOLL takes %peak"},
                                                  {"V_SOLL", "32768", "out of range"},

@@ -259,14 +259,6 @@ const std::vector<Case>& cases() {
         {"pointer_stuck", [](Bench& b) { b.put("A_REG_P", 5); }, Severity::hinders},
         {"fastmac_owns", [](Bench&) {}, Severity::tells},
         {"moves", [](Bench& b) { mode(b, 1); }, Severity::tells},
-        {"unknown",
-         [](Bench& b) {  // on its way, but too slowly to be seen: nothing is wrong
-             b.put("V_SOLL", 12);
-             b.put("A_SOLL", 1);
-             b.put("P_SOLL", 100'000);
-             mode(b, 2);
-         },
-         Severity::tells, 0ms},
     };
     return kCases;
 }
@@ -349,6 +341,17 @@ TEST(Why, AnUnknownMode) {
     Condition condition;
     condition.now.set(registers::MODE_REG, 40, {});
     EXPECT_NE(find(why(condition), "mode_unknown"), nullptr);
+}
+
+// A target ahead, all that it needs, and no motion yet.
+TEST(Why, NothingFoundIsToldAsSuch) {
+    Bench bench;
+    bench.put("MODE_REG", 2);
+    bench.run(100ms);
+    Condition condition = read_condition(bench.motor, false);
+    EXPECT_EQ(find(why(condition), "unknown"), nullptr);
+    condition.now.set(registers::P_SOLL, 1000, {});
+    EXPECT_NE(find(why(condition), "unknown"), nullptr);
 }
 
 TEST(Why, NearlyTooHot) {

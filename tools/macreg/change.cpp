@@ -134,7 +134,7 @@ Outcome change(Motor& motor, const Register& reg, std::int64_t raw) {
     }
     outcome.after = motor.read(reg);
     const std::int64_t passing = passing_bits(motor.model(), reg);
-    outcome.taken = (outcome.after & ~passing) == (raw & ~passing) || (is_pointer(reg) && outcome.after == 0);
+    outcome.taken = is_pointer(reg) ? outcome.after == 0 : (outcome.after & ~passing) == (raw & ~passing);
     if (!outcome.taken && runs_on(reg) && outcome.after != outcome.before) {
         outcome.taken = true;
         outcome.remark = "the motor goes on changing it";

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <set>
 
 #include "macreg/values.h"
@@ -81,6 +82,16 @@ std::string exact_text(const Register& reg, Model model, std::int64_t raw) {
     return fmt::format("raw:{}", raw);
 }
 
+/// What a motor had may be outside of the register's range; a dump writes it as raw:N, and it is taken back.
+std::optional<std::int64_t> found_in_motor(const Register& reg, std::string_view text) {
+    if (!text.starts_with("raw:")) return std::nullopt;
+    std::int64_t raw = 0;
+    const auto [end, error] = std::from_chars(text.data() + 4, text.data() + text.size(), raw);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    const bool fits = registers::value_of(reg.format, registers::bits_of(reg.format, raw)) == raw;
+    return fits ? std::optional(raw) : std::nullopt;
+}
+
 struct Parser {
     ParsedFile file{};
     unsigned line = 0;
@@ -111,8 +122,9 @@ struct Parser {
         if (file.set.values.count(named.reg->number) != 0)
             return problem(fmt::format("{} stands here twice", name));
         const TypedValue typed = typed_value(*named.reg, file.set.model, text);
-        if (!typed.error.empty()) return problem(typed.error);
-        file.set.values[named.reg->number] = typed.raw;
+        const auto found = found_in_motor(*named.reg, text);
+        if (!typed.error.empty() && !found) return problem(typed.error);
+        file.set.values[named.reg->number] = typed.error.empty() ? typed.raw : *found;
     }
 
     void read_line(std::string_view text) {

@@ -20,18 +20,29 @@ constexpr std::uint32_t kSpeeds[] = {19'200, 9'600, 38'400,  57'600,  115'200, 4
 struct Options {
     bool every_address = false;
     bool this_speed = false;
+    bool every_speed = false;
 };
+
+/// 001 §3.2.1: 4Eh is 4.14; 004 has six bits for the second part.
+std::string version_text(const FoundUnit& unit) {
+    const unsigned bits = unit.model == Model::mac800 ? 6 : 4;
+    const std::int64_t major = unit.version >> bits & (unit.model == Model::mac800 ? 0x7F : 0xFFF);
+    return fmt::format("firmware {}.{}", major, unit.version & ((1 << bits) - 1));
+}
 
 class Search {
   public:
     Search(Common& common, const Options& options) : common_(common), options_(options) {}
 
     void run() {
-        const bool socket = common_.port.rfind("unix:", 0) == 0 || common_.port.rfind("tcp:", 0) == 0;
+        const bool socket = common_.port.starts_with("unix:") || common_.port.starts_with("tcp:") ||
+                            common_.port.starts_with("pty:");
         if (socket || options_.this_speed) {
             at(common_.baud, socket);
         } else {
-            for (const std::uint32_t baud : kSpeeds) at(baud, false);
+            for (const std::uint32_t baud : kSpeeds) {
+                if (units_.empty() || options_.every_speed) at(baud, false);
+            }
         }
         progress("");
         if (units_.empty())
@@ -77,11 +88,10 @@ class Search {
             return;
         }
         const bool large = unit.model == Model::mac800;
-        const registers::Register& version = *registers::find(unit.model, registers::PROG_VERSION);
         const std::string mode = mode_text(unit.model, unit.mode);
-        text_ += fmt::format("address {:>3}{}: {}, serial number {}, {}, {}", unit.address, speed,
-                             large ? "MAC800" : "MAC50 to MAC141", unit.serial_number,
-                             value_text(version, unit.model, unit.version), mode);
+        text_ +=
+            fmt::format("address {:>3}{}: {}, serial number {}, {}, {}", unit.address, speed,
+                        large ? "MAC800" : "MAC50 to MAC141", unit.serial_number, version_text(unit), mode);
         units_.push_back({{"address", unit.address},
                           {"baud", baud},
                           {"kind", "motor"},
@@ -115,6 +125,8 @@ void add_find(CLI::App& app, Common& common) {
                                     "tried, the usual one first");
     command.add_flag("--every-address", options->every_address,
                      "Ask 1 to 254 one by one, also where one motor seems to be alone");
+    command.add_flag("--every-speed", options->every_speed,
+                     "Go on with the other speeds when one has been answered at");
     command.add_flag("--this-speed", options->this_speed, "Only the speed of --baud");
     command.callback([options, &common] { guard(common, [&] { Search(common, *options).run(); }); });
 }

@@ -5,6 +5,7 @@
 #include "cli/subcommands.h"
 #include "macreg/change.h"
 #include "macreg/values.h"
+#include "registers/scale.h"
 
 namespace nplc::macreg::cli {
 namespace {
@@ -24,6 +25,14 @@ struct Assignment {
     std::string rounding{};
 };
 
+/// A unit that stands apart, or one more bit's name.
+bool belongs_to_value(const Register& reg, Model model, const std::string& word) {
+    if (registers::find(model, std::string_view(word)) != nullptr) return false;
+    if (reg.unit == registers::Unit::bits)
+        return typed_value(reg, model, word).error.empty() && word.find_first_of("0123456789") != 0;
+    return registers::raw_per_unit(reg, model, word).has_value();
+}
+
 /// NAME VALUE or NAME=VALUE, also several; a unit may stand apart: `V_SOLL 1500 rpm`.
 std::vector<Assignment> taken_apart(Model model, const std::vector<std::string>& words) {
     std::vector<Assignment> all;
@@ -36,9 +45,7 @@ std::vector<Assignment> taken_apart(Model model, const std::vector<std::string>&
                        .text = equals == std::string::npos ? "" : words[i].substr(equals + 1)};
         ++i;
         if (one.text.empty() && i < words.size()) one.text = words[i++];
-        while (i < words.size() && words[i].find('=') == std::string::npos &&
-               registers::find(model, std::string_view(words[i])) == nullptr &&
-               find_register(model, words[i]).reg == nullptr)
+        while (i < words.size() && belongs_to_value(*named.reg, model, words[i]))
             one.text += " " + words[i++];
         if (one.text.empty())
             throw UserError(fmt::format("'{}': write {} VALUE or {}=VALUE", name, name, name));
