@@ -37,11 +37,7 @@ class WrongDevice : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The user has had enough.
-class Interrupted : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
+using mactalk_client::Interrupted;
 
 constexpr std::uint8_t setting_register(store::Setting setting) {
     return static_cast<std::uint8_t>(gw::SETTINGS + static_cast<unsigned>(setting));
