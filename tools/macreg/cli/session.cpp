@@ -56,6 +56,12 @@ Model find_model(mactalk_client::Master& master, std::uint8_t address, const Com
                                                : ""));
 }
 
+/// What is wrong in the command line is told before anybody is asked.
+std::unique_ptr<mactalk_client::Wire> open(const Common& common) {
+    static_cast<void>(model_option(common));
+    return command_line::open_port(common);
+}
+
 }  // namespace
 
 void refuse(const std::string& text, Json details) {
@@ -83,7 +89,7 @@ std::vector<const registers::Register*> find_registers(Model model, const std::v
 
 Session::Session(const Common& common)
     : common_(common),
-      wire_(command_line::open_port(common)),
+      wire_(open(common)),
       master_(*wire_, {.baud = common.baud,
                        .patience = base::Milliseconds{common.patience_ms},
                        .attempts = common.attempts}) {
