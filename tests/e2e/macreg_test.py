@@ -150,6 +150,20 @@ class Registers(Case):
             self.assertEqual(self.value("KFF3"), after)
         self.reg("set", "KFF3", "raw:2", "--force", "--yes")
 
+    def test_ctrl_c_at_a_question_changes_nothing(self):
+        self.motor()
+        keyboard, terminal = pty.openpty()
+        process = self.start("flash", "defaults", stdin=terminal)
+        question = b""
+        while b"Type yes" not in question:
+            question += os.read(process.stderr.fileno(), 1)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=LONG)
+        self.assertEqual(process.returncode, 130)
+        os.close(keyboard)
+        os.close(terminal)
+        self.assertEqual(self.value("MODE_REG"), 0)
+
     def test_a_refused_write_says_why(self):
         self.motor()
         self.reg("safe", "enter")

@@ -1,6 +1,7 @@
 #include "cli/session.h"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <iostream>
@@ -111,9 +112,10 @@ void Session::ask(const std::string& what) const {
         throw UserError(what + "; nobody is there to be asked: say --yes if you mean it");
     fmt::print(stderr, "{}. Type yes to go on: ", what);
     std::fflush(stderr);
+    pollfd keyboard{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
+    while (::poll(&keyboard, 1, 100) <= 0) look_for_interruption();
     std::string answer;
     std::getline(std::cin, answer);
-    look_for_interruption();
     if (answer != "yes") throw UserError("not confirmed, nothing was changed");
 }
 
