@@ -296,7 +296,7 @@ class Service(Case):
 
     def test_find_tells_motors_apart(self):
         self.motor("--unit", "MAC800:20")
-        units = self.reg("find", patience=30)["units"]
+        units = self.reg("find", patience=45)["units"]
         self.assertEqual([(one["address"], one["family"]) for one in units], [(8, "MAC50-141"), (20, "MAC800")])
         self.refused(3, "--address", "get", "V_SOLL", patience=20)
         self.assertEqual(self.reg("--address", "20", "get", "V_SOLL")["registers"][0]["raw"], 2771)

@@ -16,17 +16,20 @@ class Units final : public mactalk_client::Unit {
         motors_.push_back(std::make_unique<Runner>(model, address));
         return motors_.back()->motor;
     }
-    void receive(std::uint8_t byte, bool framing_error, base::Instant) override {
+    void receive(std::uint8_t byte, bool framing_error, base::Instant now) override {
         if (dead) return;
+        if (!held_ && delay.count() > 0) held_ = now + delay;
         if (bytes_to_live > 0 && --bytes_to_live == 0) dead = true;
         for (auto& one : motors_) one->motor.receive_mactalk(byte, framing_error);
     }
-    std::optional<std::uint8_t> transmit(base::Instant) override {
+    std::optional<std::uint8_t> transmit(base::Instant now) override {
+        if (held_ && now < *held_) return std::nullopt;
         std::optional<std::uint8_t> sum;
         for (auto& one : motors_) {
             const auto byte = one->motor.transmit_mactalk();
             if (byte) sum = sum ? *sum & *byte : *byte;
         }
+        if (!sum) held_.reset();
         return dead ? std::nullopt : sum;
     }
     void poll(base::Instant now) override {
@@ -37,6 +40,7 @@ class Units final : public mactalk_client::Unit {
     }
 
     bool dead = false;
+    base::Microseconds delay{0};    ///< of answers, from a message's first byte
     std::size_t bytes_to_live = 0;  ///< received until it is dead; 0: no end
 
   private:
@@ -47,6 +51,7 @@ class Units final : public mactalk_client::Unit {
         std::chrono::nanoseconds next{0};
     };
     std::vector<std::unique_ptr<Runner>> motors_;
+    std::optional<base::Instant> held_;
 };
 
 inline constexpr std::uint8_t kAddress = 8;
