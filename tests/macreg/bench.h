@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deque>
+#include <utility>
 #include <vector>
 
 #include "macreg/motor.h"
@@ -16,21 +18,17 @@ class Units final : public mactalk_client::Unit {
         motors_.push_back(std::make_unique<Runner>(model, address));
         return motors_.back()->motor;
     }
-    void receive(std::uint8_t byte, bool framing_error, base::Instant now) override {
+    void receive(std::uint8_t byte, bool framing_error, base::Instant) override {
         if (dead) return;
-        if (!held_ && delay.count() > 0) held_ = now + delay;
         if (bytes_to_live > 0 && --bytes_to_live == 0) dead = true;
         for (auto& one : motors_) one->motor.receive_mactalk(byte, framing_error);
     }
     std::optional<std::uint8_t> transmit(base::Instant now) override {
-        if (held_ && now < *held_) return std::nullopt;
-        std::optional<std::uint8_t> sum;
-        for (auto& one : motors_) {
-            const auto byte = one->motor.transmit_mactalk();
-            if (byte) sum = sum ? *sum & *byte : *byte;
-        }
-        if (!sum) held_.reset();
-        return dead ? std::nullopt : sum;
+        while (const auto byte = joined()) late_.emplace_back(now + delay, *byte);
+        if (dead || late_.empty() || late_.front().first > now) return std::nullopt;
+        const std::uint8_t byte = late_.front().second;
+        late_.pop_front();
+        return byte;
     }
     void poll(base::Instant now) override {
         for (auto& one : motors_) {
@@ -40,7 +38,7 @@ class Units final : public mactalk_client::Unit {
     }
 
     bool dead = false;
-    base::Microseconds delay{0};    ///< of answers, from a message's first byte
+    base::Microseconds delay{0};    ///< of answers
     std::size_t bytes_to_live = 0;  ///< received until it is dead; 0: no end
 
   private:
@@ -50,8 +48,17 @@ class Units final : public mactalk_client::Unit {
         sim::MacMotor motor;
         std::chrono::nanoseconds next{0};
     };
+    std::optional<std::uint8_t> joined() {
+        std::optional<std::uint8_t> sum;
+        for (auto& one : motors_) {
+            const auto byte = one->motor.transmit_mactalk();
+            if (byte) sum = sum ? *sum & *byte : *byte;
+        }
+        return sum;
+    }
+
     std::vector<std::unique_ptr<Runner>> motors_;
-    std::optional<base::Instant> held_;
+    std::deque<std::pair<base::Instant, std::uint8_t>> late_;
 };
 
 inline constexpr std::uint8_t kAddress = 8;
