@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deque>
+#include <utility>
 #include <vector>
 
 #include "macreg/motor.h"
@@ -21,13 +23,12 @@ class Units final : public mactalk_client::Unit {
         if (bytes_to_live > 0 && --bytes_to_live == 0) dead = true;
         for (auto& one : motors_) one->motor.receive_mactalk(byte, framing_error);
     }
-    std::optional<std::uint8_t> transmit(base::Instant) override {
-        std::optional<std::uint8_t> sum;
-        for (auto& one : motors_) {
-            const auto byte = one->motor.transmit_mactalk();
-            if (byte) sum = sum ? *sum & *byte : *byte;
-        }
-        return dead ? std::nullopt : sum;
+    std::optional<std::uint8_t> transmit(base::Instant now) override {
+        while (const auto byte = joined()) late_.emplace_back(now + delay, *byte);
+        if (dead || late_.empty() || late_.front().first > now) return std::nullopt;
+        const std::uint8_t byte = late_.front().second;
+        late_.pop_front();
+        return byte;
     }
     void poll(base::Instant now) override {
         for (auto& one : motors_) {
@@ -37,6 +38,7 @@ class Units final : public mactalk_client::Unit {
     }
 
     bool dead = false;
+    base::Microseconds delay{0};    ///< of answers
     std::size_t bytes_to_live = 0;  ///< received until it is dead; 0: no end
 
   private:
@@ -46,7 +48,17 @@ class Units final : public mactalk_client::Unit {
         sim::MacMotor motor;
         std::chrono::nanoseconds next{0};
     };
+    std::optional<std::uint8_t> joined() {
+        std::optional<std::uint8_t> sum;
+        for (auto& one : motors_) {
+            const auto byte = one->motor.transmit_mactalk();
+            if (byte) sum = sum ? *sum & *byte : *byte;
+        }
+        return sum;
+    }
+
     std::vector<std::unique_ptr<Runner>> motors_;
+    std::deque<std::pair<base::Instant, std::uint8_t>> late_;
 };
 
 inline constexpr std::uint8_t kAddress = 8;

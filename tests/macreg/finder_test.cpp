@@ -58,6 +58,14 @@ TEST_F(FinderTest, EveryAddressIsAskedIfWanted) {
     EXPECT_GE(found.asked, 254U);
 }
 
+// 60 ms of patience and 15 ms on the line: an answer that begins after 70 ms comes while the next address is
+// asked.
+TEST_F(FinderTest, ALateAnswerIsNotTakenForAnotherAddress) {
+    units.add(Model::mac140, 8);
+    units.delay = base::Milliseconds{70};
+    for (const int address : addresses(find_units(wire, {.every_address = true}))) EXPECT_EQ(address, 8);
+}
+
 TEST_F(FinderTest, WritesNothing) {
     sim::MacMotor& motor = units.add(Model::mac140, 5);
     std::vector<std::int32_t> before;

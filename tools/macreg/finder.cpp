@@ -80,9 +80,19 @@ class Finder {
         ++found_.asked;
         auto version = read(address, registers::PROG_VERSION);
         if (!version && found_.noise) version = read(address, registers::PROG_VERSION);
-        if (!version) return false;
+        if (!version || !says_more(address, *version)) return false;
         if (!has(address)) found_.units.push_back(describe(address, *version));
         return true;
+    }
+
+    /// An answer does not say whose it is: a late one must not be taken for another address's.
+    bool says_more(std::uint8_t address, std::uint32_t version) {
+        if (version == gw::kIdentity) return true;
+        master_.pause(options_.patience);
+        const Model model = (version >> 15 & 1) != 0 ? Model::mac800 : Model::mac140;
+        const std::uint8_t own =
+            registers::find(model, model == Model::mac800 ? "MY_ADDR" : "MYADDR")->number;
+        return read(address, own).has_value() || read(address, own).has_value();
     }
 
     FoundUnit describe(std::uint8_t address, std::uint32_t version) {

@@ -1,11 +1,13 @@
 #include "cli/session.h"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <iostream>
 
 #include "macreg/values.h"
+#include "registers/gateway.h"
 
 namespace nplc::macreg::cli {
 
@@ -19,18 +21,10 @@ constexpr std::uint8_t kEveryone = 255;
 /// The only motor on the line says its address itself; it keeps 255 if it says none that can be used.
 std::uint8_t find_address(mactalk_client::Master& master, const Common& common) {
     if (common.address != 0) return static_cast<std::uint8_t>(common.address);
-    try {
-        const Model model = Motor::find_model(master, kEveryone);
-        Motor everyone(master, kEveryone, model);
-        const std::int64_t own = everyone.read(model == Model::mac800 ? "MY_ADDR" : "MYADDR");
-        return own >= 1 && own <= 254 ? static_cast<std::uint8_t>(own) : kEveryone;
-    } catch (const LineError& error) {
-        if (error.kind() != LineError::Kind::no_answer) throw;
-        throw LineError(error.kind(),
-                        std::string(error.what()) +
-                            "; with several motors on the line name one with --address (`macreg find` "
-                            "shows them)");
-    }
+    const Model model = Motor::find_model(master, kEveryone);
+    Motor everyone(master, kEveryone, model);
+    const std::int64_t own = everyone.read(model == Model::mac800 ? "MY_ADDR" : "MYADDR");
+    return own >= 1 && own <= 254 ? static_cast<std::uint8_t>(own) : kEveryone;
 }
 
 Model find_model(mactalk_client::Master& master, std::uint8_t address, const Common& common) {
@@ -42,6 +36,31 @@ Model find_model(mactalk_client::Master& master, std::uint8_t address, const Com
             "--model {}: the motor with address {} says that it is {}; leave --model away", common.model,
             address, found == Model::mac800 ? "a MAC800" : "one of MAC50 to MAC141"));
     return *wanted;
+}
+
+/// A gateway whose link is down answers for itself only.
+[[noreturn]] void nobody(mactalk_client::Master& master, const Common& common, const LineError& error) {
+    namespace gw = registers::gateway;
+    const bool silent = error.kind() == LineError::Kind::no_answer;
+    Motor any(master, kEveryone, Model::mac140);
+    if (silent && any.is_behind_gateway() &&
+        (master.read(gw::kDefaultAddress, gw::STATUS) & gw::kLinkDelivers) == 0)
+        throw LineError(error.kind(),
+                        fmt::format("{}: a gateway answers, but its link to the motor does not work; "
+                                    "`nanoctl status` tells more",
+                                    master.wire().name()));
+    const bool asked_all = silent && common.address == 0;
+    throw LineError(
+        error.kind(),
+        std::string(error.what()) + (asked_all ? "; with several motors on the line name one with --address "
+                                                 "(`macreg find` shows them)"
+                                               : ""));
+}
+
+/// What is wrong in the command line is told before anybody is asked.
+std::unique_ptr<mactalk_client::Wire> open(const Common& common) {
+    static_cast<void>(model_option(common));
+    return command_line::open_port(common);
 }
 
 }  // namespace
@@ -71,12 +90,16 @@ std::vector<const registers::Register*> find_registers(Model model, const std::v
 
 Session::Session(const Common& common)
     : common_(common),
-      wire_(command_line::open_port(common)),
+      wire_(open(common)),
       master_(*wire_, {.baud = common.baud,
                        .patience = base::Milliseconds{common.patience_ms},
                        .attempts = common.attempts}) {
-    const std::uint8_t address = find_address(master_, common);
-    motor_ = std::make_unique<Motor>(master_, address, find_model(master_, address, common));
+    try {
+        const std::uint8_t address = find_address(master_, common);
+        motor_ = std::make_unique<Motor>(master_, address, find_model(master_, address, common));
+    } catch (const LineError& error) {
+        nobody(master_, common, error);
+    }
 }
 
 void Session::remark(const std::string& text) const {
@@ -89,9 +112,10 @@ void Session::ask(const std::string& what) const {
         throw UserError(what + "; nobody is there to be asked: say --yes if you mean it");
     fmt::print(stderr, "{}. Type yes to go on: ", what);
     std::fflush(stderr);
+    pollfd keyboard{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
+    while (::poll(&keyboard, 1, 100) <= 0) look_for_interruption();
     std::string answer;
     std::getline(std::cin, answer);
-    look_for_interruption();
     if (answer != "yes") throw UserError("not confirmed, nothing was changed");
 }
 
