@@ -80,8 +80,8 @@ TEST(MactalkMonitor, TheManualsMessages) {
     line.hear(kRead);
     EXPECT_TRUE(line.lines().empty()) << "waits for the answer";
     line.hear(kReadReply);
-    // 4711h = 18193 of 1023 = 1778.4 % of the peak torque.
-    EXPECT_EQ(one(line), "0.000 s  -> motor 19: read T_SOLL (7)   <- 4711 = 1778.4 %peak");
+    // 4711h = 18193 of 1023 = 1778.397 % of the peak torque.
+    EXPECT_EQ(one(line), "0.000 s  -> motor 19: read T_SOLL (7)   <- 4711 = 1778.397 %peak");
     line.hear(kWrite);
     line.hear(kAccept);
     EXPECT_EQ(one(line), "0.028 s  -> motor 16: write P_FNC (8) := 3322   <- accepted");

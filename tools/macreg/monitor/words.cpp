@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "macreg/values.h"
 #include "registers/convert.h"
-#include "registers/details.h"
 #include "registers/layout.h"
 #include "registers/scale.h"
 
@@ -16,27 +16,6 @@ namespace reg = registers;
 namespace {
 
 constexpr std::size_t kWordBytes = 2;
-
-std::string field_words(const reg::Field& field, std::uint32_t bits) {
-    const std::uint32_t value = reg::value_in(field, bits);
-    if (const reg::NamedValue* name = reg::named(field, value)) return std::string(name->name);
-    return fmt::format("{}", value);
-}
-
-/// Flags that are set by name, wider fields with their value; the number alone if it is one whole field.
-std::string bits_words(std::span<const reg::Field> fields, std::uint32_t bits) {
-    if (fields.size() == 1 && fields.front().first == 0 && fields.front().width >= 16)
-        return field_words(fields.front(), bits);
-    std::string out;
-    for (const reg::Field& field : fields) {
-        const std::uint32_t value = reg::value_in(field, bits);
-        if (value == 0) continue;
-        if (!out.empty()) out += ' ';
-        out += field.name;
-        if (field.width > 1) out += "=" + field_words(field, bits);
-    }
-    return out.empty() ? "nothing set" : out;
-}
 
 }  // namespace
 
@@ -54,10 +33,9 @@ std::string_view shown_unit(const reg::Register& reg) {
 }
 
 std::string value_words(reg::Model model, const reg::Register& reg, std::int64_t raw) {
-    const auto fields = reg::fields_of(model, reg.number);
-    if (!fields.empty()) return bits_words(fields, reg::bits_of(reg.format, raw));
-    if (reg.unit == reg::Unit::bits) return fmt::format("{}", raw);
-    return std::string(reg::to_text(raw, reg, model, shown_unit(reg)).view());
+    if (shown_unit(reg) != "counts" || !names_text(reg, model, raw).empty())
+        return value_text(reg, model, raw);
+    return std::string(registers::to_text(raw, reg, model, "counts").view());
 }
 
 std::string bytes_words(reg::Model model, std::uint8_t number, std::uint32_t value, std::size_t bytes) {
@@ -69,7 +47,9 @@ std::string bytes_words(reg::Model model, std::uint8_t number, std::uint32_t val
     const std::uint32_t kept = shown == kWordBytes ? value & 0xFFFF : value;
     const std::string hex = fmt::format("{:0{}X}", kept, 2 * shown);
     if (found == nullptr || shown < own) return hex;
-    return fmt::format("{} = {}", hex, value_words(model, *found, reg::value_of(found->format, value)));
+    const bool wide = model == reg::Model::mac800 && !reg::is_32_bit(found->format);
+    const reg::Format format = wide ? reg::Format::long_int : found->format;
+    return fmt::format("{} = {}", hex, value_words(model, *found, reg::value_of(format, value)));
 }
 
 std::string hex_words(std::span<const std::uint8_t> bytes) {

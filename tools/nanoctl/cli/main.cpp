@@ -1,10 +1,5 @@
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <string_view>
-
 #include "cli/subcommands.h"
+#include "command_line/generated.h"
 
 namespace {
 
@@ -19,33 +14,12 @@ constexpr const char* kFooter =
     "...}.\n"
     "Example: nanoctl --port /dev/ttyUSB0 upload shuttle.bin --run && nanoctl --port /dev/ttyUSB0 watch";
 
-std::string one_line(std::string text) {
-    while (!text.empty() && text.back() == '\n') text.pop_back();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
-
-/// The library says of an unknown command only that there is none.
-std::string wrong_usage(const CLI::App& app, const CLI::ParseError& error) {
-    const std::string text = one_line(error.what());
-    const auto rest = app.remaining(true);
-    if (text.find("subcommand is required") == std::string::npos || rest.empty()) return text;
-    return fmt::format("'{}' is no command", rest.front());
-}
-
 void add_common(CLI::App& app, nplc::nanoctl::cli::Common& common) {
-    app.fallthrough();
-    app.add_option("--port", common.port, "Where the gateway is")->envname("NANOCTL_PORT");
-    app.add_option("--baud", common.baud, "Speed of the line")->capture_default_str();
+    nplc::command_line::add_line_options(app, common, "the gateway");
     app.add_option("--address", common.address, "Address of the gateway")
         ->capture_default_str()
         ->check(CLI::Range(1, 254));
-    app.add_option("--patience", common.patience_ms,
-                   "Milliseconds beyond the line's time to wait for an answer")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 60'000));
     app.add_option("--sym", common.symbols, "F.sym of seqc build: names instead of numbers");
-    app.add_flag("--json", common.json, "Print JSON documents, one a line");
 }
 
 }  // namespace
@@ -58,6 +32,8 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", std::string("nanoctl ") + NPLC_VERSION);
     app.footer(kFooter);
     Common common;
+    common.program = "nanoctl";
+    common.address = nplc::nanoctl::gw::kDefaultAddress;
     add_common(app, common);
     add_transfers(app, common);
     add_controls(app, common);
@@ -67,15 +43,10 @@ int main(int argc, char** argv) {
     add_force(app, common);
     add_log(app, common);
     add_settings(app, common);
-    add_generated(app, common);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);
-        // What stands behind the mistake may not have been read.
-        common.json = std::find(argv, argv + argc, std::string_view("--json")) != argv + argc;
-        fail(common, kUsageOrFile, wrong_usage(app, error) + " (see nanoctl --help)");
-        return common.exit_code;
-    }
-    return common.exit_code;
+    nplc::command_line::add_generated(app, common,
+                                      {.version = NPLC_VERSION,
+                                       .title = "a NanoPLC gateway from a terminal",
+                                       .file_commands = {"upload", "verify", "download"},
+                                       .file_options = {"--sym", "-o", "--output"}});
+    return nplc::command_line::run(app, common, argc, argv);
 }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "cli/session.h"
 
 /// Each adds its subcommands; their work ends in common.exit_code.
@@ -15,6 +13,5 @@ void add_break(CLI::App& app, Common& common);
 void add_force(CLI::App& app, Common& common);
 void add_log(CLI::App& app, Common& common);
 void add_settings(CLI::App& app, Common& common);
-void add_generated(CLI::App& app, Common& common);  ///< completion, man
 
 }  // namespace nplc::nanoctl::cli

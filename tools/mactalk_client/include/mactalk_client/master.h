@@ -36,6 +36,12 @@ class LineError : public std::runtime_error {
     Kind kind_;
 };
 
+/// The user has had enough: thrown by what takes long, between two questions.
+class Interrupted : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
 /// Bytes of a register's write. On MAC50-141 a longword written to a number reaches the next number too.
 enum class Width : std::uint8_t { word = 2, longword = 4 };
 

@@ -36,11 +36,7 @@ class WrongDevice : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The user has had enough.
-class Interrupted : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
+using mactalk_client::Interrupted;
 
 /// Sixteen registers taken at one instant.
 using Block = std::array<std::uint32_t, 16>;

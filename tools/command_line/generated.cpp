@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <memory>
-#include <set>
 
-#include "cli/subcommands.h"
+#include "command_line/generated.h"
 
-namespace nplc::nanoctl::cli {
+namespace nplc::command_line {
 namespace {
 
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {
@@ -32,38 +33,38 @@ std::vector<std::string> flags_of(const CLI::App& app) {
     return flags;
 }
 
-bool takes_files(const CLI::App& app) {
-    const std::set<std::string> kNames{"upload", "verify", "download"};
-    return kNames.count(app.get_name()) != 0;
-}
-
-std::string bash_completion(const CLI::App& app) {
+std::string bash_completion(const CLI::App& app, const About& about) {
     std::string cases;
     for (const CLI::App* command : commands_of(app)) {
         std::vector<std::string> words = flags_of(*command);
         for (const std::string& name : command_names(*command)) words.push_back(name);
+        if (const auto more = about.words.find(command->get_name()); more != about.words.end())
+            words.insert(words.end(), more->second.begin(), more->second.end());
         cases += fmt::format("        {}) words=\"{}\"; files={} ;;\n", command->get_name(), joined(words),
-                             takes_files(*command) ? 1 : 0);
+                             about.file_commands.count(command->get_name()));
     }
-    return fmt::format(R"(# bash completion for nanoctl
-_nanoctl() {{
+    std::string file_options;
+    for (const std::string& option : about.file_options) file_options += "|" + option;
+    return fmt::format(R"(# bash completion for {0}
+_{0}() {{
     local current="${{COMP_WORDS[COMP_CWORD]}}" previous="${{COMP_WORDS[COMP_CWORD-1]}}"
-    local common="{}" words="{}" files=0 word
+    local common="{1}" words="{2}" files=0 word
     case "$previous" in
-        --port|--sym|-o|--output) COMPREPLY=($(compgen -f -- "$current")); return ;;
+        --port{4}) COMPREPLY=($(compgen -f -- "$current")); return ;;
         --baud) COMPREPLY=($(compgen -W "9600 19200 38400 57600 115200 230400" -- "$current")); return ;;
     esac
     for word in "${{COMP_WORDS[@]:1:COMP_CWORD-1}}"; do
         case "$word" in
-{}        esac
+{3}        esac
     done
     COMPREPLY=($(compgen -W "$words $common" -- "$current"))
     [ "$files" = 1 ] && COMPREPLY+=($(compgen -f -- "$current"))
     return 0
 }}
-complete -o filenames -F _nanoctl nanoctl
+complete -o filenames -F _{0} {0}
 )",
-                       joined(flags_of(app)), joined(command_names(app)), cases);
+                       app.get_name(), joined(flags_of(app)), joined(command_names(app)), cases,
+                       file_options);
 }
 
 /// A description inside single quotes of _arguments and _describe.
@@ -92,34 +93,40 @@ std::string zsh_options(const CLI::App& app) {
     return text;
 }
 
-std::string zsh_completion(const CLI::App& app) {
+std::string zsh_arguments(const CLI::App& command, const About& about) {
+    const auto inner = command_names(command);
+    if (!inner.empty()) return fmt::format(" '1:what:({})'", joined(inner));
+    const auto words = about.words.find(command.get_name());
+    if (words == about.words.end()) return " '*:argument:_files'";
+    return fmt::format(" '*:argument:({})'", joined(words->second));
+}
+
+std::string zsh_completion(const CLI::App& app, const About& about) {
     std::string names;
     std::string cases;
     for (const CLI::App* command : commands_of(app)) {
         names += fmt::format("        '{}:{}'\n", command->get_name(), zsh_text(command->get_description()));
-        const auto inner = command_names(*command);
-        cases += fmt::format(
-            "        {})\n            _arguments{}{} ;;\n", command->get_name(), zsh_options(*command),
-            inner.empty() ? " '*:argument:_files'" : fmt::format(" '1:what:({})'", joined(inner)));
+        cases += fmt::format("        {})\n            _arguments{}{} ;;\n", command->get_name(),
+                             zsh_options(*command), zsh_arguments(*command, about));
     }
-    return fmt::format(R"(#compdef nanoctl
-# zsh completion for nanoctl
-_nanoctl() {{
+    return fmt::format(R"(#compdef {0}
+# zsh completion for {0}
+_{0}() {{
     local -a commands
     local state line
     commands=(
-{})
-    _arguments -C{} '1:command:->command' '*::argument:->argument'
+{1})
+    _arguments -C{2} '1:command:->command' '*::argument:->argument'
     case $state in
         command) _describe 'command' commands ;;
         argument)
         case $line[1] in
-{}        esac ;;
+{3}        esac ;;
     esac
 }}
-_nanoctl "$@"
+_{0} "$@"
 )",
-                       names, zsh_options(app), cases);
+                       app.get_name(), names, zsh_options(app), cases);
 }
 
 std::string roff(const std::string& text) {
@@ -159,30 +166,35 @@ std::string man_command(const CLI::App& command, const std::string& before) {
     return text;
 }
 
-std::string man_page(const CLI::App& app) {
+std::string man_page(const CLI::App& app, const About& about) {
+    std::string capitals = app.get_name();
+    std::transform(capitals.begin(), capitals.end(), capitals.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     std::string commands;
     for (const CLI::App* command : commands_of(app)) commands += man_command(*command, "");
     return fmt::format(
-        ".TH NANOCTL 1 \"\" \"nanoctl {}\" \"NanoPLC Gateway\"\n.SH NAME\nnanoctl \\- {}\n"
-        ".SH SYNOPSIS\n.B nanoctl\n[options] command [arguments]\n.SH DESCRIPTION\n{}\n"
+        ".TH {} 1 \"\" \"{} {}\" \"NanoPLC Gateway\"\n.SH NAME\n{} \\- {}\n"
+        ".SH SYNOPSIS\n.B {}\n[options] command [arguments]\n.SH DESCRIPTION\n{}\n"
         ".SH OPTIONS\nThey may stand before or behind the command.\n{}.SH COMMANDS\n{}",
-        NPLC_VERSION, "a NanoPLC gateway from a terminal", roff(app.get_footer()), man_options(app),
-        commands);
+        capitals, app.get_name(), about.version, app.get_name(), about.title, app.get_name(),
+        roff(app.get_footer()), man_options(app), commands);
 }
 
 }  // namespace
 
-void add_generated(CLI::App& app, Common& common) {
+void add_generated(CLI::App& app, Common& common, About about) {
+    const auto known = std::make_shared<About>(std::move(about));
     const auto shell = std::make_shared<std::string>();
     CLI::App& completion = add_command(app, "completion", "Print the completion for a shell");
     completion.add_option("shell", *shell, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}));
-    completion.callback([shell, &app, &common] {
-        guard(common,
-              [&] { fmt::print("{}", *shell == "bash" ? bash_completion(app) : zsh_completion(app)); });
+    completion.callback([shell, known, &app, &common] {
+        guard(common, [&] {
+            fmt::print("{}", *shell == "bash" ? bash_completion(app, *known) : zsh_completion(app, *known));
+        });
     });
-    add_command(app, "man", "Print the manual page, for `man -l -`").callback([&app, &common] {
-        guard(common, [&] { fmt::print("{}", man_page(app)); });
+    add_command(app, "man", "Print the manual page, for `man -l -`").callback([known, &app, &common] {
+        guard(common, [&] { fmt::print("{}", man_page(app, *known)); });
     });
 }
 
-}  // namespace nplc::nanoctl::cli
+}  // namespace nplc::command_line

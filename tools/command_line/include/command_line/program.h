@@ -1,0 +1,88 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "mactalk_client/wire.h"
+
+/// What the programs that talk over a MacTalk line have in common: options, exit codes, signals, how results
+/// and failures are told.
+namespace nplc::command_line {
+
+enum Exit : int {
+    kOk = 0,
+    kRefused = 1,        ///< the other end said no, or two things differ
+    kUsageOrFile = 2,    ///< wrong usage, or a file that cannot be read, written or understood
+    kNoAnswer = 3,       ///< the port cannot be opened, or nobody answers
+    kInterrupted = 130,  ///< by SIGINT or SIGTERM, before it was done
+};
+
+using Json = nlohmann::ordered_json;
+
+/// One line for a person and the program's exit code. `details` go into the document of --json.
+class Failure : public std::runtime_error {
+  public:
+    Failure(int exit_code, const std::string& what, Json details = Json::object())
+        : std::runtime_error(what), exit_code_(exit_code), details_(std::move(details)) {}
+    int exit_code() const { return exit_code_; }
+    const Json& details() const { return details_; }
+
+  private:
+    int exit_code_;
+    Json details_;
+};
+
+/// Wrong usage or a file.
+class UserError : public Failure {
+  public:
+    explicit UserError(const std::string& what) : Failure(kUsageOrFile, what) {}
+};
+
+/// What stands before or behind every subcommand.
+struct Common {
+    std::string program;  ///< its name
+    std::string port;
+    std::uint32_t baud = 19'200;
+    unsigned address = 0;
+    unsigned patience_ms = 150;
+    unsigned attempts = 10;  ///< of each question
+    bool json = false;
+    int exit_code = kOk;
+};
+
+/// --port (or the environment's PROGRAM_PORT), --baud, --patience, --json. `of_whom` is "the gateway".
+void add_line_options(CLI::App& app, Common& common, const std::string& of_whom);
+
+/// A subcommand that has the common options too.
+CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& text);
+
+/// Reads the command line and carries it out; the program's exit code.
+int run(CLI::App& app, Common& common, int argc, char** argv);
+
+/// Throws UserError without a port, LineError if it cannot be opened.
+std::unique_ptr<mactalk_client::Wire> open_port(const Common& common);
+
+/// Does the work of a subcommand; sets the exit code and tells what went wrong.
+void guard(Common& common, const std::function<void()>& what);
+
+/// A line for a person, or the same as a JSON document on one line, with "ok".
+void tell(const Common& common, const std::string& text, const Json& document);
+
+/// Tells what went wrong, with --json as a document too.
+void fail(Common& common, int exit_code, const std::string& text, const Json& details = Json::object());
+
+/// Until SIGINT or SIGTERM came. A second one ends the program at once.
+bool goes_on();
+
+/// Throws mactalk_client::Interrupted if one came.
+void look_for_interruption();
+
+/// One document on one line.
+std::string one_line(const Json& document);
+
+}  // namespace nplc::command_line

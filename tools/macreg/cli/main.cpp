@@ -1,0 +1,62 @@
+#include "cli/subcommands.h"
+#include "command_line/generated.h"
+#include "registers/mac.h"
+
+namespace {
+
+constexpr const char* kFooter =
+    "PORT is a serial line's path, pty:PATH, unix:PATH or tcp:127.0.0.1:PORT. It may stand in the "
+    "environment's\n"
+    "MACREG_PORT instead. A program that holds the port already is named.\n"
+    "Without --address the only motor on the line is asked for its own.\n"
+    "Exit codes: 0 done; 1 the motor refused, or things differ; 2 wrong usage, a file, or not confirmed;\n"
+    "3 the port cannot be opened, nobody answers, or the answers ended before it was done;\n"
+    "130 ended by Ctrl-C or SIGTERM before it was done (watch ends with 0).\n"
+    "With --json a failure is {\"ok\": false, \"error\": ...}.\n"
+    "Example: macreg --port /dev/ttyUSB0 get P_IST V_IST MODE_REG";
+
+void add_common(CLI::App& app, nplc::macreg::cli::Common& common) {
+    nplc::command_line::add_line_options(app, common, "the motor");
+    app.add_option("--address", common.address,
+                   "Address of the motor, 1 to 254; 255 is every motor on the line")
+        ->check(CLI::Range(1, 255));
+    app.add_option("--model", common.model,
+                   "MAC50, MAC95, MAC140, MAC141 or MAC800; found out by reading if not said");
+    app.add_flag("--yes", common.yes, "Ask nothing: every question is answered with yes");
+}
+
+std::vector<std::string> register_names() {
+    std::vector<std::string> names;
+    for (const auto& reg : nplc::registers::map_of(nplc::registers::Model::mac140))
+        names.emplace_back(reg.name);
+    return names;
+}
+
+nplc::command_line::About about() {
+    nplc::command_line::About about{.version = NPLC_VERSION,
+                                    .title = "the registers of a MAC motor from a terminal",
+                                    .file_commands = {},
+                                    .file_options = {"-o", "--output"}};
+    for (const char* command : {"get", "list"}) about.words[command] = register_names();
+    return about;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    using namespace nplc::macreg::cli;
+    CLI::App app(
+        "The registers of a MAC motor from a terminal: read, set, watch, save, compare, and why it does not "
+        "move.",
+        "macreg");
+    app.require_subcommand(1);
+    app.set_version_flag("--version", std::string("macreg ") + NPLC_VERSION);
+    app.footer(kFooter);
+    Common common;
+    common.program = "macreg";
+    add_common(app, common);
+    add_list(app, common);
+    add_get(app, common);
+    nplc::command_line::add_generated(app, common, about());
+    return nplc::command_line::run(app, common, argc, argv);
+}

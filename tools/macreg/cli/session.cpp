@@ -1,0 +1,127 @@
+#include "cli/session.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <iostream>
+
+#include "macreg/values.h"
+
+namespace nplc::macreg::cli {
+
+using mactalk_client::LineError;
+using registers::Model;
+
+namespace {
+
+constexpr std::uint8_t kEveryone = 255;
+
+/// The only motor on the line says its address itself; it keeps 255 if it says none that can be used.
+std::uint8_t find_address(mactalk_client::Master& master, const Common& common) {
+    if (common.address != 0) return static_cast<std::uint8_t>(common.address);
+    try {
+        const Model model = Motor::find_model(master, kEveryone);
+        Motor everyone(master, kEveryone, model);
+        const std::int64_t own = everyone.read(model == Model::mac800 ? "MY_ADDR" : "MYADDR");
+        return own >= 1 && own <= 254 ? static_cast<std::uint8_t>(own) : kEveryone;
+    } catch (const LineError& error) {
+        if (error.kind() != LineError::Kind::no_answer) throw;
+        throw LineError(error.kind(),
+                        std::string(error.what()) +
+                            "; with several motors on the line name one with --address (`macreg find` "
+                            "shows them)");
+    }
+}
+
+Model find_model(mactalk_client::Master& master, std::uint8_t address, const Common& common) {
+    const Model found = Motor::find_model(master, address);
+    const auto wanted = model_option(common);
+    if (!wanted) return found;
+    if ((*wanted == Model::mac800) != (found == Model::mac800))
+        throw UserError(fmt::format(
+            "--model {}: the motor with address {} says that it is {}; leave --model away", common.model,
+            address, found == Model::mac800 ? "a MAC800" : "one of MAC50 to MAC141"));
+    return *wanted;
+}
+
+}  // namespace
+
+void refuse(const std::string& text, Json details) {
+    throw command_line::Failure(command_line::kRefused, text, std::move(details));
+}
+
+std::optional<Model> model_option(const Common& common) {
+    if (common.model.empty()) return std::nullopt;
+    const auto model = registers::model_of(common.model);
+    if (!model)
+        throw UserError(
+            fmt::format("--model {}: write MAC50, MAC95, MAC140, MAC141 or MAC800", common.model));
+    return model;
+}
+
+std::vector<const registers::Register*> find_registers(Model model, const std::vector<std::string>& names) {
+    std::vector<const registers::Register*> found;
+    for (const std::string& name : names) {
+        const NamedRegister named = find_register(model, name);
+        if (named.reg == nullptr) throw UserError(named.error);
+        found.push_back(named.reg);
+    }
+    return found;
+}
+
+Session::Session(const Common& common)
+    : common_(common),
+      wire_(command_line::open_port(common)),
+      master_(*wire_, {.baud = common.baud,
+                       .patience = base::Milliseconds{common.patience_ms},
+                       .attempts = common.attempts}) {
+    const std::uint8_t address = find_address(master_, common);
+    motor_ = std::make_unique<Motor>(master_, address, find_model(master_, address, common));
+}
+
+void Session::remark(const std::string& text) const {
+    if (!json()) fmt::print(stderr, "{}: {}\n", common_.program, text);
+}
+
+void Session::ask(const std::string& what) const {
+    if (common_.yes) return;
+    if (::isatty(STDIN_FILENO) == 0 || json())
+        throw UserError(what + "; nobody is there to be asked: say --yes if you mean it");
+    fmt::print(stderr, "{}. Type yes to go on: ", what);
+    std::fflush(stderr);
+    std::string answer;
+    std::getline(std::cin, answer);
+    look_for_interruption();
+    if (answer != "yes") throw UserError("not confirmed, nothing was changed");
+}
+
+void Session::progress(const std::string& text) const {
+    if (json() || ::isatty(STDERR_FILENO) == 0) return;
+    fmt::print(stderr, "\r\033[K{}", text);
+    std::fflush(stderr);
+}
+
+void guard(Common& common, const std::function<void()>& what) {
+    command_line::guard(common, [&] {
+        try {
+            what();
+        } catch (const Doubtful& error) {
+            throw command_line::Failure(command_line::kNoAnswer, error.what());
+        } catch (const WrongUnit& error) {
+            throw command_line::Failure(command_line::kNoAnswer, error.what());
+        }
+    });
+}
+
+void work(Common& common, const std::function<void(Session&)>& what) {
+    guard(common, [&] {
+        Session session(common);
+        what(session);
+    });
+}
+
+Json value_document(const registers::Register& reg, Model model, std::int64_t raw) {
+    return {{"name", reg.name}, {"number", reg.number}, {"raw", raw}, {"value", value_text(reg, model, raw)}};
+}
+
+}  // namespace nplc::macreg::cli

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command_line/program.h"
+#include "macreg/motor.h"
+
+namespace nplc::macreg::cli {
+
+using command_line::add_command;
+using command_line::goes_on;
+using command_line::Json;
+using command_line::look_for_interruption;
+using command_line::UserError;
+
+/// What stands before or behind every subcommand. `address` 0: ask the only motor on the line for its own.
+struct Common : command_line::Common {
+    std::string model;  ///< empty: found out by reading
+    bool yes = false;   ///< no questions
+};
+
+/// The motor said no, or is not in a state to do it.
+[[noreturn]] void refuse(const std::string& text, Json details = Json::object());
+
+/// The model of --model; throws UserError if there is none of that name.
+std::optional<registers::Model> model_option(const Common& common);
+
+/// The registers of these names or numbers; throws UserError at the first that is none.
+std::vector<const registers::Register*> find_registers(registers::Model model,
+                                                       const std::vector<std::string>& names);
+
+/// A motor that answered, and how results are told.
+class Session {
+  public:
+    explicit Session(const Common& common);
+
+    Motor& motor() { return *motor_; }
+    mactalk_client::Master& master() { return master_; }
+    const Common& common() const { return common_; }
+    bool json() const { return common_.json; }
+    void pause(base::Microseconds time) { master_.pause(time); }
+    base::Instant now() { return wire_->now(); }
+
+    void tell(const std::string& text, const Json& document) const {
+        command_line::tell(common_, text, document);
+    }
+    /// A remark for a person: standard error, not with --json.
+    void remark(const std::string& text) const;
+    /// Asks on the terminal and wants a typed "yes"; without one of them or --yes it throws UserError. `what`
+    /// is a sentence that says what will happen.
+    void ask(const std::string& what) const;
+    /// A line on standard error that is drawn over, if a person looks on; empty removes it.
+    void progress(const std::string& text) const;
+
+  private:
+    const Common& common_;
+    std::unique_ptr<mactalk_client::Wire> wire_;
+    mactalk_client::Master master_;
+    std::unique_ptr<Motor> motor_;
+};
+
+/// Does the work of a subcommand with an open session; sets the exit code and tells what went wrong.
+void work(Common& common, const std::function<void(Session&)>& what);
+/// The same without a motor.
+void guard(Common& common, const std::function<void()>& what);
+
+/// {"name":, "number":, "raw":, "value":} of a register's value.
+Json value_document(const registers::Register& reg, registers::Model model, std::int64_t raw);
+
+}  // namespace nplc::macreg::cli

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "mactalk_client/master.h"
+#include "registers/layout.h"
+#include "registers/mac.h"
+
+/// A MAC motor's registers over its MacTalk line, whichever model (001 §3.2, §5.1, 004).
+namespace nplc::macreg {
+
+/// Values by number, as the registers' own width and sign have them.
+class Snapshot {
+  public:
+    explicit Snapshot(base::Instant time = {}) : time_(time) {}
+
+    /// When the last of them came.
+    base::Instant time() const { return time_; }
+    std::optional<std::int64_t> find(std::uint8_t number) const;
+    /// 0 if it was not read.
+    std::int64_t at(std::uint8_t number) const { return find(number).value_or(0); }
+    void set(std::uint8_t number, std::int64_t value, base::Instant time) {
+        values_[number] = value;
+        time_ = time;
+    }
+    const std::map<std::uint8_t, std::int64_t>& values() const { return values_; }
+
+  private:
+    base::Instant time_;
+    std::map<std::uint8_t, std::int64_t> values_;
+};
+
+/// What answers is no motor.
+class WrongUnit : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// A write that got no accept and was not repeated, since twice is not once: it may have been carried out.
+class Doubtful : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// All that asks throws mactalk_client::LineError. Reads are repeated, up to the master's attempts.
+class Motor {
+  public:
+    using Model = registers::Model;
+    using Register = registers::Register;
+
+    /// `address` 255 is everyone: right for a single motor only.
+    Motor(mactalk_client::Master& master, std::uint8_t address, Model model)
+        : master_(master), address_(address), model_(model) {}
+
+    /// By PROG_VERSION, whose bit 15 the large motors set (004). MAC50, 95, 140 and 141 have the same
+    /// registers and cannot be told apart: they answer as MAC140. Throws WrongUnit for a gateway.
+    static Model find_model(mactalk_client::Master& master, std::uint8_t address);
+
+    Model model() const { return model_; }
+    std::uint8_t address() const { return address_; }
+    mactalk_client::Master& master() { return master_; }
+    base::Instant now() { return master_.wire().now(); }
+
+    const Register* find(std::uint8_t number) const { return registers::find(model_, number); }
+    const Register* find(std::string_view name) const { return registers::find(model_, name); }
+    std::span<const Register> map() const { return registers::map_of(model_); }
+
+    std::int64_t read(const Register& reg);
+    /// Of a number in the map.
+    std::int64_t read(std::uint8_t number) { return read(*find(number)); }
+    /// By a name of 001 §3.2 that the model has.
+    std::int64_t read(std::string_view name) { return read(*find(name)); }
+
+    /// In as few messages as it takes. Registers that lie close together come in one block and are of one
+    /// instant; through a gateway each is asked for alone.
+    Snapshot read_block(std::span<const Register* const> registers);
+    /// The registers of the map that lie in the block of 64 bytes from `first` on, all of one instant.
+    Snapshot read_block(std::uint8_t first);
+
+    /// Of the register's exact width, so that no other changes. Out of its format's range: std::out_of_range.
+    /// What may be written twice is repeated until accepted; else Doubtful.
+    void write(const Register& reg, std::int64_t value);
+    /// Once, for registers where writing twice is not writing once. False: no accept came.
+    bool try_write(const Register& reg, std::int64_t value);
+
+    /// Whether something at the gateway's address says that it is one. Asked once in a program's life.
+    bool is_behind_gateway();
+
+  private:
+    void store(Snapshot& snapshot, std::uint8_t first, std::span<const std::uint8_t> bytes);
+    std::optional<std::array<std::uint8_t, 64>> read_bytes(std::uint8_t first);
+
+    mactalk_client::Master& master_;
+    std::uint8_t address_;
+    Model model_;
+    std::optional<bool> gateway_;
+};
+
+/// Register numbers that one block read (51h) reaches: 32 words, on MAC800 16 longwords.
+constexpr unsigned block_numbers(registers::Model model) {
+    return model == registers::Model::mac800 ? 16 : 32;
+}
+
+}  // namespace nplc::macreg

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "registers/convert.h"
+#include "registers/details.h"
+
+/// A register's value as people read and type it.
+namespace nplc::macreg {
+
+/// "762.94 rpm", "P_MODE", "IN_POS ACC_FLAG"; names where the register has them, else the number in its unit.
+std::string value_text(const registers::Register& reg, registers::Model model, std::int64_t raw);
+/// The names of bits that are set and of fields' values, "USERINTF=FASTMAC HICLK"; empty for a plain number.
+std::string names_text(const registers::Register& reg, registers::Model model, std::int64_t raw);
+/// "0 to 1023 (0 to 100 %peak)".
+std::string range_text(const registers::Register& reg, registers::Model model);
+
+/// What a person typed for a register. `error` is a whole sentence, empty if all is well.
+struct TypedValue {
+    std::int64_t raw = 0;
+    std::string error{};
+    std::string rounding{};  ///< "1500 rpm is 3145.73 steps, taken as 3146 (1500.13 rpm)"; empty if exact
+};
+
+/// Takes what registers::parse takes, further `raw:1600`, hex as `0x640`, names of values (`P_MODE`) and of
+/// bits
+/// (`HICLK+INPSIGN`). Never out of range.
+TypedValue typed_value(const registers::Register& reg, registers::Model model, std::string_view text);
+
+/// The register by name or number, with what to do if there is none; nearest names are told.
+struct NamedRegister {
+    const registers::Register* reg = nullptr;
+    std::string error;
+};
+NamedRegister find_register(registers::Model model, std::string_view name_or_number);
+
+}  // namespace nplc::macreg

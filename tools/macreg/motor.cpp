@@ -1,0 +1,144 @@
+#include "macreg/motor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "base/bytes.h"
+#include "registers/convert.h"
+#include "registers/gateway.h"
+
+namespace nplc::macreg {
+
+using mactalk_client::LineError;
+using mactalk_client::Width;
+using registers::Format;
+using registers::Register;
+
+namespace {
+
+constexpr std::uint32_t kLargeMotor = 1U << 15;  // PROG_VERSION, 004
+/// A block costs as many characters on the line as five single reads.
+constexpr std::size_t kWorthABlock = 5;
+
+Format format_in(registers::Model model, const Register& reg) {
+    // Every register of a MAC800 has 32 bits; value_of looks at as many as the format has.
+    return model == registers::Model::mac800 && !registers::is_32_bit(reg.format) ? Format::long_int
+                                                                                  : reg.format;
+}
+
+/// 001 §3.2.36, §3.2.43; 004: relative positions and resynchronising add at each write.
+bool may_be_repeated(registers::Model model, const Register& reg, std::int64_t value) {
+    const std::int64_t resynchronise = model == registers::Model::mac800 ? 1 << 6 : 1 << 10;
+    switch (reg.number) {
+        case registers::P_REG_P:
+            return value == 0;
+        case registers::CNTRL_BITS:
+            return (value & resynchronise) == 0;
+        case registers::MODE_REG:
+            return value < 256;
+        default:
+            return true;
+    }
+}
+
+}  // namespace
+
+std::optional<std::int64_t> Snapshot::find(std::uint8_t number) const {
+    const auto found = values_.find(number);
+    return found == values_.end() ? std::nullopt : std::optional(found->second);
+}
+
+registers::Model Motor::find_model(mactalk_client::Master& master, std::uint8_t address) {
+    const std::uint32_t value = master.read(address, registers::PROG_VERSION);
+    if (value == registers::gateway::kIdentity)
+        throw WrongUnit(
+            fmt::format("{}: address {} is a gateway's, not a motor's; name the motor's with --address, or "
+                        "use nanoctl",
+                        master.wire().name(), address));
+    return (value & kLargeMotor) != 0 ? registers::Model::mac800 : registers::Model::mac140;
+}
+
+std::int64_t Motor::read(const Register& reg) {
+    return registers::value_of(format_in(model_, reg), master_.read(address_, reg.number));
+}
+
+void Motor::store(Snapshot& snapshot, std::uint8_t first, std::span<const std::uint8_t> bytes) {
+    const std::size_t cell = model_ == Model::mac800 ? 4 : 2;
+    for (const Register& reg : map()) {
+        if (reg.number < first) continue;
+        const std::size_t at = (reg.number - first) * cell;
+        const std::size_t size = registers::bytes_of(model_, reg);
+        if (at + size > bytes.size()) break;
+        const std::uint32_t bits = size == 4 ? base::load_u32(&bytes[at]) : base::load_u16(&bytes[at]);
+        snapshot.set(reg.number, registers::value_of(format_in(model_, reg), bits), now());
+    }
+}
+
+Snapshot Motor::read_block(std::uint8_t first) {
+    Snapshot snapshot(now());
+    const auto once = gateway_.value_or(false) ? std::nullopt : master_.try_read_block(address_, first);
+    if (once) {
+        store(snapshot, first, *once);
+    } else if (is_behind_gateway()) {
+        for (const Register& reg : map()) {
+            const bool inside = reg.number >= first && reg.number < first + block_numbers(model_);
+            if (inside) snapshot.set(reg.number, read(reg), now());
+        }
+    } else {
+        store(snapshot, first, master_.read_block(address_, first));
+    }
+    return snapshot;
+}
+
+Snapshot Motor::read_block(std::span<const Register* const> wanted) {
+    std::vector<const Register*> sorted(wanted.begin(), wanted.end());
+    std::sort(sorted.begin(), sorted.end(), [](auto* a, auto* b) { return a->number < b->number; });
+    Snapshot snapshot(now());
+    for (auto next = sorted.begin(); next != sorted.end();) {
+        const std::uint8_t first = (*next)->number;
+        const auto reached = [&](const Register* reg) {
+            return reg->number + registers::cells_of(model_, *reg).count <= first + block_numbers(model_);
+        };
+        const auto end = std::partition_point(next, sorted.end(), reached);
+        const bool single = gateway_.value_or(false) || static_cast<std::size_t>(end - next) < kWorthABlock;
+        if (single) {
+            snapshot.set(first, read(**next), now());
+            ++next;
+            continue;
+        }
+        const Snapshot block = read_block(first);
+        for (; next != end; ++next) snapshot.set((*next)->number, block.at((*next)->number), block.time());
+    }
+    return snapshot;
+}
+
+void Motor::write(const Register& reg, std::int64_t value) {
+    if (may_be_repeated(model_, reg, value)) {
+        const auto width = static_cast<Width>(registers::bytes_of(model_, reg));
+        master_.write(address_, reg.number, registers::bits_of(format_in(model_, reg), value), width);
+    } else if (!try_write(reg, value)) {
+        throw Doubtful(
+            fmt::format("{}: the write of {} was not accepted; it was not repeated, since it may have been "
+                        "carried out: look before you write again",
+                        master_.wire().name(), reg.name));
+    }
+}
+
+bool Motor::try_write(const Register& reg, std::int64_t value) {
+    const auto width = static_cast<Width>(registers::bytes_of(model_, reg));
+    return master_.try_write(address_, reg.number, registers::bits_of(format_in(model_, reg), value), width);
+}
+
+bool Motor::is_behind_gateway() {
+    namespace gw = registers::gateway;
+    if (gateway_) return *gateway_;
+    gateway_ = false;
+    if (address_ == gw::kDefaultAddress) return false;
+    const auto block = master_.try_read_block(gw::kDefaultAddress, gw::IDENTITY);
+    gateway_ = block && base::load_u32(block->data()) == gw::kIdentity;
+    return *gateway_;
+}
+
+}  // namespace nplc::macreg

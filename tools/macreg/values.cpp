@@ -1,0 +1,232 @@
+#include "macreg/values.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <vector>
+
+#include "registers/layout.h"
+#include "registers/scale.h"
+
+namespace nplc::macreg {
+
+using registers::Field;
+using registers::Model;
+using registers::Register;
+using registers::TextError;
+using registers::Unit;
+
+namespace {
+
+std::string lower(std::string_view text) {
+    std::string result(text);
+    std::transform(result.begin(), result.end(), result.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return result;
+}
+
+/// A mode, a pointer: one field as wide as the register.
+const Field* whole_field(const Register& reg, Model model) {
+    const auto fields = registers::fields_of(model, reg.number);
+    if (fields.size() != 1 || fields[0].values.empty()) return nullptr;
+    return fields[0].width >= 16 ? &fields[0] : nullptr;
+}
+
+std::string number_text(const Register& reg, Model model, std::int64_t raw) {
+    return std::string(registers::to_text(raw, reg, model).view());
+}
+
+std::string field_text(const Field& field, std::uint32_t bits) {
+    const std::uint32_t value = registers::value_in(field, bits);
+    if (const auto* name = registers::named(field, value))
+        return fmt::format("{}={}", field.name, name->name);
+    if (field.width == 1) return value != 0 ? std::string(field.name) : std::string();
+    return value != 0 ? fmt::format("{}={}", field.name, value) : std::string();
+}
+
+std::string why_not(TextError error, const Register& reg, Model model, std::string_view text) {
+    switch (error) {
+        case TextError::wrong_unit: {
+            std::string units;
+            for (const auto unit : registers::units_of(reg.unit))
+                units += (units.empty() ? "" : ", ") + std::string(unit);
+            return units.empty()
+                       ? fmt::format("'{}': {} is a plain number and takes no unit", text, reg.name)
+                       : fmt::format("'{}': {} takes {}, or no unit for raw steps", text, reg.name, units);
+        }
+        case TextError::out_of_range:
+            return fmt::format("'{}' is out of range: {} is {}", text, reg.name, range_text(reg, model));
+        case TextError::too_small:
+            return fmt::format(
+                "'{}' is less than half a step of {}, nothing would be left of it; one step is {}", text,
+                reg.name, number_text(reg, model, 1));
+        case TextError::too_long:
+            return fmt::format("'{}' has too many digits for {}", text, reg.name);
+        default:
+            return fmt::format("'{}' is no value of {}; write a number with or without unit, 0x1F, or raw:31",
+                               text, reg.name);
+    }
+}
+
+std::optional<std::int64_t> whole_number(std::string_view text, int base) {
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);
+    if (error != std::errc() || end != text.data() + text.size() || text.empty()) return std::nullopt;
+    return value;
+}
+
+TypedValue raw_value(const Register& reg, Model model, std::string_view text,
+                     std::optional<std::int64_t> raw) {
+    TypedValue typed;
+    if (!raw)
+        typed.error = why_not(TextError::not_a_number, reg, model, text);
+    else if (*raw < reg.min || *raw > reg.max)
+        typed.error = why_not(TextError::out_of_range, reg, model, text);
+    else
+        typed.raw = *raw;
+    return typed;
+}
+
+std::optional<std::uint32_t> named_bits(const Register& reg, Model model, std::string_view word) {
+    for (const Field& field : registers::fields_of(model, reg.number)) {
+        const std::string name = lower(field.name);
+        if (field.width == 1 && lower(word) == name) return registers::mask_of(field);
+        const auto equals = word.find('=');
+        const bool is_field = equals != std::string_view::npos && lower(word.substr(0, equals)) == name;
+        const std::string_view value = is_field ? word.substr(equals + 1) : word;
+        for (const auto& one : field.values) {
+            if ((is_field || field.width >= 16) && lower(one.name) == lower(value))
+                return static_cast<std::uint32_t>(one.value) << field.first;
+        }
+        if (!is_field) continue;
+        const auto number = whole_number(value, 10);
+        if (number && *number >= 0 && *number <= registers::mask_of(field) >> field.first)
+            return static_cast<std::uint32_t>(*number) << field.first;
+    }
+    return std::nullopt;
+}
+
+/// Words joined by + or blanks, each a bit's or a value's name.
+std::optional<std::uint32_t> bits_by_name(const Register& reg, Model model, std::string_view text) {
+    std::uint32_t bits = 0;
+    bool any = false;
+    while (!text.empty()) {
+        const auto end = std::min(text.find_first_of("+ "), text.size());
+        const std::string_view word = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        if (word.empty()) continue;
+        const auto one = named_bits(reg, model, word);
+        if (!one) return std::nullopt;
+        bits |= *one;
+        any = true;
+    }
+    return any ? std::optional(bits) : std::nullopt;
+}
+
+std::size_t distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0]++;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, changed});
+        }
+    }
+    return row[b.size()];
+}
+
+std::string nearest(Model model, std::string_view name) {
+    std::string best;
+    std::size_t least = 3;
+    for (const Register& reg : registers::map_of(model)) {
+        const std::size_t steps = distance(lower(name), lower(reg.name));
+        if (steps < least) {
+            least = steps;
+            best = reg.name;
+        }
+    }
+    return best;
+}
+
+}  // namespace
+
+std::string names_text(const Register& reg, Model model, std::int64_t raw) {
+    const auto bits = static_cast<std::uint32_t>(raw);
+    if (const Field* field = whole_field(reg, model)) {
+        const auto* name = registers::named(*field, bits);
+        return name != nullptr ? std::string(name->name) : std::string();
+    }
+    std::string text;
+    for (const Field& field : registers::fields_of(model, reg.number)) {
+        const std::string one = field_text(field, bits);
+        if (!one.empty()) text += (text.empty() ? "" : " ") + one;
+    }
+    return text;
+}
+
+std::string value_text(const Register& reg, Model model, std::int64_t raw) {
+    const std::string names = names_text(reg, model, raw);
+    if (names.empty() && raw == 0 && reg.unit == Unit::bits) return "none";
+    return names.empty() ? number_text(reg, model, raw) : names;
+}
+
+std::string range_text(const Register& reg, Model model) {
+    const std::string raw = fmt::format("{} to {}", reg.min, reg.max);
+    if (reg.unit == Unit::none || reg.unit == Unit::bits) {
+        if (registers::one_in(reg.format) == 1) return raw;
+    }
+    return fmt::format("{} to {} (raw {})", number_text(reg, model, reg.min),
+                       number_text(reg, model, reg.max), raw);
+}
+
+TypedValue typed_value(const Register& reg, Model model, std::string_view text) {
+    if (lower(text.substr(0, 4)) == "raw:") {
+        const std::string_view digits = text.substr(4);
+        const bool hex = lower(digits.substr(0, 2)) == "0x";
+        return raw_value(reg, model, text, whole_number(hex ? digits.substr(2) : digits, hex ? 16 : 10));
+    }
+    if (lower(text.substr(0, 2)) == "0x") {
+        const auto bits = whole_number(text.substr(2), 16);
+        const int width = 8 * registers::bytes_of(model, reg);
+        if (bits && (*bits < 0 || *bits >> width != 0))
+            return {.error = fmt::format("'{}': {} has {} bits", text, reg.name, width)};
+        return raw_value(
+            reg, model, text,
+            bits ? std::optional(registers::value_of(reg.format, static_cast<std::uint32_t>(*bits)))
+                 : std::nullopt);
+    }
+    if (reg.unit == Unit::bits && lower(text) == "none") return {};
+    if (const auto bits = bits_by_name(reg, model, text)) return raw_value(reg, model, text, *bits);
+    const auto parsed = registers::parse(text, reg, model);
+    if (parsed.error != TextError::none) return {.error = why_not(parsed.error, reg, model, text)};
+    TypedValue typed{.raw = parsed.raw};
+    if (!parsed.exact)
+        typed.rounding = fmt::format("{} falls between two steps of {}, taken as {}", text, reg.name,
+                                     number_text(reg, model, parsed.raw));
+    return typed;
+}
+
+NamedRegister find_register(Model model, std::string_view text) {
+    const std::string family = model == Model::mac800 ? "MAC800" : "MAC50 to MAC141";
+    if (const auto number = whole_number(text, 10)) {
+        const bool fits = *number >= 0 && *number <= 255;
+        const Register* reg = fits ? registers::find(model, static_cast<std::uint8_t>(*number)) : nullptr;
+        if (reg != nullptr) return {reg, {}};
+        const Register* holder =
+            fits ? registers::holder_of(model, static_cast<std::uint8_t>(*number)) : nullptr;
+        if (holder != nullptr)
+            return {nullptr, fmt::format("{} is the upper word of register {}, {}; name that one", *number,
+                                         holder->number, holder->name)};
+        return {nullptr, fmt::format("{} has no register {}; `macreg list` shows them", family, text)};
+    }
+    if (const Register* reg = registers::find(model, text)) return {reg, {}};
+    const std::string near = nearest(model, text);
+    return {nullptr, fmt::format("{} has no register '{}'{}; `macreg list` shows them", family, text,
+                                 near.empty() ? "" : fmt::format(", did you mean {}?", near))};
+}
+
+}  // namespace nplc::macreg
