@@ -57,6 +57,9 @@ int main(int argc, char** argv) {
     add_common(app, common);
     add_list(app, common);
     add_get(app, common);
+    add_record(app, common);
+    add_plot(app, common);
+    add_monitor(app, common);
     nplc::command_line::add_generated(app, common, about());
     return nplc::command_line::run(app, common, argc, argv);
 }

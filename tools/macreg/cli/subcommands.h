@@ -7,5 +7,8 @@ namespace nplc::macreg::cli {
 
 void add_list(CLI::App& app, Common& common);
 void add_get(CLI::App& app, Common& common);
+void add_monitor(CLI::App& app, Common& common);
+void add_plot(CLI::App& app, Common& common);
+void add_record(CLI::App& app, Common& common);
 
 }  // namespace nplc::macreg::cli
