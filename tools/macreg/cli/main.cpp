@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
     add_record(app, common);
     add_plot(app, common);
     add_monitor(app, common);
+    add_ui(app, common);
     nplc::command_line::add_generated(app, common, about());
     return nplc::command_line::run(app, common, argc, argv);
 }

@@ -10,5 +10,6 @@ void add_get(CLI::App& app, Common& common);
 void add_monitor(CLI::App& app, Common& common);
 void add_plot(CLI::App& app, Common& common);
 void add_record(CLI::App& app, Common& common);
+void add_ui(CLI::App& app, Common& common);
 
 }  // namespace nplc::macreg::cli

@@ -14,11 +14,11 @@ using Column = Recording::Column;
 
 constexpr double kLeft = 84;
 constexpr double kRight = 24;
-constexpr double kTop = 40;
+constexpr double kTop = 48;
 constexpr double kBottom = 48;
 constexpr double kGap = 34;  // between panels, for the upper one's legend
 constexpr double kPanel = 200;
-constexpr double kPixelsATick = 44;
+constexpr double kPixelsATick = 32;
 constexpr double kPixelsATime = 90;
 constexpr Colour kInk = 0x333333;
 constexpr Colour kFaint = 0xE3E3E3;

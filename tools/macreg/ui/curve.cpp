@@ -11,18 +11,19 @@ namespace {
 constexpr int kDotsAcross = 2;
 constexpr int kDotsDown = 4;
 // Of Unicode's braille patterns, by column and row.
-constexpr std::array<std::array<std::uint8_t, kDotsDown>, kDotsAcross> kDots{{{0x01, 0x02, 0x04, 0x40},
-                                                                              {0x08, 0x10, 0x20, 0x80}}};
+constexpr std::array<std::array<std::uint8_t, kDotsDown>, kDotsAcross> kDots{
+    {{0x01, 0x02, 0x04, 0x40}, {0x08, 0x10, 0x20, 0x80}}};
 
 /// U+2800 and a byte of dots in UTF-8.
 std::string braille_letter(std::uint8_t dots) {
-    return {static_cast<char>(0xE2), static_cast<char>(0xA0 | dots >> 6), static_cast<char>(0x80 | (dots & 0x3F))};
+    return {static_cast<char>(0xE2), static_cast<char>(0xA0 | dots >> 6),
+            static_cast<char>(0x80 | (dots & 0x3F))};
 }
 
 }  // namespace
 
-std::vector<std::string> text_curve(std::span<const double> values, int width, int height, double low, double high,
-                                    bool braille) {
+std::vector<std::string> text_curve(std::span<const double> values, int width, int height, double low,
+                                    double high, bool braille) {
     std::vector<std::string> rows;
     if (width < 1 || height < 1) return rows;
     const int across = braille ? width * kDotsAcross : width;
@@ -33,8 +34,10 @@ std::vector<std::string> text_curve(std::span<const double> values, int width, i
         const int cell_y = braille ? y / kDotsDown : y;
         auto& cell = cells[static_cast<std::size_t>(cell_y * width + cell_x)];
         cell = static_cast<std::uint8_t>(
-            cell | (braille ? kDots[static_cast<std::size_t>(x % kDotsAcross)][static_cast<std::size_t>(y % kDotsDown)]
-                            : 1));
+            cell |
+            (braille
+                 ? kDots[static_cast<std::size_t>(x % kDotsAcross)][static_cast<std::size_t>(y % kDotsDown)]
+                 : 1));
     };
     const double span = high > low ? high - low : 1;
     const auto dot_of = [&](double value) {
@@ -48,7 +51,8 @@ std::vector<std::string> text_curve(std::span<const double> values, int width, i
         for (std::size_t i = first; i < std::min(end, values.size()); ++i) {
             const int y = dot_of(values[i]);
             // What lies between two neighbours is filled, so that a step is a line.
-            for (int between = std::min(before < 0 ? y : before, y); between <= std::max(before, y); ++between)
+            for (int between = std::min(before < 0 ? y : before, y); between <= std::max(before, y);
+                 ++between)
                 set(x, between);
             before = y;
         }

@@ -33,7 +33,8 @@ bool is_error(const Field& field) {
 std::size_t stepped(std::size_t at, int steps, std::size_t size) {
     if (size == 0) return 0;
     const auto wanted = static_cast<std::ptrdiff_t>(at) + steps;
-    return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(wanted, 0, static_cast<std::ptrdiff_t>(size) - 1));
+    return static_cast<std::size_t>(
+        std::clamp<std::ptrdiff_t>(wanted, 0, static_cast<std::ptrdiff_t>(size) - 1));
 }
 
 /// A field's value by its name or number; nothing if it is neither, or too large.
@@ -91,7 +92,8 @@ Wish UiModel::browse(KeyPress key) {
             break;
         case Key::tab:
         case Key::back_tab:
-            panel_ = static_cast<Panel>((static_cast<int>(panel_) + (key.key == Key::tab ? 1 : kPanels - 1)) % kPanels);
+            panel_ = static_cast<Panel>((static_cast<int>(panel_) + (key.key == Key::tab ? 1 : kPanels - 1)) %
+                                        kPanels);
             field_ = stepped(field_, 0, fields().size());
             break;
         case Key::enter:
@@ -228,8 +230,8 @@ Wish UiModel::finish_write() {
         const Field& field = fields()[field_];
         const auto value = field_value(field, prompt_.text);
         if (!value) {
-            tell(fmt::format("'{}' is no value of {}, which has {} bit{}", prompt_.text, field.name, field.width,
-                             field.width == 1 ? "" : "s"),
+            tell(fmt::format("'{}' is no value of {}, which has {} bit{}", prompt_.text, field.name,
+                             field.width, field.width == 1 ? "" : "s"),
                  true);
             return {};
         }
@@ -249,8 +251,8 @@ Wish UiModel::finish_write() {
     prompt_ = {};
     if (!reg.dangerous) return wish;
     pending_ = wish;
-    ask(Prompt::Kind::confirm, fmt::format("{} := {} may damage the motor or upset its control; type yes: ", reg.name,
-                                           value_words(model_, reg, wish.raw)));
+    ask(Prompt::Kind::confirm, fmt::format("{} := {} may damage the motor or upset its control; type yes: ",
+                                           reg.name, value_words(model_, reg, wish.raw)));
     return {};
 }
 
@@ -311,6 +313,16 @@ void UiModel::set_exchange(std::string sent, std::string received, const std::st
     received_ = std::move(received);
     lines_.push_back(line);
     if (lines_.size() > kMostLines) lines_.pop_front();
+}
+
+std::size_t UiModel::first_row() const {
+    const std::size_t first = row_ - std::min(row_, page_ / 2);
+    return std::min(first, rows_.size() - std::min(rows_.size(), page_));
+}
+
+std::span<const Register* const> UiModel::visible() const {
+    const std::size_t first = first_row();
+    return std::span<const Register* const>(rows_).subspan(first, std::min(page_, rows_.size() - first));
 }
 
 std::optional<std::int64_t> UiModel::raw_of(std::uint8_t number) const {

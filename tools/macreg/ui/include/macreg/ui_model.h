@@ -76,6 +76,9 @@ class UiModel {
     registers::Model model() const { return model_; }
     const std::vector<const registers::Register*>& rows() const { return rows_; }
     std::size_t selected_row() const { return row_; }
+    /// The first row on a page around the selected one, and the registers of that page.
+    std::size_t first_row() const;
+    std::span<const registers::Register* const> visible() const;
     const registers::Register& selected() const { return *rows_[row_]; }
     std::optional<std::int64_t> raw_of(std::uint8_t number) const;
     std::span<const registers::Field> fields() const;
