@@ -6,10 +6,8 @@ usage: nanoctl_test.py NANOCTL NANOPLC_SIM SEQC SHUTTLE.seq
 
 import json
 import os
-import random
 import shutil
 import signal
-import socket
 import stat
 import subprocess
 import sys
@@ -18,53 +16,10 @@ import threading
 import time
 import unittest
 
+from noisy_proxy import NoisyProxy
+
 NANOCTL = SIM = SEQC = SHUTTLE = ""
 LONG = 60  # seconds until something that must come is given up
-
-
-class NoisyProxy:
-    """A socket between a client and the gateway's socket that damages a share of the bytes, both ways."""
-
-    def __init__(self, path, target, share, seed):
-        self.share = share
-        self.random = random.Random(seed)
-        self.damaged = 0
-        self.ends = []
-        self.listener = socket.socket(socket.AF_UNIX)
-        self.listener.bind(path)
-        self.listener.listen(1)
-        self.target = target
-        threading.Thread(target=self.accept, daemon=True).start()
-
-    def accept(self):
-        while True:
-            try:
-                client, _ = self.listener.accept()
-            except OSError:
-                return
-            gateway = socket.socket(socket.AF_UNIX)
-            self.ends += [client, gateway]
-            gateway.connect(self.target)
-            for ends in ((client, gateway), (gateway, client)):
-                threading.Thread(target=self.pump, args=ends, daemon=True).start()
-
-    def pump(self, source, sink):
-        while True:
-            try:
-                data = bytearray(source.recv(4096))
-                for i in range(len(data)):
-                    if self.random.random() < self.share:
-                        data[i] ^= 1 << self.random.randrange(8)
-                        self.damaged += 1
-                sink.sendall(data)
-                if not data:
-                    return sink.shutdown(socket.SHUT_RDWR)
-            except OSError:
-                return
-
-    def close(self):
-        for end in (*self.ends, self.listener):
-            end.close()
 
 
 class Case(unittest.TestCase):

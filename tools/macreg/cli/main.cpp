@@ -1,3 +1,7 @@
+#include <fmt/chrono.h>
+
+#include <chrono>
+
 #include "cli/subcommands.h"
 #include "command_line/generated.h"
 #include "registers/mac.h"
@@ -35,9 +39,9 @@ std::vector<std::string> register_names() {
 nplc::command_line::About about() {
     nplc::command_line::About about{.version = NPLC_VERSION,
                                     .title = "the registers of a MAC motor from a terminal",
-                                    .file_commands = {},
+                                    .file_commands = {"load", "diff"},
                                     .file_options = {"-o", "--output"}};
-    for (const char* command : {"get", "list"}) about.words[command] = register_names();
+    for (const char* command : {"get", "list", "set", "watch"}) about.words[command] = register_names();
     return about;
 }
 
@@ -54,9 +58,20 @@ int main(int argc, char** argv) {
     app.footer(kFooter);
     Common common;
     common.program = "macreg";
+    common.date =
+        fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
+                    fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
     add_common(app, common);
     add_list(app, common);
     add_get(app, common);
+    add_set(app, common);
+    add_watch(app, common);
+    add_why(app, common);
+    add_dump(app, common);
+    add_load(app, common);
+    add_diff(app, common);
+    add_service(app, common);
+    add_find(app, common);
     add_record(app, common);
     add_plot(app, common);
     add_monitor(app, common);

@@ -21,6 +21,7 @@ using command_line::UserError;
 struct Common : command_line::Common {
     std::string model;  ///< empty: found out by reading
     bool yes = false;   ///< no questions
+    std::string date;   ///< of now, for what is written down
 };
 
 /// The motor said no, or is not in a state to do it.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "macreg/change.h"
 #include "macreg/monitor.h"
 #include "macreg/recorder.h"
 #include "macreg/values.h"
@@ -130,12 +131,16 @@ class App {
         model_.tell(fmt::format("{} = {}", reg.name, value_words(options_.model, reg, one.at(reg.number))));
     }
 
-    /// And reads it back, as a person wants to see what the motor took.
     void write(const Register& reg, std::int64_t raw) {
-        motor_->write(reg, raw);
-        read_one(reg);
-        model_.tell(fmt::format("written; {} now reads {}", reg.name,
-                                value_words(options_.model, reg, model_.raw_of(reg.number).value_or(0))));
+        const Outcome outcome = change(*motor_, reg, raw);
+        Snapshot one(motor_->now());
+        one.set(reg.number, outcome.after, motor_->now());
+        model_.store(one);
+        const std::string now = value_words(options_.model, reg, outcome.after);
+        if (!outcome.taken)
+            return model_.tell(fmt::format("not taken, {} is {}: {}", reg.name, now, outcome.why), true);
+        model_.tell(fmt::format("written; {} now reads {}{}{}", reg.name, now,
+                                outcome.remark.empty() ? "" : "; ", outcome.remark));
     }
 
     void record(const std::string& text) {

@@ -249,8 +249,15 @@ Wish UiModel::finish_write() {
         if (!typed.rounding.empty()) tell(typed.rounding);
     }
     prompt_ = {};
-    if (!reg.dangerous) return wish;
+    const bool overwritten = reg.access == registers::Access::read_only;
+    if (!reg.dangerous && !overwritten) return wish;
     pending_ = wish;
+    const std::string value = value_words(model_, reg, wish.raw);
+    if (!reg.dangerous) {
+        ask(Prompt::Kind::confirm,
+            fmt::format("{} is read only, the motor overwrites it; type yes: ", reg.name));
+        return {};
+    }
     ask(Prompt::Kind::confirm, fmt::format("{} := {} may damage the motor or upset its control; type yes: ",
                                            reg.name, value_words(model_, reg, wish.raw)));
     return {};
@@ -286,6 +293,7 @@ void UiModel::search(bool next) {
         return details != nullptr ? std::string(details->title) : std::string();
     };
     if (look(name) || look(title)) return tell("");
+    if (!next) row_ = row_before_search_;
     tell(fmt::format("nothing has '{}' in its name or title", last_search_), true);
 }
 

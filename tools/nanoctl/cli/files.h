@@ -8,8 +8,6 @@
 /// Files; what goes wrong is a UserError.
 namespace nplc::nanoctl::cli {
 
-std::string read_whole(const std::string& path);
-
 /// A table in a .bin or Intel HEX file, held to the rules of a table; nothing may follow its end term.
 std::vector<std::uint8_t> read_table(const std::string& path);
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/files.h"
+#include "command_line/files.h"
 #include "seqc/symbol_file.h"
 
 namespace nplc::nanoctl::cli {
@@ -16,7 +16,7 @@ Session::Session(const Common& common)
     gateway_.set_goes_on(goes_on);
     gateway_.identify();
     if (common.symbols.empty()) return;
-    const auto reading = seqc::read_symbols(read_whole(common.symbols));
+    const auto reading = seqc::read_symbols(command_line::read_whole(common.symbols));
     if (!reading.error.empty()) throw UserError(fmt::format("{}: {}", common.symbols, reading.error));
     const Block about = gateway_.read_block(gw::IDENTITY);
     if (about[gw::TABLE_BYTES - 1] != 0 && about[gw::TABLE_CRC - 1] != reading.file.crc32)

@@ -1,0 +1,373 @@
+#!/usr/bin/env python3
+"""macreg on virtual motors, over real terminals and sockets.
+
+usage: macreg_test.py MACREG MACSIM NANOPLC_SIM SEQC SHUTTLE.seq
+"""
+
+import json
+import os
+import pty
+import signal
+import subprocess
+import sys
+import tempfile
+import termios
+import threading
+import time
+import unittest
+
+from noisy_proxy import NoisyProxy
+
+MACREG = MACSIM = SIM = SEQC = SHUTTLE = ""
+LONG = 60  # seconds until something that must come is given up
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.running = []
+        self.endpoint = "unix:" + self.path("port")
+
+    def tearDown(self):
+        for process in self.running:
+            process.kill()
+            process.communicate()
+        self.folder.cleanup()
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def launch(self, *command):
+        """A simulator, when it is ready; its lines until then."""
+        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   text=True)
+        self.running.append(process)
+        lines = []
+        for line in process.stdout:
+            if line == "ready\n":
+                threading.Thread(target=process.stdout.read, daemon=True).start()
+                return process, lines
+            lines.append(line)
+        self.fail(f"ended before it was ready: {process.communicate()}")
+
+    def motor(self, *arguments, endpoint=None, model="MAC140"):
+        self.endpoint = endpoint or self.endpoint
+        process, lines = self.launch(MACSIM, "--model", model, "--address", "8", "--fastmac", "pty:" + self.path("fastmac"),
+                                     "--mactalk", self.endpoint, *arguments)
+        if self.endpoint == "tcp:127.0.0.1:0":
+            self.endpoint = next(word for line in lines for word in line.split() if word.startswith("tcp:"))
+        return process
+
+    def start(self, *arguments, **options):
+        process = subprocess.Popen([MACREG, "--port", self.endpoint, *arguments], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True, **options)
+        self.running.append(process)
+        return process
+
+    def call(self, *arguments, port=None, patience=500):
+        return subprocess.run([MACREG, "--port", port or self.endpoint, "--patience", str(patience), *arguments],
+                              stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=4 * LONG, check=False)
+
+    def reg(self, *arguments, exit_code=0, **options):
+        """The document of --json."""
+        result = self.call("--json", *arguments, **options)
+        self.assertEqual(result.returncode, exit_code, f"{arguments}: {result.stdout} {result.stderr}")
+        answer = json.loads(result.stdout.splitlines()[-1])
+        self.assertEqual(answer["ok"], exit_code == 0)
+        return answer
+
+    def value(self, name, **options):
+        return self.reg("get", name, **options)["registers"][0]["raw"]
+
+    def refused(self, exit_code, part, *arguments, **options):
+        """One line on standard error, and nothing else."""
+        result = self.call(*arguments, **options)
+        self.assertEqual(result.returncode, exit_code, f"{arguments}: {result.stdout} {result.stderr}")
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertIn(part, result.stderr, arguments)
+        return result
+
+    def read(self, name):
+        with open(self.path(name), encoding="utf-8") as file:
+            return file.read()
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return self.path(name)
+
+    def until(self, condition):
+        end = time.monotonic() + LONG
+        while time.monotonic() < end:
+            if condition():
+                return
+            time.sleep(0.02)
+        self.fail("it never came")
+
+
+class Registers(Case):
+    def test_every_kind_of_port(self):
+        for endpoint in ("pty:" + self.path("tty"), "unix:" + self.path("socket"), "tcp:127.0.0.1:0"):
+            with self.subTest(endpoint):
+                process = self.motor(endpoint=endpoint)
+                self.assertEqual(self.value("V_SOLL"), 1600)  # 001 3.2.5: 762.9 rpm
+                self.assertEqual(self.reg("get", "5")["registers"][0]["value"], "762.94 rpm")
+                process.terminate()
+                process.wait(LONG)
+
+    def test_set_takes_units_rounds_aloud_and_reaches_no_other_register(self):
+        self.motor()
+        answer = self.reg("set", "V_SOLL", "1500rpm", "T_SOLL=50%")["registers"]
+        self.assertEqual([one["raw"] for one in answer], [3146, 512])  # 1500 / 0.4768, 1023 / 2
+        self.assertIn("1500.13 rpm", answer[0]["rounding"])
+        self.assertEqual(self.value("A_SOLL"), 160)
+        self.assertIn("V_SOLL = -47.68 rpm (raw -100; was 1500.13 rpm)", self.call("set", "V_SOLL", "-100").stdout)
+        self.assertEqual(self.reg("set", "V_SOLL", "500", "rpm")["registers"][0]["raw"], 1049)
+
+    def test_wrong_values_are_refused_before_the_first_write(self):
+        self.motor()
+        for part, *values in (("out of range", "T_SOLL", "101%"), ("T_SOLL takes %peak", "T_SOLL", "20A"),
+                              ("no value", "V_SOLL", "fast"), ("did you mean V_SOLL", "V_SOL", "5"),
+                              ("write V_SOLL VALUE", "V_SOLL"), ("named twice", "V_SOLL", "1", "V_SOLL", "2"),
+                              ("upper word", "4", "1"), ("--force", "KFF3", "1"), ("read only", "V_IST", "1"),
+                              ("out of range", "A_SOLL", "raw:70000"), ("16 bits", "A_SOLL", "0x12345")):
+            with self.subTest(values):
+                self.refused(2, part, "set", "P_HOME", "7", *values)
+        self.assertEqual(self.value("P_HOME"), 0)
+
+    def test_dangerous_registers_want_force_and_a_yes(self):
+        self.motor()
+        before = self.value("KFF3")
+        self.refused(2, "say --yes", "set", "KFF3", "raw:1", "--force")
+        for answer, exit_code, after in (("no\n", 2, before), ("yes\n", 0, 1)):
+            keyboard, terminal = pty.openpty()
+            process = self.start("set", "KFF3", "raw:1", "--force", stdin=terminal)
+            os.write(keyboard, answer.encode())
+            process.communicate(timeout=LONG)
+            self.assertEqual(process.returncode, exit_code)
+            os.close(keyboard)
+            os.close(terminal)
+            self.assertEqual(self.value("KFF3"), after)
+        self.reg("set", "KFF3", "raw:2", "--force", "--yes")
+
+    def test_a_refused_write_says_why(self):
+        self.motor()
+        self.reg("safe", "enter")
+        refused = self.reg("set", "MODE_REG", "P_MODE", exit_code=1)
+        self.assertIn("safe exit", refused["reason"])
+        self.reg("safe", "exit")
+        self.assertEqual(self.reg("set", "MODE_REG", "P_MODE")["registers"][0]["raw"], 2)
+
+    def test_a_mac800_is_known_by_itself(self):
+        self.motor(model="MAC800")
+        self.assertEqual(self.reg("get", "V_SOLL")["registers"][0]["value"], "1000.16 rpm")  # 004: 2771 / 2.77056
+        self.refused(2, "MAC800", "--model", "MAC140", "get", "V_SOLL")
+
+    def test_why_answers_and_changes_when_it_is_mended(self):
+        self.motor()
+        self.assertEqual(self.reg("why")["findings"][0]["code"], "passive")
+        self.reg("set", "T_SOLL", "0", "MODE_REG", "V_MODE")
+        self.assertEqual(self.reg("why")["findings"][0]["code"], "torque_zero")
+        self.assertIn("T_SOLL", self.call("why").stdout)
+        self.reg("set", "T_SOLL", "100%")
+        self.until(lambda: self.reg("why")["findings"][0]["code"] == "moves")
+
+
+class Files(Case):
+    def test_dump_diff_and_load(self):
+        self.motor()
+        self.reg("dump", "-o", self.path("good.txt"))
+        self.assertIn("V_SOLL = 762.94 rpm", self.read("good.txt"))
+        self.assertEqual(self.call("diff", self.path("good.txt")).returncode, 0)
+        self.reg("set", "V_SOLL", "5", "P3", "123456")
+        different = self.call("--json", "diff", self.path("good.txt"))
+        self.assertEqual(different.returncode, 1)
+        self.assertEqual([one["name"] for one in json.loads(different.stdout)["differences"]], ["V_SOLL", "P3"])
+        self.assertEqual(self.reg("load", self.path("good.txt"))["written"], ["V_SOLL", "P3"])
+        self.assertEqual(self.value("V_SOLL"), 1600)
+        self.assertEqual(self.reg("load", self.path("good.txt"))["written"], [])
+        self.reg("dump", "-o", self.path("again.txt"))
+        self.assertEqual(self.call("diff", self.path("good.txt"), self.path("again.txt"), port="none").returncode, 0)
+
+    def test_a_bad_file_writes_nothing(self):
+        self.motor()
+        head = "model = MAC50-141\nV_SOLL = 7\n"
+        for part, text in ((":3: MAC50 to MAC141 has no register 'A_SOL'", head + "A_SOL = 5\n"),
+                           (":3: 'x' is no value", head + "T_SOLL = x\n"), ("is no file of macreg", "V_SOLL = 7\n"),
+                           ("MAC800", "model = MAC800\nV_SOLL = 7\n"), ("incomplete", head + "incomplete = lost\n"),
+                           ("holds no register", "model = MAC140\n"), ("--skip-dangerous", head + "KFF3 = 1\n"),
+                           ("type 99", head + "motor_type = 99\n")):
+            with self.subTest(part):
+                self.refused(2, part, "load", self.write("bad.txt", text))
+        self.refused(2, "cannot be read", "load", self.path("none.txt"))
+        self.refused(2, "folder", "load", self.folder.name)
+        self.assertEqual(self.value("V_SOLL"), 1600)
+
+    def test_a_motor_that_runs_is_not_changed_under_way(self):
+        self.motor()
+        self.reg("set", "V_SOLL", "100rpm", "MODE_REG", "V_MODE")
+        file = self.write("file.txt", "model = MAC140\nV_SOLL = 7\n")
+        self.refused(1, "V_MODE", "load", file)
+        self.reg("load", "--stop", file)
+        self.assertEqual((self.value("V_SOLL"), self.value("MODE_REG")), (7, 0))
+
+    def test_a_motor_that_vanishes_loses_nothing_already_read(self):
+        motor = self.motor("--mactalk-baud", "2400", endpoint="pty:" + self.path("tty"))
+        process = self.start("--baud", "2400", "dump", "-o", self.path("file.txt"))
+        part = self.path("file.txt.part")
+        self.until(lambda: os.path.exists(part) and "V_SOLL" in self.read("file.txt.part"))
+        motor.kill()
+        _, error = process.communicate(timeout=LONG)
+        self.assertEqual(process.returncode, 3, error)
+        self.assertIn("registers were read and are in", error)
+        text = self.read("file.txt.part")
+        self.assertIn("V_SOLL = 762.94 rpm", text)
+        self.assertIn("\nincomplete = ", text)
+        self.assertFalse(os.path.exists(self.path("file.txt")))
+
+    def test_ctrl_c_in_a_dump(self):
+        self.motor("--mactalk-baud", "2400", endpoint="pty:" + self.path("tty"))
+        process = self.start("--baud", "2400", "dump", "-o", self.path("file.txt"))
+        self.until(lambda: os.path.exists(self.path("file.txt.part")) and "V_SOLL" in self.read("file.txt.part"))
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=LONG)
+        self.assertEqual(process.returncode, 130)
+        self.assertIn("incomplete = interrupted", self.read("file.txt.part"))
+
+
+class Service(Case):
+    def test_flash_keeps_what_was_saved(self):
+        process = self.motor("--flash", self.path("flash"))
+        self.reg("set", "V_SOLL", "777")
+        self.refused(2, "say --yes", "flash", "save")
+        self.assertFalse(os.path.exists(self.path("flash")) and "777" in self.read("flash"))
+        self.reg("flash", "save", "--yes")
+        process.terminate()
+        process.wait(LONG)
+        self.motor("--flash", self.path("flash"))
+        self.assertEqual(self.value("V_SOLL"), 777)
+        self.reg("set", "V_SOLL", "5")
+        self.reg("reset", "--yes")
+        self.assertEqual(self.value("V_SOLL"), 777)
+        self.reg("flash", "defaults", "--unsaved", "--yes")
+        self.assertEqual(self.value("V_SOLL"), 1600)
+        self.reg("flash", "reload", "--yes")
+        self.assertEqual(self.value("V_SOLL"), 777)
+
+    def test_prepare_sets_saves_resets_and_checks(self):
+        self.motor()
+        self.assertFalse(self.reg("prepare").get("changed", True))
+        self.reg("set", "CNTRL_BITS", "none")
+        self.reg("flash", "save", "--yes")
+        self.assertEqual(self.value("CNTRL_BITS") & 3, 0)
+        self.reg("prepare", "--yes")
+        self.assertEqual(self.value("CNTRL_BITS") & 3, 3)  # 001 3.2.36: USERINTF 11
+        self.reg("reset", "--yes")
+        self.assertEqual(self.value("CNTRL_BITS") & 3, 3)
+
+    def test_find_tells_motors_apart(self):
+        self.motor("--unit", "MAC800:20")
+        units = self.reg("find", patience=30)["units"]
+        self.assertEqual([(one["address"], one["family"]) for one in units], [(8, "MAC50-141"), (20, "MAC800")])
+        self.refused(3, "--address", "get", "V_SOLL", patience=20)
+        self.assertEqual(self.reg("--address", "20", "get", "V_SOLL")["registers"][0]["raw"], 2771)
+
+    def test_find_where_nobody_is(self):
+        self.motor()
+        self.running[0].send_signal(signal.SIGSTOP)
+        self.refused(3, "nobody answers", "find", patience=20)
+        self.running[0].send_signal(signal.SIGCONT)
+
+
+class Line(Case):
+    def test_the_second_program_is_told_who_holds_the_port(self):
+        self.motor(endpoint="pty:" + self.path("tty"))
+        watcher = self.start("watch", "P_IST")
+        watcher.stdout.readline()
+        self.refused(3, f"macreg (process {watcher.pid}) holds this port", "get", "P_IST")
+        watcher.send_signal(signal.SIGINT)
+        watcher.communicate(timeout=LONG)
+        self.assertEqual(watcher.returncode, 0)
+        self.assertEqual(self.value("V_SOLL"), 1600)
+
+    def test_the_terminal_is_left_as_it_was(self):
+        self.motor(endpoint="pty:" + self.path("tty"))
+        for end in (signal.SIGINT, signal.SIGTERM):
+            line = os.open(self.path("tty"), os.O_RDWR | os.O_NOCTTY)
+            mode = termios.tcgetattr(line)
+            mode[3] |= termios.ECHO
+            termios.tcsetattr(line, termios.TCSANOW, mode)
+            before = termios.tcgetattr(line)
+            watcher = self.start("watch", "P_IST")
+            watcher.stdout.readline()
+            watcher.send_signal(end)
+            watcher.communicate(timeout=LONG)
+            self.assertEqual(watcher.returncode, 0)
+            self.assertEqual(termios.tcgetattr(line), before)
+            os.close(line)
+
+    def test_a_bad_line_costs_time_and_no_value(self):
+        self.motor("--speed", "10")
+        proxy = NoisyProxy(self.path("noisy"), self.path("port"), 0.002, 5)
+        self.addCleanup(proxy.close)
+        port = "unix:" + self.path("noisy")
+        for value in range(20):
+            self.reg("set", "V_SOLL", str(value), port=port, patience=60)
+            self.assertEqual(self.value("V_SOLL", port=port, patience=60), value)
+            self.assertEqual(self.value("A_SOLL", port=port, patience=60), 160)
+        self.assertGreater(proxy.damaged, 0)
+
+    def test_no_port_no_motor_no_sense(self):
+        self.motor()
+        for exit_code, part, *arguments in (
+                (2, "no command", "fly"),
+                (2, "--address", "--address", "0", "get", "1"), (2, "--address", "--address", "256", "get", "1"),
+                (2, "MAC15", "--model", "MAC15", "get", "1"), (2, "has no register", "get", "FOO"),
+                (2, "required", "get"), (2, "required", "flash"), (3, "asked 10 times", "--address", "77", "get", "1")):
+            with self.subTest(arguments):
+                self.refused(exit_code, part, *arguments, patience=20)
+        self.refused(3, "no such port", "get", "1", port="/dev/ttyNONE")
+        alone = subprocess.run([MACREG, "get", "1"], capture_output=True, text=True, check=False,
+                               env={key: value for key, value in os.environ.items() if key != "MACREG_PORT"})
+        self.assertEqual(alone.returncode, 2)
+        self.assertIn("MACREG_PORT", alone.stderr)
+
+    def test_a_full_disk_and_a_closed_pipe(self):
+        self.motor()
+        self.refused(2, "cannot be written", "dump", "-o", "/none/file")
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            result = subprocess.run([MACREG, "--port", self.endpoint, "get", "V_SOLL"], stdout=full,
+                                    stderr=subprocess.PIPE, check=False)
+        self.assertEqual(result.returncode, 2)
+
+    def test_help_completion_and_manual(self):
+        for arguments, part in ((["--help"], "why"), (["--version"], "macreg "), (["man"], ".SH COMMANDS"),
+                                (["completion", "bash"], "complete -o filenames -F _macreg macreg"),
+                                (["completion", "zsh"], "#compdef macreg"), (["list", "V_SOLL"], "Velocity, or limit")):
+            result = subprocess.run([MACREG, *arguments], capture_output=True, text=True, check=False)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn(part, result.stdout)
+        script = self.write("completion", subprocess.run([MACREG, "completion", "bash"], capture_output=True, text=True,
+                                                         check=False).stdout)
+        self.assertEqual(subprocess.run(["bash", "-n", script], check=False).returncode, 0)
+
+
+class Gateway(Case):
+    def gateway(self, *arguments):
+        table = self.path("shuttle.bin")
+        subprocess.run([SEQC, "build", SHUTTLE, "-o", table], check=True)
+        self.launch(SIM, "run", table, "--realtime", "--mactalk", self.endpoint, *arguments)
+
+    def test_registers_of_the_motor_behind_a_gateway(self):
+        self.gateway()
+        self.assertEqual(self.value("T_SOLL", patience=1000), 1023)
+        refused = self.reg("set", "P8", "4711", exit_code=1, patience=1000)
+        self.assertIn("sequence runs", refused["reason"])
+        found = [one["code"] for one in self.reg("why", patience=1000)["findings"]]
+        self.assertIn("gateway_runs", found)
+        self.refused(3, "gateway's, not a motor's", "--address", "128", "get", "1", patience=1000)
+
+
+if __name__ == "__main__":
+    MACREG, MACSIM, SIM, SEQC, SHUTTLE = sys.argv[1:6]
+    unittest.main(argv=[sys.argv[0], *sys.argv[6:]])

@@ -1,0 +1,103 @@
+#include "macreg/service.h"
+
+#include <gtest/gtest.h>
+
+#include "bench.h"
+
+namespace nplc::macreg {
+namespace {
+
+using namespace std::chrono_literals;
+using mactalk_client::Interrupted;
+
+struct ServiceTest : testing::Test {
+    Bench bench;
+    int looks = 1000;  ///< until the user has had enough
+    Service service{bench.motor, [this] { return --looks > 0; }};
+
+    std::int64_t mode() const { return bench.at("MODE_REG"); }
+};
+
+// 001 §4.4.16, §5.1
+TEST_F(ServiceTest, SafeModeIsEnteredFromInitAndLeftToInit) {
+    service.enter_safe();
+    EXPECT_EQ(mode(), 15);
+    service.enter_safe();
+    EXPECT_EQ(mode(), 15);
+    service.exit_safe();
+    EXPECT_EQ(mode(), 0);
+    EXPECT_THROW(service.exit_safe(), NotDone);
+}
+
+TEST_F(ServiceTest, AMotorThatRunsIsNotStoppedUnlessAllowed) {
+    bench.put("MODE_REG", 1);
+    bench.run(500ms);
+    EXPECT_THROW(service.enter_safe(), NotDone);
+    EXPECT_EQ(mode(), 1);
+    service.allow_stop();
+    service.enter_safe();
+    EXPECT_EQ(mode(), 15);
+}
+
+TEST_F(ServiceTest, SaveKeepsWhatIsInMemoryAndResets) {
+    bench.put("V_SOLL", 777);
+    EXPECT_TRUE(service.save().empty());
+    EXPECT_EQ(bench.sim.flash_writes(), 1U);
+    EXPECT_EQ(mode(), 0);
+    bench.put("V_SOLL", 5);
+    bench.sim.power_cycle();
+    EXPECT_EQ(bench.at("V_SOLL"), 777);
+}
+
+TEST_F(ServiceTest, ResetForgetsWhatWasNotSaved) {
+    bench.put("V_SOLL", 777);
+    service.reset();
+    EXPECT_EQ(bench.at("V_SOLL"), 1600);
+    EXPECT_EQ(mode(), 0);
+    EXPECT_EQ(bench.sim.flash_writes(), 0U);
+}
+
+TEST_F(ServiceTest, DefaultsAndReload) {
+    bench.put("V_SOLL", 777);
+    static_cast<void>(service.save());
+    bench.put("V_SOLL", 5);
+    service.reload();
+    EXPECT_EQ(bench.at("V_SOLL"), 777);
+    EXPECT_EQ(mode(), 0);
+    service.defaults(false);
+    EXPECT_EQ(bench.at("V_SOLL"), 1600);
+    EXPECT_EQ(bench.sim.flash_writes(), 1U);
+    service.defaults(true);
+    EXPECT_EQ(bench.sim.flash_writes(), 2U);
+    EXPECT_EQ(bench.at("V_SOLL"), 1600);
+}
+
+TEST_F(ServiceTest, AnInterruptionLeavesTheMotorAsItWasFound) {
+    looks = 1;
+    EXPECT_THROW(static_cast<void>(service.save()), Interrupted);
+    EXPECT_EQ(mode(), 0);
+    EXPECT_EQ(bench.sim.flash_writes(), 0U);
+    bench.sim.enter_safe_mode();
+    looks = 1;
+    EXPECT_THROW(service.reset(), Interrupted);
+    EXPECT_EQ(mode(), 15);
+}
+
+TEST_F(ServiceTest, NoiseDoesNotLoseAnOrder) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        Bench noisy(registers::Model::mac140, seed);
+        noisy.put("V_SOLL", 777);
+        noisy.wire.set_faults({.drop = 0.002, .damage = 0.002});
+        Service(noisy.motor, {}).reset();
+        EXPECT_EQ(noisy.at("V_SOLL"), 1600) << "seed " << seed;
+        EXPECT_NE(noisy.at("MODE_REG"), 15) << "seed " << seed;
+    }
+}
+
+TEST_F(ServiceTest, AMotorThatVanishesIsALineError) {
+    bench.units.bytes_to_live = 100;
+    EXPECT_THROW(static_cast<void>(service.save()), mactalk_client::LineError);
+}
+
+}  // namespace
+}  // namespace nplc::macreg

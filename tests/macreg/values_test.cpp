@@ -1,0 +1,72 @@
+#include "macreg/values.h"
+
+#include <gtest/gtest.h>
+
+namespace nplc::macreg {
+namespace {
+
+using registers::Model;
+
+const registers::Register& reg(std::string_view name, Model model = Model::mac140) {
+    return *registers::find(model, name);
+}
+
+TypedValue typed(std::string_view name, std::string_view text, Model model = Model::mac140) {
+    return typed_value(reg(name, model), model, text);
+}
+
+// 001 §3.2.5: 1600 is 762.9 rpm; a step is 0.4768 rpm, so 1500 rpm is 3145.7 steps.
+TEST(Values, TakesUnitsRawHexAndNames) {
+    EXPECT_EQ(typed("V_SOLL", "1500rpm").raw, 3146);
+    EXPECT_NE(typed("V_SOLL", "1500rpm").rounding, "");
+    EXPECT_EQ(typed("V_SOLL", "1600").rounding, "");
+    EXPECT_EQ(typed("V_SOLL", "raw:-1600").raw, -1600);
+    EXPECT_EQ(typed("V_SOLL", "0xFFFE").raw, -2);
+    EXPECT_EQ(typed("KVOUT", "1.5").raw, 384);
+    EXPECT_EQ(typed("KVOUT", "raw:384").raw, 384);
+    EXPECT_EQ(typed("MODE_REG", "P_MODE").raw, 2);
+    EXPECT_EQ(typed("MODE_REG", "p_mode").raw, 2);
+    EXPECT_EQ(typed("CNTRL_BITS", "USERINTF=COMMUNICATION+HICLK").raw, 0x13);
+    EXPECT_EQ(typed("CNTRL_BITS", "none").raw, 0);
+    EXPECT_EQ(typed("T_SOLL", "100%").raw, 1023);
+}
+
+TEST(Values, SaysWhatIsWrong) {
+    for (const auto& [name, text, part] :
+         std::vector<std::array<const char*, 3>>{{"T_SOLL", "1024", "0 %peak to 100 %peak (raw 0 to 1023)"},
+                                                 {"T_SOLL", "101%", "out of range"},
+                                                 {"T_SOLL", "20A", "T_SOLL takes %peak"},
+                                                 {"V_SOLL", "32768", "out of range"},
+                                                 {"V_SOLL", "raw:40000", "out of range"},
+                                                 {"V_SOLL", "0x1FFFF", "16 bits"},
+                                                 {"V_SOLL", "0.1rpm", "less than half a step"},
+                                                 {"V_SOLL", "raw:", "no value"},
+                                                 {"V_SOLL", "1 2", "no value"},
+                                                 {"MODE_REG", "FAST", "no value"},
+                                                 {"CNTRL_BITS", "HICLK+FOO", "no value"},
+                                                 {"GEARF1", "3 rpm", "plain number"},
+                                                 {"V_SOLL", "", "no value"}}) {
+        const TypedValue value = typed(name, text);
+        EXPECT_NE(value.error.find(part), std::string::npos) << name << " " << text << ": " << value.error;
+    }
+}
+
+TEST(Values, ShownNamesGiveTheSameBitsAgain) {
+    EXPECT_EQ(value_text(reg("MODE_REG"), Model::mac140, 2), "P_MODE");
+    EXPECT_EQ(value_text(reg("ERR_STAT"), Model::mac140, 0x12), "FLW_ERR IN_POS");
+    EXPECT_EQ(typed("ERR_STAT", "FLW_ERR IN_POS").raw, 0x12);
+    EXPECT_EQ(value_text(reg("V_SOLL"), Model::mac140, 1600), "762.94 rpm");
+}
+
+TEST(Values, FindsRegistersByNameAndNumber) {
+    EXPECT_EQ(find_register(Model::mac140, "v_soll").reg, &reg("V_SOLL"));
+    EXPECT_EQ(find_register(Model::mac140, "5").reg, &reg("V_SOLL"));
+    EXPECT_NE(find_register(Model::mac140, "V_SOL").error.find("did you mean V_SOLL"), std::string::npos);
+    EXPECT_NE(find_register(Model::mac140, "4").error.find("upper word of register 3, P_SOLL"),
+              std::string::npos);
+    for (const char* wrong : {"0", "256", "-1", "999999999999999999999", "165", ""})
+        EXPECT_EQ(find_register(Model::mac140, wrong).reg, nullptr) << wrong;
+}
+
+}  // namespace
+}  // namespace nplc::macreg

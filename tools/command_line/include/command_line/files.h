@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace nplc::command_line {
+
+/// A file's content; what goes wrong, a folder or more than 4 MiB included, is a UserError.
+std::string read_whole(const std::string& path);
+
+}  // namespace nplc::command_line

@@ -1,0 +1,182 @@
+#include "macreg/service.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/subcommands.h"
+#include "macreg/change.h"
+#include "macreg/values.h"
+
+namespace nplc::macreg::cli {
+namespace {
+
+using registers::Model;
+
+struct Options {
+    bool stop = false;
+    bool unsaved = false;
+};
+
+std::string names(const std::vector<std::string>& all) {
+    return fmt::format("{}", fmt::join(all, ", "));
+}
+
+/// What the motor will do when it starts anew: owners should know before they say yes.
+std::string what_a_start_does(Session& session) {
+    Motor& motor = session.motor();
+    const Model model = motor.model();
+    const std::int64_t home = motor.read(registers::HOME_MODE) & 0xFF;
+    const std::int64_t start = motor.read(registers::STARTMODE);
+    if (home >= 12 && home <= 14)
+        return fmt::format("the motor then homes ({}) and goes on in {}", mode_text(model, home),
+                           mode_text(model, start));
+    return fmt::format("the motor then starts in {}", mode_text(model, start));
+}
+
+void tell_mode(Session& session, const std::string& what) {
+    const std::int64_t mode = session.motor().read(registers::MODE_REG);
+    const std::string name = mode_text(session.motor().model(), mode);
+    session.tell(fmt::format("{}; the motor is in {}", what, name), {{"mode", mode}, {"mode_name", name}});
+}
+
+void with_service(Session& session, const Options& options, const std::function<void(Service&)>& what) {
+    Service service(session.motor(), goes_on);
+    if (options.stop) service.allow_stop();
+    what(service);
+}
+
+void save(Session& session, const Options& options) {
+    session.ask(fmt::format("The motor's flash is written over with what it has in memory, and it resets: {}",
+                            what_a_start_does(session)));
+    with_service(session, options, [&](Service& service) {
+        const auto changed = service.save();
+        if (!changed.empty())
+            refuse(fmt::format("after the reset these have another value than was to be saved: {}",
+                               names(changed)),
+                   {{"changed", changed}});
+        tell_mode(session, "saved, reset and checked");
+    });
+}
+
+void defaults(Session& session, const Options& options) {
+    session.ask(options.unsaved
+                    ? "All parameters in the motor's memory become the factory's; its flash stays as it is"
+                    : "All parameters of the motor, those in its flash too, become the factory's, and it "
+                      "resets. What was "
+                      "set by its owner is lost (`macreg dump` keeps it)");
+    with_service(session, options, [&](Service& service) {
+        service.defaults(!options.unsaved);
+        tell_mode(session, options.unsaved ? "the factory's parameters are in memory, the flash is as it was"
+                                           : "the factory's parameters are in memory and flash");
+    });
+}
+
+void reload(Session& session, const Options& options) {
+    session.ask("What was changed in the motor's memory and not saved is lost");
+    with_service(session, options, [&](Service& service) {
+        service.reload();
+        tell_mode(session, "the flash's parameters are in memory");
+    });
+}
+
+void reset(Session& session, const Options& options) {
+    session.ask(fmt::format("The motor resets, and what was changed and not saved is lost; {}",
+                            what_a_start_does(session)));
+    with_service(session, options, [&](Service& service) {
+        service.reset();
+        tell_mode(session, "reset");
+    });
+}
+
+/// FastMAC and FlexMAC need the user interface set to communication, which counts from a reset on (001
+/// §3.2.36).
+void prepare(Session& session, const Options& options) {
+    constexpr std::int64_t kCommunication = 3;
+    Motor& motor = session.motor();
+    if (motor.model() == Model::mac800)
+        return session.tell("a MAC800 needs no preparation: its FastMAC line is always on",
+                            {{"changed", false}});
+    const registers::Register& bits = *motor.find(registers::CNTRL_BITS);
+    const std::int64_t before = motor.read(bits);
+    if ((before & kCommunication) == kCommunication)
+        return session.tell(
+            "nothing to do: CNTRL_BITS has USERINTF=COMMUNICATION. If FastMAC does not work, it was set and "
+            "not saved: "
+            "`macreg flash save`",
+            {{"changed", false}});
+    session.ask(fmt::format(
+        "USERINTF becomes COMMUNICATION (it is {}): the pins of the pulse input belong to FastMAC "
+        "then. All of the motor's memory is saved in flash, and it resets: {}",
+        names_text(bits, motor.model(), before), what_a_start_does(session)));
+    with_service(session, options, [&](Service& service) {
+        const Outcome outcome = change(motor, bits, before | kCommunication);
+        if (!outcome.taken) refuse(fmt::format("CNTRL_BITS was not taken: {}", outcome.why));
+        std::vector<std::string> changed;
+        try {
+            changed = service.save();
+        } catch (...) {
+            // As found: what is in memory would be saved by somebody else some day.
+            static_cast<void>(change(motor, bits, before));
+            throw;
+        }
+        if ((motor.read(bits) & kCommunication) != kCommunication || !changed.empty())
+            refuse("after the reset the motor has other values than were saved: " + names(changed));
+        tell_mode(session, "ready for FastMAC: set, saved, reset and checked");
+    });
+}
+
+CLI::App& add(CLI::App& app, Common& common, const char* name, const char* text,
+              void (*what)(Session&, const Options&), const std::shared_ptr<Options>& options) {
+    CLI::App& command = add_command(app, name, text);
+    command.add_flag("--stop", options->stop, "Stop the motor first if it is in a mode that moves it");
+    command.callback([options, what, &common] {
+        work(common, [&](Session& session) {
+            try {
+                what(session, *options);
+            } catch (const NotDone& error) {
+                refuse(error.what());
+            }
+        });
+    });
+    return command;
+}
+
+}  // namespace
+
+void add_service(CLI::App& app, Common& common) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& flash = add_command(app, "flash", "The parameters in the motor's flash; asks first");
+    flash.require_subcommand(1);
+    add(flash, common, "save",
+        "Write what the motor has in memory into its flash; it resets, and is compared afterwards", save,
+        options);
+    add(flash, common, "defaults", "The factory's parameters, in memory and flash", defaults, options)
+        .add_flag("--unsaved", options->unsaved, "In memory only");
+    add(flash, common, "reload", "The flash's parameters back into memory, without a reset", reload, options);
+    CLI::App& safe = add_command(app, "safe", "SAFE_MODE: passive, and deaf to FastMAC (001 4.4.16)");
+    safe.require_subcommand(1);
+    add(
+        safe, common, "enter", "From INIT_MODE into SAFE_MODE",
+        [](Session& s, const Options& o) {
+            with_service(s, o, [&](Service& service) {
+                service.enter_safe();
+                tell_mode(s, "done");
+            });
+        },
+        options);
+    add(
+        safe, common, "exit", "From SAFE_MODE into INIT_MODE",
+        [](Session& s, const Options& o) {
+            with_service(s, o, [&](Service& service) {
+                service.exit_safe();
+                tell_mode(s, "done");
+            });
+        },
+        options);
+    add(app, common, "reset", "Restart the motor; asks first", reset, options);
+    add(app, common, "prepare", "Set what FastMAC needs, save it, reset, and check; asks first", prepare,
+        options);
+}
+
+}  // namespace nplc::macreg::cli

@@ -1,0 +1,177 @@
+#include "macreg/service.h"
+
+#include <fmt/format.h>
+
+#include "macreg/change.h"
+#include "macreg/parameters.h"
+#include "macreg/values.h"
+
+namespace nplc::macreg {
+
+using mactalk_client::Interrupted;
+using mactalk_client::LineError;
+using registers::Model;
+
+namespace {
+
+constexpr std::int64_t kInit = 0;
+constexpr std::int64_t kSafe = 15;
+constexpr std::int64_t kDefaultsToFlash = 256;
+constexpr std::int64_t kDefaults = 257;
+constexpr std::int64_t kReload = 258;
+constexpr base::Milliseconds kLook{50};
+constexpr base::Milliseconds kStopWait{10'000};
+/// R: no manual says how long the flash takes.
+constexpr base::Milliseconds kRestartWait{5'000};
+constexpr base::Milliseconds kOrderWait{1'000};
+constexpr int kOrders = 3;
+
+/// A gateway that does not let 54h to 57h through says nothing; its registers do.
+[[noreturn]] void no_accept(Motor& motor, const LineError& error) {
+    const std::string refusal =
+        error.kind() == LineError::Kind::no_answer ? gateway_refusal(motor) : std::string();
+    if (!refusal.empty()) throw NotDone(refusal);
+    throw LineError(error.kind(), error.what());
+}
+
+void go_to_init(Motor& motor) {
+    try {
+        motor.master().init_mode(motor.address());
+    } catch (const LineError& error) {
+        no_accept(motor, error);
+    }
+}
+
+void wait_until_passive(Motor& motor, const std::function<bool()>& goes_on) {
+    const base::Instant end = motor.now() + kStopWait;
+    while (motor.read(registers::MODE_REG) != kInit) {
+        if (goes_on && !goes_on()) throw Interrupted("interrupted; the motor was told to stop");
+        if (motor.now() >= end)
+            throw NotDone(
+                "the motor was told to stop and does not become passive, also not after 10 s; is something "
+                "driving its shaft, or does a sequence start it again?");
+        motor.master().pause(kLook);
+    }
+}
+
+}  // namespace
+
+std::string mode_text(Model model, std::int64_t mode) {
+    return value_text(*registers::find(model, registers::MODE_REG), model, mode);
+}
+
+SafeMode::SafeMode(Motor& motor, bool stop, std::function<bool()> goes_on) : motor_(motor) {
+    const std::int64_t found = motor.read(registers::MODE_REG);
+    was_safe_ = found == kSafe;
+    if (was_safe_) return;
+    if (found != kInit) {
+        if (!stop)
+            throw NotDone(
+                fmt::format("the motor is in {} and would have to be stopped; stop it first, or say --stop",
+                            mode_text(motor.model(), found)));
+        go_to_init(motor);
+        wait_until_passive(motor, goes_on);
+    }
+    try {
+        motor.master().safe_mode(motor.address());
+    } catch (const LineError& error) {
+        no_accept(motor, error);
+    }
+}
+
+SafeMode::~SafeMode() {
+    if (left_ || was_safe_) return;
+    try {
+        motor_.master().init_mode(motor_.address());
+    } catch (const std::exception&) {  // the line is gone; nothing more can be done
+    }
+}
+
+void Service::look() const {
+    if (goes_on_ && !goes_on_()) throw Interrupted("interrupted before it was done");
+}
+
+void Service::enter_safe() {
+    SafeMode safe(motor_, stop_, goes_on_);
+    safe.keep();
+    if (mode() != kSafe)
+        throw NotDone("the motor did not stay in SAFE_MODE; does another master speak to it?");
+}
+
+void Service::exit_safe() {
+    if (mode() != kSafe)
+        throw NotDone(
+            fmt::format("the motor is not in SAFE_MODE but in {}", mode_text(motor_.model(), mode())));
+    go_to_init(motor_);
+    if (mode() == kSafe) throw NotDone("the motor did not leave SAFE_MODE");
+}
+
+/// Out of SAFE_MODE it has been reset: no other message does that here. False: the order was lost.
+bool Service::wait_until_out_of_safe() {
+    const base::Instant begun = motor_.now();
+    std::string silence = "the motor does not answer any more";
+    while (motor_.now() < begun + kRestartWait) {
+        motor_.master().pause(kLook);
+        try {
+            if (mode() != kSafe) return true;
+            if (motor_.now() > begun + kOrderWait) return false;
+        } catch (const LineError& error) {
+            if (error.kind() != LineError::Kind::no_answer) throw;
+            silence = error.what();
+        }
+    }
+    throw LineError(LineError::Kind::no_answer,
+                    silence + "; if its address came back to another value, `macreg find` shows it");
+}
+
+/// Nothing is answered to 56h, 57h and MODE_REG 256: they are sent again while the motor is still in
+/// SAFE_MODE.
+void Service::order_reset(const std::function<void()>& order, const char* what) {
+    SafeMode safe(motor_, stop_, goes_on_);
+    look();
+    for (int i = 0; i < kOrders; ++i) {
+        order();
+        if (!wait_until_out_of_safe()) continue;
+        safe.left();
+        return;
+    }
+    throw NotDone(fmt::format("the motor did not {}, asked {} times; it is as before", what, kOrders));
+}
+
+std::vector<std::string> Service::save() {
+    const ParameterSet before = read_parameters(motor_, {}, {});
+    order_reset([&] { motor_.master().write_flash(motor_.address()); }, "write its flash");
+    const ParameterSet after = read_parameters(motor_, {}, {});
+    std::vector<std::string> changed;
+    for (const Difference& one : differences(before, after)) changed.push_back(one.reg->name.data());
+    return changed;
+}
+
+void Service::reset() {
+    order_reset([&] { motor_.master().reset(motor_.address()); }, "reset");
+}
+
+void Service::defaults(bool into_flash) {
+    if (!into_flash) return order_parameters(kDefaults, "read its defaults");
+    const registers::Register& mode_reg = *motor_.find(registers::MODE_REG);
+    order_reset([&] { static_cast<void>(motor_.try_write(mode_reg, kDefaultsToFlash)); },
+                "read its defaults");
+}
+
+void Service::reload() {
+    order_parameters(kReload, "read its flash");
+}
+
+/// Reading parameters twice is reading them once.
+void Service::order_parameters(std::int64_t code, const char* what) {
+    SafeMode safe(motor_, stop_, goes_on_);
+    look();
+    const registers::Register& mode_reg = *motor_.find(registers::MODE_REG);
+    for (int i = 0; i < kOrders; ++i) {
+        if (motor_.try_write(mode_reg, code)) return;
+    }
+    const std::string refusal = gateway_refusal(motor_);
+    throw NotDone(refusal.empty() ? fmt::format("the motor did not accept to {}", what) : refusal);
+}
+
+}  // namespace nplc::macreg

@@ -1,0 +1,265 @@
+#include "macreg/why.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/bytes.h"
+#include "macreg/values.h"
+#include "registers/gateway.h"
+#include "why_parts.h"
+
+namespace nplc::macreg {
+
+namespace gw = registers::gateway;
+using enum registers::Number;
+
+namespace {
+
+constexpr base::Milliseconds kBetween{200};
+/// Counts between two looks that encoder noise does not make.
+constexpr std::int64_t kMotion = 8;
+
+constexpr std::string_view kJudged[] = {
+    "MODE_REG",  "P_SOLL",     "V_SOLL",    "A_SOLL",    "T_SOLL",    "P_FNC",     "P_IST",     "V_IST",
+    "KVOUT",     "GEARF1",     "GEARF2",    "I2T",       "I2TLIM",    "UIT",       "UITLIM",    "FLWERR",
+    "FLWERRMAX", "FNCERR",     "FNCERRMAX", "MIN_P_IST", "MAX_P_IST", "ACC_EMERG", "ERR_STAT",  "CNTRL_BITS",
+    "STARTMODE", "START_MODE", "V_HOME",    "T_HOME",    "HOME_MODE", "P_REG_P",   "V_REG_P",   "A_REG_P",
+    "T_REG_P",   "L_REG_P",    "Z_REG_P",   "P1",        "P2",        "P3",        "P4",        "P5",
+    "P6",        "V8",         "KFF0",      "KFF1",      "KFF2",      "KFF3",      "KFF4",      "KFF5",
+    "KVFX1",     "KVFX2",      "KVFX3",     "KVFX4",     "KVFX5",     "KVFX6",     "KIFX1",     "KIFX2",
+    "FNC_OUT",   "V_EXT",      "VF_OUT",    "ANINP",     "AMPLITUDE", "U_SUPPLY",  "U_MIN_SUP", "UV_HANDLE",
+    "U_24V",     "DEGC",       "DEGCMAX",   "U_BUS"};
+
+std::vector<const registers::Register*> judged(registers::Model model) {
+    std::vector<const registers::Register*> all;
+    for (const std::string_view name : kJudged) {
+        const registers::Register* reg = registers::find(model, name);
+        if (reg != nullptr && std::find(all.begin(), all.end(), reg) == all.end()) all.push_back(reg);
+    }
+    return all;
+}
+
+void judge_gateway(const Facts& facts, Findings& findings) {
+    if (!facts.gateway()) return;
+    const auto& [status, reason] = *facts.gateway();
+    const auto state = static_cast<gw::RunState>(status & gw::kRunState);
+    if ((status & gw::kLinkDelivers) == 0)
+        findings.push_back(
+            {"gateway_link_down",
+             Severity::stops,
+             "The gateway's FastMAC link to the motor does not work, so no order of the sequence arrives.",
+             {},
+             "`nanoctl status` and `nanoctl log` tell more; mend the line, or run `macreg prepare` on the "
+             "motor's own port."});
+    if (state == gw::RunState::stopped)
+        findings.push_back({"gateway_stopped",
+                            Severity::hinders,
+                            "The gateway's sequence is stopped, so it gives the motor no orders.",
+                            {},
+                            "`nanoctl run` starts it."});
+    else if (state == gw::RunState::held || state == gw::RunState::holding)
+        findings.push_back({"gateway_held",
+                            Severity::stops,
+                            "The gateway's sequence is held, the motor stopped.",
+                            {},
+                            "`nanoctl run` lets it go on, `nanoctl step` goes a step."});
+    else
+        findings.push_back(
+            {"gateway_runs",
+             Severity::tells,
+             "The gateway's sequence runs and orders the motor's modes and targets: what is set here it may "
+             "set again.",
+             {},
+             "`nanoctl watch` shows which step it waits in; `nanoctl stop` before setting anything here."});
+    if ((status & gw::kSafe) != 0)
+        findings.push_back({"gateway_safe",
+                            Severity::hinders,
+                            fmt::format("The gateway is in its safe state (reason {}).", reason),
+                            {},
+                            "`nanoctl status` names the reason and what ends it."});
+}
+
+/// With the torque at its limit, no motion, and an error that grows: something holds the shaft.
+void judge_torque(const Facts& facts, Findings& findings) {
+    const std::int64_t limit = facts.torque_limit();
+    const std::int64_t torque = std::abs(facts.at("VF_OUT"));
+    if (limit <= 0 || torque < limit - limit / 32 || facts.moves()) return;
+    const auto grows = [&](std::uint8_t number) {
+        return std::abs(facts.at(number)) > std::abs(facts.before(number));
+    };
+    if (!grows(FLWERR) && !grows(FNCERR)) return;
+    const std::uint8_t reg = facts.mode() == kHome1 ? T_HOME : T_SOLL;
+    std::vector<std::uint8_t> seen{facts.number("VF_OUT"), reg, FLWERR, FNCERR, V_IST};
+    if (limit >= 1000) {
+        findings.push_back(
+            {"blocked", Severity::stops,
+             fmt::format("The motor pushes with its full torque ({}) and stands: its shaft is blocked, or "
+                         "the load is too heavy.",
+                         facts.text("VF_OUT")),
+             seen, "Free the shaft; look for a holding brake, a mechanical stop, a wrong direction."});
+        return;
+    }
+    findings.push_back(
+        {"torque_too_small", Severity::stops,
+         fmt::format("The motor pushes with all the torque it may use ({}) and stands.", facts.text(reg)),
+         seen, "Free the shaft, or allow more torque: `macreg set T_SOLL 100%` if the machine may take it."});
+}
+
+bool all_zero(const Facts& facts, std::initializer_list<std::string_view> names) {
+    return std::all_of(names.begin(), names.end(),
+                       [&](std::string_view name) { return !facts.knows(name) || facts.at(name) == 0; });
+}
+
+void judge_regulator(const Facts& facts, Findings& findings) {
+    constexpr const char* kRestore =
+        "Bring the parameters back: `macreg load` of a good file, or `macreg flash reload`, or `macreg flash "
+        "defaults`.";
+    const auto add = [&](const char* code, std::string_view first, std::string sentence) {
+        findings.push_back({code, Severity::stops, std::move(sentence), {facts.number(first)}, kRestore});
+    };
+    if (facts.is_driven() && facts.at(KVOUT) == 0)
+        findings.push_back(
+            {"load_factor_zero",
+             Severity::stops,
+             "KVOUT, the load factor, is 0: the torque that the regulator asks for is multiplied by it.",
+             {KVOUT},
+             "`macreg set KVOUT 1`, more with inertia at the shaft."});
+    if (facts.at("AMPLITUDE") == 0)
+        add("amplitude_zero", "AMPLITUDE", "AMPLITUDE is 0, so no current flows in the windings.");
+    if (all_zero(facts, {"KVFX1", "KVFX2", "KVFX3", "KVFX4", "KVFX5", "KVFX6"}))
+        add("regulator_zero", "KVFX1",
+            "All numerators of the speed regulator (KVFX) are 0: it never asks for torque.");
+    if (all_zero(facts, {"KFF0", "KFF1", "KFF2", "KFF3", "KFF4", "KFF5"}))
+        add("profile_filter_zero", "KFF0",
+            "All coefficients of the profile's filter (KFF) are 0: no velocity gets through it.");
+    if (all_zero(facts, {"KIFX1", "KIFX2"}))
+        add("current_regulator_zero", "KIFX1",
+            "The current regulator's numerators (KIFX) are 0: no voltage reaches the windings.");
+}
+
+void judge_pointers(const Facts& facts, Findings& findings) {
+    constexpr std::uint8_t kPointers[] = {P_REG_P, V_REG_P, A_REG_P, T_REG_P, L_REG_P, Z_REG_P};
+    for (const std::uint8_t number : kPointers) {
+        if (facts.at(number) == 0) continue;
+        const std::string name(registers::find(facts.model(), number)->name);
+        findings.push_back(
+            {"pointer_stuck",
+             Severity::hinders,
+             fmt::format("{} is {}, and there is no register of that number: nothing was selected.", name,
+                         facts.at(number)),
+             {number},
+             fmt::format("`macreg set {} 1` selects the first register; 8 is the most for P and V, 4 "
+                         "for the others.",
+                         name)});
+    }
+}
+
+void judge_link(const Facts& facts, Findings& findings) {
+    const bool fastmac = !facts.large() && (facts.at(CNTRL_BITS) & 3) == 3;
+    if (fastmac && !facts.gateway())
+        findings.push_back(
+            {"fastmac_owns",
+             Severity::tells,
+             "The user interface is set to FastMAC: whoever is wired to it (an expansion module, a PLC) may "
+             "set modes and targets at any time.",
+             {CNTRL_BITS},
+             "If values change by themselves, stop that one first, or use `macreg safe enter`."});
+}
+
+Finding unknown(const Facts& facts) {
+    return {"unknown",
+            Severity::tells,
+            fmt::format("Nothing is found that keeps the motor from moving: {}, no error, and all that this "
+                        "mode needs is "
+                        "there.",
+                        facts.text(MODE_REG)),
+            {MODE_REG, P_SOLL, P_IST, V_SOLL, A_SOLL, T_SOLL, V_IST, facts.number("VF_OUT"), ERR_STAT},
+            "Watch what it does: `macreg watch MODE_REG P_SOLL P_FNC P_IST V_IST VF_OUT FLWERR`."};
+}
+
+Finding moving(const Facts& facts) {
+    return {"moves",
+            Severity::tells,
+            facts.mode() == kInit || facts.mode() == kSafe
+                ? fmt::format("The shaft turns although the motor is passive ({}): something else turns it.",
+                              facts.text(V_IST))
+                : fmt::format("It moves: {}.", facts.text(V_IST)),
+            {V_IST, P_IST},
+            "Nothing to mend in the motor; if the machine stands, look at the coupling."};
+}
+
+}  // namespace
+
+std::string Facts::text(std::uint8_t number) const {
+    const registers::Register* reg = registers::find(model(), number);
+    return reg == nullptr ? std::string()
+                          : fmt::format("{} {}", reg->name, value_text(*reg, model(), at(number)));
+}
+
+bool Facts::moves() const {
+    return std::abs(at(P_IST) - before(P_IST)) >= kMotion && (at(V_IST) != 0 || before(V_IST) != 0);
+}
+
+bool Facts::gears() const {
+    return mode() == kGearPosition || mode() == kAnalogueGear || mode() == kCoil || mode() == kGearFollow;
+}
+
+bool Facts::positions() const {
+    return mode() == kPosition || mode() == kAnalogue2Position || mode() == kAnaloguePosition;
+}
+
+bool Facts::has_velocity_limit() const {
+    return positions() || gears() || mode() == kVelocity || mode() == kAnalogueVelocity ||
+           mode() == kAnalogueVelocityGear || mode() == kAnalogueVelocityZero ||
+           mode() == kVelocityAnalogueTorque;
+}
+
+bool Facts::is_driven() const {
+    return has_velocity_limit() || homes() || mode() == kStop;
+}
+
+std::int64_t Facts::torque_limit() const {
+    if (!is_driven()) return 0;
+    if (mode() == kStop) return 1023;
+    if (mode() == kHome1) return std::min<std::int64_t>(std::abs(at(T_HOME)) * 5 / 4, 1023);
+    if (mode() != kVelocityAnalogueTorque) return std::abs(at(T_SOLL));
+    return std::abs(at("ANINP") * at(T_SOLL)) / (full_voltage() + 1);
+}
+
+Condition read_condition(Motor& motor, bool look_for_gateway) {
+    Condition condition{.model = motor.model()};
+    const auto wanted = judged(motor.model());
+    condition.before = motor.read_block(wanted);
+    motor.master().pause(kBetween);
+    condition.now = motor.read_block(wanted);
+    if (!look_for_gateway || !motor.is_behind_gateway()) return condition;
+    const auto block = motor.master().read_block(gw::kDefaultAddress, gw::STATUS);
+    condition.gateway = {.status = base::load_u32(block.data()), .safe_reason = base::load_u32(&block[4])};
+    return condition;
+}
+
+std::vector<Finding> why(const Condition& condition) {
+    const Facts facts(condition);
+    Findings findings;
+    if (facts.moves()) findings.push_back(moving(facts));
+    judge_errors(facts, findings);
+    judge_gateway(facts, findings);
+    judge_modes(facts, findings);
+    judge_regulator(facts, findings);
+    judge_torque(facts, findings);
+    judge_pointers(facts, findings);
+    judge_link(facts, findings);
+    const auto says_why = [](const Finding& one) {
+        return one.severity != Severity::tells || one.code == "moves";
+    };
+    if (std::none_of(findings.begin(), findings.end(), says_why)) findings.push_back(unknown(facts));
+    std::stable_sort(findings.begin(), findings.end(),
+                     [](const Finding& a, const Finding& b) { return a.severity < b.severity; });
+    if (facts.moves())
+        std::stable_partition(findings.begin(), findings.end(),
+                              [](const Finding& one) { return one.code == "moves"; });
+    return findings;
+}
+
+}  // namespace nplc::macreg

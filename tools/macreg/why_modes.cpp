@@ -1,0 +1,228 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "macreg/change.h"
+#include "why_parts.h"
+
+namespace nplc::macreg {
+
+using enum registers::Number;
+
+namespace {
+
+/// 001 §4.1.10: high above 5.4 V, low below 4.4 V. Between them it stays what it was; this is the middle.
+constexpr std::int64_t kHighPercent = 49;
+
+void add(Findings& findings, const char* code, Severity severity, std::string sentence,
+         std::vector<std::uint8_t> registers, std::string remedy) {
+    findings.push_back({code, severity, std::move(sentence), std::move(registers), std::move(remedy)});
+}
+
+void judge_passive(const Facts& facts, Findings& findings) {
+    const std::int64_t mode = facts.mode();
+    if (mode == kSafe) {
+        add(findings, "safe_mode", Severity::stops,
+            "The motor is in SAFE_MODE: passive, and no mode can be chosen.", {MODE_REG},
+            "`macreg safe exit`, then choose a mode.");
+    } else if (mode == kInit) {
+        const bool error = (static_cast<std::uint32_t>(facts.at(ERR_STAT)) & error_bits(facts.model())) != 0;
+        add(findings, "passive", Severity::stops,
+            error ? "The motor is in INIT_MODE, passive, because of the error."
+                  : "The motor is in INIT_MODE: passive, nobody told it to move.",
+            {MODE_REG, STARTMODE},
+            error ? "When the error is cleared: `macreg set MODE_REG P_MODE` (or V_MODE ...)."
+                  : "`macreg set MODE_REG P_MODE` (or V_MODE ...); STARTMODE is the mode after power-up.");
+    } else if (mode == kStop) {
+        add(findings, "stop_mode", Severity::hinders,
+            fmt::format("The motor brakes in STOP_MODE on its way to another mode ({}).", facts.text(V_IST)),
+            {MODE_REG, V_IST, A_SOLL},
+            "It ends below 300 rpm. If it stays, something drives the shaft, or A_SOLL is too small.");
+    } else if (mode == kTestKi || mode == kTestTorque || (mode >= 7 && mode <= kBreak)) {
+        add(findings, "test_mode", Severity::stops,
+            fmt::format("{}: a mode of the maker's tests, which follows no velocity and no position.",
+                        facts.text(MODE_REG)),
+            {MODE_REG}, "`macreg set MODE_REG INIT_MODE`, then the mode that is wanted.");
+    } else if (mode > kGearFollow || mode < 0) {
+        add(findings, "mode_unknown", Severity::stops, fmt::format("MODE_REG is {}, which is no mode.", mode),
+            {MODE_REG}, "`macreg set MODE_REG INIT_MODE`, then the mode that is wanted.");
+    }
+}
+
+void judge_demands(const Facts& facts, Findings& findings) {
+    if (!facts.is_driven() || facts.mode() == kStop) return;
+    if (facts.mode() != kHome1 && facts.at(T_SOLL) == 0)
+        add(findings, "torque_zero", Severity::stops, "T_SOLL, the torque that the motor may use, is 0.",
+            {T_SOLL}, "`macreg set T_SOLL 100%`, or less if the machine takes less.");
+    if (facts.at(A_SOLL) == 0)
+        add(findings, "acceleration_zero", Severity::stops,
+            "A_SOLL, the acceleration, is 0: the velocity can never change.", {A_SOLL},
+            "`macreg set A_SOLL 10000rpm/s`, for example.");
+    if (!facts.has_velocity_limit()) return;
+    const std::int64_t v = std::abs(facts.at(V_SOLL));
+    const bool by_supply = (facts.at("UV_HANDLE") & (facts.large() ? 4 : 8)) != 0;
+    if (v == 0)
+        add(findings, "velocity_zero", Severity::stops, "V_SOLL, the velocity or its limit, is 0.",
+            {V_SOLL, facts.number("UV_HANDLE")},
+            by_supply ? "`macreg set V_SOLL 500rpm`, for example. UV_HANDLE lets undervoltage set it to 0: "
+                        "look at the supply."
+                      : "`macreg set V_SOLL 500rpm`, for example.");
+    else if (v < (facts.large() ? 14 : 10) && !facts.moves())
+        add(findings, "velocity_tiny", Severity::hinders,
+            fmt::format("{} is so slow that it looks like standing.", facts.text(V_SOLL)), {V_SOLL},
+            "`macreg set V_SOLL 500rpm`; without unit a number is raw steps, not rpm.");
+}
+
+void judge_target(const Facts& facts, Findings& findings) {
+    if (!facts.positions()) return;
+    const std::int64_t low = facts.at(MIN_P_IST);
+    const std::int64_t high = facts.at(MAX_P_IST);
+    const bool limited = (low != 0 || high != 0) && !facts.has_error(14);
+    if (limited && (facts.at(P_SOLL) < low || facts.at(P_SOLL) > high))
+        add(findings, "target_outside_limits", Severity::hinders,
+            fmt::format("The target ({}) is outside of the position limits: on its way the motor makes "
+                        "itself passive (PLIM_ERR).",
+                        facts.text(P_SOLL)),
+            {P_SOLL, MIN_P_IST, MAX_P_IST}, "Give a target inside, or widen the limits; both 0 is none.");
+    // P_FNC, not P_IST, is where the profile is: FLWERR lies between (001 §4.4.3).
+    const auto distance = static_cast<std::int32_t>(16 * facts.at(P_SOLL) - facts.at(P_FNC));
+    if (distance != 0 || facts.moves()) return;
+    std::string remedy = "`macreg set P_SOLL ...`, or P_REG_P for one of P1 to P8.";
+    const char* code = "at_target";
+    if (facts.mode() == kAnalogue2Position) {
+        code = "waits_for_level";
+        remedy = "It goes to the other position (P1, P2) when the level at the analogue input changes.";
+    } else if (facts.mode() == kAnaloguePosition) {
+        code = "waits_for_voltage";
+        remedy =
+            "The voltage at the analogue input chooses the target; P2 is how far 10 V go, P3 the dead band.";
+    }
+    add(findings, code, Severity::stops,
+        fmt::format("The motor is where it should be: its profile has reached the target ({}, {}).",
+                    facts.text(P_SOLL), facts.text(P_IST)),
+        {P_SOLL, P_FNC, P_IST, facts.number("ANINP")}, remedy);
+}
+
+void judge_limits(const Facts& facts, Findings& findings) {
+    const std::int64_t low = facts.at(MIN_P_IST);
+    const std::int64_t high = facts.at(MAX_P_IST);
+    if (low > high)
+        add(findings, "limits_swapped", Severity::stops,
+            "MIN_P_IST is above MAX_P_IST: every position is outside, and the motor makes itself passive "
+            "(PLIM_ERR).",
+            {MIN_P_IST, MAX_P_IST}, "Set both, the lower one smaller; both 0 is none.");
+}
+
+void judge_gear(const Facts& facts, Findings& findings) {
+    const bool gear = facts.gears() || facts.mode() == kAnalogueVelocityGear;
+    if (!gear) return;
+    if (facts.at(GEARF1) == 0)
+        add(findings, "gear_zero", Severity::stops,
+            "GEARF1 is 0: the motor follows the pulses with 0 times their speed.", {GEARF1, GEARF2},
+            "`macreg set GEARF1 1`; GEARF1 / GEARF2 is the ratio.");
+    if (facts.at(GEARF2) == 0)
+        add(findings, "gear_denominator_zero", Severity::stops,
+            "GEARF2 is 0: the gear ratio GEARF1 / GEARF2 is none.", {GEARF1, GEARF2},
+            "`macreg set GEARF2 1`.");
+    const std::int64_t pulses = facts.at("V_EXT") + (facts.mode() == kCoil ? facts.at("V8") : 0);
+    const bool by_voltage =
+        facts.mode() == kAnalogueVelocityGear && facts.at("ANINP") * 100 / facts.full_voltage() != 0;
+    if (pulses != 0 || facts.before(facts.number("V_EXT")) != 0 || by_voltage) return;
+    if (!facts.large() && (facts.at(CNTRL_BITS) & 3) != 0)
+        add(findings, "pulse_pins_taken", Severity::stops,
+            "The motor is to follow pulses, but the pins of the pulse input serve something else (USERINTF "
+            "is not 00).",
+            {CNTRL_BITS, facts.number("V_EXT")},
+            "`macreg set CNTRL_BITS ...` with USERINTF=INPUT, then `macreg flash save`: it counts from "
+            "a reset on.");
+    else
+        add(findings, "no_pulses", Severity::stops,
+            "The motor is to follow pulses, and none come (V_EXT is 0).", {facts.number("V_EXT"), CNTRL_BITS},
+            "Turn the master; check the wiring and the format (PULSEDIR: pulse and direction, else "
+            "quadrature).");
+}
+
+void judge_coil(const Facts& facts, Findings& findings) {
+    if (facts.mode() != kCoil) return;
+    const std::int64_t p1 = facts.at(P1), p2 = facts.at("P2"), p3 = facts.at("P3"), p4 = facts.at("P4");
+    if (p1 > p2 || p2 > p3 || p3 > p4 || p1 == p4)
+        add(findings, "coil_setup", Severity::stops,
+            "The coil's setup is none: P1 <= P2 <= P3 <= P4 with P1 below P4 must hold (001 4.4.20).",
+            {P1, facts.number("P2"), facts.number("P3"), facts.number("P4")},
+            "Set P1 to P4: thread left, stop left, stop right, thread right.");
+    else if (!facts.moves() && facts.at("FNC_OUT") == 0)
+        add(findings, "coil_waits", Severity::hinders,
+            "The coil waits: a high level at the analogue input sends it to its start (P5), and after it low "
+            "lets it wind.",
+            {facts.number("ANINP"), facts.number("P5")},
+            "Give a start position command once after power-up and homing; then turn the spool.");
+}
+
+void judge_analogue(const Facts& facts, Findings& findings) {
+    const std::int64_t mode = facts.mode();
+    const std::int64_t volts = facts.at("ANINP");
+    const std::uint8_t aninp = facts.number("ANINP");
+    constexpr const char* kRaise =
+        "Raise the voltage at the analogue input (up to 10 V either way); check its wiring and ANINP_OFFSET.";
+    const std::int64_t small = facts.full_voltage() / 100;  // 0.1 V
+    if ((mode == kAnalogueTorque || mode == kAnalogueVelocity) && std::abs(volts) <= small)
+        add(findings, "analogue_zero", Severity::stops,
+            fmt::format("{} follows the voltage at the analogue input, and there is hardly any: {}.",
+                        facts.text(MODE_REG), facts.text(aninp)),
+            {aninp, MODE_REG}, kRaise);
+    if (mode == kAnalogueVelocityZero && std::abs(volts) <= 64 * (facts.large() ? 2 : 1))
+        add(findings, "analogue_dead_band", Severity::stops,
+            fmt::format("The voltage at the analogue input is inside the dead band: {}.", facts.text(aninp)),
+            {aninp}, kRaise);
+    if (mode == kVelocityAnalogueTorque && facts.at(T_SOLL) != 0 && facts.torque_limit() == 0)
+        add(findings, "analogue_torque_zero", Severity::stops,
+            fmt::format("The voltage at the analogue input is the torque limit, and there is hardly any: {}.",
+                        facts.text(aninp)),
+            {aninp, T_SOLL}, kRaise);
+}
+
+void judge_homing(const Facts& facts, Findings& findings) {
+    if (!facts.homes()) return;
+    if (facts.at(V_HOME) == 0)
+        add(findings, "home_velocity_zero", Severity::stops,
+            "The motor homes, but V_HOME, the velocity of it, is 0.", {V_HOME},
+            "`macreg set V_HOME -200rpm`, for example; its sign is the direction.");
+    const std::uint8_t aninp = facts.number("ANINP");
+    if (facts.mode() != kHome1) {
+        const bool high = facts.at(aninp) * 100 > facts.full_voltage() * kHighPercent;
+        const bool active_high = facts.at(T_HOME) >= 0;
+        return add(
+            findings, "homing_switch", Severity::hinders,
+            fmt::format(
+                "The motor homes and waits for its switch at the analogue input, which counts as on when {} "
+                "(sign of T_HOME); it is {} now: {}.",
+                active_high ? "high" : "low", high ? "high" : "low", facts.text(aninp)),
+            {MODE_REG, aninp, T_HOME, V_HOME},
+            "If it never comes: check switch, wiring and the signs of T_HOME and V_HOME. INIT_MODE ends the "
+            "search.");
+    }
+    if (facts.at(T_HOME) == 0)
+        add(findings, "home_torque_zero", Severity::stops,
+            "The motor homes against a stop, but T_HOME, the torque for it, is 0.", {T_HOME},
+            "`macreg set T_HOME 30%`, for example.");
+    add(findings, "homing_stop", Severity::hinders,
+        fmt::format("The motor homes until it meets a mechanical stop with {}; {} now.", facts.text(T_HOME),
+                    facts.text("VF_OUT")),
+        {MODE_REG, T_HOME, V_HOME, facts.number("VF_OUT")},
+        "If it stands before its stop, T_HOME is too small for the friction; INIT_MODE ends the search.");
+}
+
+}  // namespace
+
+void judge_modes(const Facts& facts, Findings& findings) {
+    judge_passive(facts, findings);
+    judge_limits(facts, findings);
+    judge_demands(facts, findings);
+    judge_target(facts, findings);
+    judge_gear(facts, findings);
+    judge_coil(facts, findings);
+    judge_analogue(facts, findings);
+    judge_homing(facts, findings);
+}
+
+}  // namespace nplc::macreg

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdlib>
+#include <string_view>
+
+#include "macreg/why.h"
+
+/// What the parts of `why` share.
+namespace nplc::macreg {
+
+enum Mode : std::int64_t {
+    kInit = 0,
+    kVelocity = 1,
+    kPosition = 2,
+    kGearPosition = 3,
+    kAnalogueTorque = 4,
+    kAnalogueVelocity = 5,
+    kAnalogueVelocityGear = 6,
+    kBreak = 10,
+    kStop = 11,
+    kHome1 = 12,
+    kHome2 = 13,
+    kHome3 = 14,
+    kSafe = 15,
+    kAnalogueVelocityZero = 16,
+    kVelocityAnalogueTorque = 17,
+    kAnalogueGear = 18,
+    kCoil = 19,
+    kAnalogue2Position = 20,
+    kAnaloguePosition = 21,
+    kTestKi = 22,
+    kTestTorque = 23,
+    kGearFollow = 24,
+};
+
+/// A condition by name and number.
+class Facts {
+  public:
+    explicit Facts(const Condition& condition) : condition_(condition) {}
+
+    bool large() const { return condition_.model == registers::Model::mac800; }
+    registers::Model model() const { return condition_.model; }
+    std::int64_t at(std::uint8_t number) const { return condition_.now.at(number); }
+    std::int64_t before(std::uint8_t number) const { return condition_.before.at(number); }
+    /// By a name that both families have, or only this one.
+    std::int64_t at(std::string_view name) const { return at(number(name)); }
+    std::uint8_t number(std::string_view name) const {
+        const registers::Register* reg = registers::find(condition_.model, name);
+        return reg != nullptr ? reg->number : std::uint8_t{0};
+    }
+    bool knows(std::string_view name) const { return number(name) != 0; }
+    std::int64_t mode() const { return at(registers::MODE_REG); }
+    bool has_error(unsigned bit) const { return (at(registers::ERR_STAT) >> bit & 1) != 0; }
+    const std::optional<GatewayState>& gateway() const { return condition_.gateway; }
+
+    /// "1500 rpm", for a sentence.
+    std::string text(std::uint8_t number) const;
+    std::string text(std::string_view name) const { return text(number(name)); }
+
+    bool moves() const;
+    bool homes() const { return mode() >= kHome1 && mode() <= kHome3; }
+    bool gears() const;
+    bool positions() const;
+    bool has_velocity_limit() const;
+    /// Both regulators are on.
+    bool is_driven() const;
+    /// 10 V at the analogue input.
+    std::int64_t full_voltage() const { return large() ? 2047 : 1023; }
+    /// That the mode allows, 1023 is full; AT_MODE and passive modes have none.
+    std::int64_t torque_limit() const;
+
+  private:
+    const Condition& condition_;
+};
+
+using Findings = std::vector<Finding>;
+
+void judge_modes(const Facts& facts, Findings& findings);   ///< what each mode needs: why_modes.cpp
+void judge_errors(const Facts& facts, Findings& findings);  ///< ERR_STAT and what leads to it: why_errors.cpp
+
+}  // namespace nplc::macreg
