@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "macreg/values.h"
+#include "registers/gateway.h"
 
 namespace nplc::macreg::cli {
 
@@ -19,18 +20,10 @@ constexpr std::uint8_t kEveryone = 255;
 /// The only motor on the line says its address itself; it keeps 255 if it says none that can be used.
 std::uint8_t find_address(mactalk_client::Master& master, const Common& common) {
     if (common.address != 0) return static_cast<std::uint8_t>(common.address);
-    try {
-        const Model model = Motor::find_model(master, kEveryone);
-        Motor everyone(master, kEveryone, model);
-        const std::int64_t own = everyone.read(model == Model::mac800 ? "MY_ADDR" : "MYADDR");
-        return own >= 1 && own <= 254 ? static_cast<std::uint8_t>(own) : kEveryone;
-    } catch (const LineError& error) {
-        if (error.kind() != LineError::Kind::no_answer) throw;
-        throw LineError(error.kind(),
-                        std::string(error.what()) +
-                            "; with several motors on the line name one with --address (`macreg find` "
-                            "shows them)");
-    }
+    const Model model = Motor::find_model(master, kEveryone);
+    Motor everyone(master, kEveryone, model);
+    const std::int64_t own = everyone.read(model == Model::mac800 ? "MY_ADDR" : "MYADDR");
+    return own >= 1 && own <= 254 ? static_cast<std::uint8_t>(own) : kEveryone;
 }
 
 Model find_model(mactalk_client::Master& master, std::uint8_t address, const Common& common) {
@@ -42,6 +35,25 @@ Model find_model(mactalk_client::Master& master, std::uint8_t address, const Com
             "--model {}: the motor with address {} says that it is {}; leave --model away", common.model,
             address, found == Model::mac800 ? "a MAC800" : "one of MAC50 to MAC141"));
     return *wanted;
+}
+
+/// A gateway whose link is down answers for itself only.
+[[noreturn]] void nobody(mactalk_client::Master& master, const Common& common, const LineError& error) {
+    namespace gw = registers::gateway;
+    const bool silent = error.kind() == LineError::Kind::no_answer;
+    Motor any(master, kEveryone, Model::mac140);
+    if (silent && any.is_behind_gateway() &&
+        (master.read(gw::kDefaultAddress, gw::STATUS) & gw::kLinkDelivers) == 0)
+        throw LineError(error.kind(),
+                        fmt::format("{}: a gateway answers, but its link to the motor does not work; "
+                                    "`nanoctl status` tells more",
+                                    master.wire().name()));
+    const bool asked_all = silent && common.address == 0;
+    throw LineError(
+        error.kind(),
+        std::string(error.what()) + (asked_all ? "; with several motors on the line name one with --address "
+                                                 "(`macreg find` shows them)"
+                                               : ""));
 }
 
 }  // namespace
@@ -75,8 +87,12 @@ Session::Session(const Common& common)
       master_(*wire_, {.baud = common.baud,
                        .patience = base::Milliseconds{common.patience_ms},
                        .attempts = common.attempts}) {
-    const std::uint8_t address = find_address(master_, common);
-    motor_ = std::make_unique<Motor>(master_, address, find_model(master_, address, common));
+    try {
+        const std::uint8_t address = find_address(master_, common);
+        motor_ = std::make_unique<Motor>(master_, address, find_model(master_, address, common));
+    } catch (const LineError& error) {
+        nobody(master_, common, error);
+    }
 }
 
 void Session::remark(const std::string& text) const {
