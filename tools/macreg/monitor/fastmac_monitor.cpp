@@ -102,7 +102,7 @@ std::string status_words(const fastmac::Status& status) {
 class FastMacMonitor final : public Monitor {
   public:
     explicit FastMacMonitor(const MonitorOptions& options)
-        : options_(options), pause_(3 * 10'000'000 / static_cast<std::int64_t>(options.baud)) {}
+        : options_(options), pause_(std::int64_t{30'000'000} / static_cast<std::int64_t>(options.baud)) {}
 
     void receive(Side side, std::uint8_t byte, base::Instant at) override {
         if (side == Side::motor) return from_motor(byte, at);

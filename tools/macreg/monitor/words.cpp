@@ -45,7 +45,7 @@ std::string bytes_words(reg::Model model, std::uint8_t number, std::uint32_t val
                                                           : kWordBytes;
     const std::size_t shown = std::min(own, bytes);
     const std::uint32_t kept = shown == kWordBytes ? value & 0xFFFF : value;
-    const std::string hex = fmt::format("{:0{}X}", kept, 2 * shown);
+    std::string hex = fmt::format("{:0{}X}", kept, 2 * shown);
     if (found == nullptr || shown < own) return hex;
     const bool wide = model == reg::Model::mac800 && !reg::is_32_bit(found->format);
     const reg::Format format = wide ? reg::Format::long_int : found->format;

@@ -65,7 +65,10 @@ class Reader {
         ++line_;
         if (line.empty()) return;
         if (line.front() == '#') return comment(trimmed(line.substr(1)));
-        header_ ? row(line) : header(line);
+        if (header_)
+            row(line);
+        else
+            header(line);
     }
 
     void comment(std::string_view line) {
