@@ -150,6 +150,20 @@ class Registers(Case):
             self.assertEqual(self.value("KFF3"), after)
         self.reg("set", "KFF3", "raw:2", "--force", "--yes")
 
+    def test_ctrl_c_at_a_question_changes_nothing(self):
+        self.motor()
+        keyboard, terminal = pty.openpty()
+        process = self.start("flash", "defaults", stdin=terminal)
+        question = b""
+        while b"Type yes" not in question:
+            question += os.read(process.stderr.fileno(), 1)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=LONG)
+        self.assertEqual(process.returncode, 130)
+        os.close(keyboard)
+        os.close(terminal)
+        self.assertEqual(self.value("MODE_REG"), 0)
+
     def test_a_refused_write_says_why(self):
         self.motor()
         self.reg("safe", "enter")
@@ -224,6 +238,21 @@ class Files(Case):
         self.assertIn("V_SOLL = 762.94 rpm", text)
         self.assertIn("\nincomplete = ", text)
         self.assertFalse(os.path.exists(self.path("file.txt")))
+
+    def test_a_line_that_breaks_in_a_load_says_what_was_written(self):
+        self.motor("--speed", "10")
+        names = [f"{letter}{number}" for letter, most in (("P", 8), ("V", 8), ("A", 4)) for number in range(1, most + 1)]
+        file = self.write("file.txt", "model = MAC140\n" + "".join(f"{name} = raw:77\n" for name in names))
+        # Of 9 + 19 bytes a read, some 140 a block: far behind the first write, before the last.
+        proxy = NoisyProxy(self.path("breaking"), self.path("port"), 0, 1, breaks_after=2200)
+        self.addCleanup(proxy.close)
+        answer = self.reg("load", file, port="unix:" + self.path("breaking"), exit_code=3)
+        self.assertIn("were written", answer["error"])
+        self.assertGreater(len(answer["written"]), 0)
+        self.assertLess(len(answer["written"]), len(names))
+        process = self.running[0]
+        process.terminate()
+        process.wait(LONG)
 
     def test_ctrl_c_in_a_dump(self):
         self.motor("--mactalk-baud", "2400", endpoint="pty:" + self.path("tty"))

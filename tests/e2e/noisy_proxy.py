@@ -6,10 +6,12 @@ import threading
 
 
 class NoisyProxy:
-    """A socket between a client and the gateway's socket that damages a share of the bytes, both ways."""
+    """A socket between a client and the gateway's socket that damages a share of the bytes, both ways, and breaks after
+    so many bytes."""
 
-    def __init__(self, path, target, share, seed):
+    def __init__(self, path, target, share, seed, breaks_after=None):
         self.share = share
+        self.left = breaks_after
         self.random = random.Random(seed)
         self.damaged = 0
         self.ends = []
@@ -39,6 +41,10 @@ class NoisyProxy:
                     if self.random.random() < self.share:
                         data[i] ^= 1 << self.random.randrange(8)
                         self.damaged += 1
+                if self.left is not None:
+                    self.left -= len(data)
+                    if self.left < 0:
+                        data = b""
                 sink.sendall(data)
                 if not data:
                     return sink.shutdown(socket.SHUT_RDWR)

@@ -146,9 +146,9 @@ void judge_heat(const Facts& facts, Findings& findings) {
         findings.push_back(
             {"heat_limit_zero",
              Severity::stops,
-             "A limit of the heat (I2TLIM or UITLIM) is 0: the motor makes itself passive at the first "
+             "I2TLIM, the limit of the windings' heat, is 0: the motor makes itself passive at the first "
              "current.",
-             {I2TLIM, UITLIM},
+             {I2TLIM, I2T},
              "Bring the parameters back: `macreg load` of a good file, or `macreg flash defaults`."});
 }
 

@@ -27,12 +27,20 @@ void judge_passive(const Facts& facts, Findings& findings) {
             "`macreg safe exit`, then choose a mode.");
     } else if (mode == kInit) {
         const bool error = (static_cast<std::uint32_t>(facts.at(ERR_STAT)) & error_bits(facts.model())) != 0;
-        add(findings, "passive", Severity::stops,
-            error ? "The motor is in INIT_MODE, passive, because of the error."
-                  : "The motor is in INIT_MODE: passive, nobody told it to move.",
-            {MODE_REG, STARTMODE},
-            error ? "When the error is cleared: `macreg set MODE_REG P_MODE` (or V_MODE ...)."
-                  : "`macreg set MODE_REG P_MODE` (or V_MODE ...); STARTMODE is the mode after power-up.");
+        const char* sentence = "The motor is in INIT_MODE: passive, nobody told it to move.";
+        const char* remedy =
+            "`macreg set MODE_REG P_MODE` (or V_MODE ...); STARTMODE is the mode after power-up.";
+        if (facts.gateway()) {
+            sentence = "The motor is in INIT_MODE, passive: the gateway's sequence has not told it to move.";
+            remedy =
+                "`nanoctl status` and `nanoctl watch` show in which step the sequence is, and whether it "
+                "runs.";
+        }
+        if (error) {
+            sentence = "The motor is in INIT_MODE, passive, because of the error.";
+            remedy = "When the error is cleared: `macreg set MODE_REG P_MODE` (or V_MODE ...).";
+        }
+        add(findings, "passive", Severity::stops, sentence, {MODE_REG, STARTMODE}, remedy);
     } else if (mode == kStop) {
         add(findings, "stop_mode", Severity::hinders,
             fmt::format("The motor brakes in STOP_MODE on its way to another mode ({}).", facts.text(V_IST)),

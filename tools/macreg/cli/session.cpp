@@ -1,6 +1,7 @@
 #include "cli/session.h"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <iostream>
@@ -56,6 +57,12 @@ Model find_model(mactalk_client::Master& master, std::uint8_t address, const Com
                                                : ""));
 }
 
+/// What is wrong in the command line is told before anybody is asked.
+std::unique_ptr<mactalk_client::Wire> open(const Common& common) {
+    static_cast<void>(model_option(common));
+    return command_line::open_port(common);
+}
+
 }  // namespace
 
 void refuse(const std::string& text, Json details) {
@@ -83,7 +90,7 @@ std::vector<const registers::Register*> find_registers(Model model, const std::v
 
 Session::Session(const Common& common)
     : common_(common),
-      wire_(command_line::open_port(common)),
+      wire_(open(common)),
       master_(*wire_, {.baud = common.baud,
                        .patience = base::Milliseconds{common.patience_ms},
                        .attempts = common.attempts}) {
@@ -105,9 +112,10 @@ void Session::ask(const std::string& what) const {
         throw UserError(what + "; nobody is there to be asked: say --yes if you mean it");
     fmt::print(stderr, "{}. Type yes to go on: ", what);
     std::fflush(stderr);
+    pollfd keyboard{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
+    while (::poll(&keyboard, 1, 100) <= 0) look_for_interruption();
     std::string answer;
     std::getline(std::cin, answer);
-    look_for_interruption();
     if (answer != "yes") throw UserError("not confirmed, nothing was changed");
 }
 
