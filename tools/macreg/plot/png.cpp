@@ -94,7 +94,7 @@ class Canvas {
 
     void write(const Picture::Words& words) {
         constexpr std::size_t kBytesALetter = 1200;
-        constexpr std::size_t kQuad = 4 * 16;
+        constexpr std::size_t kQuad = std::size_t{4} * 16;
         std::string text = words.text;
         for (char& c : text) {
             if (c < ' ' || c > '~') c = '?';

@@ -29,10 +29,13 @@ std::vector<std::string> text_curve(std::span<const double> values, int width, i
     const int across = braille ? width * kDotsAcross : width;
     const int down = braille ? height * kDotsDown : height;
     std::vector<std::uint8_t> cells(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
+    const auto index = [&](int x, int y) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+    };
     const auto set = [&](int x, int y) {
         const int cell_x = braille ? x / kDotsAcross : x;
         const int cell_y = braille ? y / kDotsDown : y;
-        auto& cell = cells[static_cast<std::size_t>(cell_y * width + cell_x)];
+        auto& cell = cells[index(cell_x, cell_y)];
         cell = static_cast<std::uint8_t>(
             cell |
             (braille
@@ -60,7 +63,7 @@ std::vector<std::string> text_curve(std::span<const double> values, int width, i
     for (int y = 0; y < height; ++y) {
         std::string row;
         for (int x = 0; x < width; ++x) {
-            const std::uint8_t cell = cells[static_cast<std::size_t>(y * width + x)];
+            const std::uint8_t cell = cells[index(x, y)];
             row += braille ? (cell != 0 ? braille_letter(cell) : " ") : (cell != 0 ? "*" : " ");
         }
         rows.push_back(std::move(row));

@@ -10,6 +10,7 @@
 #include "macreg/recorder.h"
 #include "macreg/values.h"
 #include "macreg/words.h"
+#include "registers/gateway.h"
 #include "terminal.h"
 #include "view.h"
 
@@ -26,6 +27,12 @@ constexpr base::Microseconds kRedraw{100'000};
 
 struct Quit {};
 struct GivenUp {};
+
+/// The gateway's own address, unless a motor has it.
+std::uint8_t gateway_beside(std::uint8_t motor) {
+    constexpr std::uint8_t kGateway = registers::gateway::kDefaultAddress;
+    return motor == kGateway ? std::uint8_t{0} : kGateway;
+}
 
 /// A wire that a monitor listens to.
 class TappedWire final : public mactalk_client::Wire {
@@ -54,7 +61,10 @@ class TappedWire final : public mactalk_client::Wire {
 class App {
   public:
     App(std::unique_ptr<mactalk_client::Wire> wire, const UiOptions& options)
-        : options_(options), model_(options.model), monitor_(make_mactalk_monitor({.model = options.model})) {
+        : options_(options),
+          model_(options.model),
+          monitor_(
+              make_mactalk_monitor({.model = options.model, .gateway = gateway_beside(options.address)})) {
         connect(std::move(wire));
     }
 
