@@ -57,7 +57,7 @@ MODULES = [
     Module("tools/registers_reference", "registers_reference", ("base", "registers"), os=True),
     Module("tools/seqc", "seqc", ("base", "sequencer", "protocol", "registers"), os=True),
     Module(
-        "tools/macreg", "macreg", ("base", "protocol", "registers", "mactalk_client", "command_line"), os=True
+        "tools/macreg", "macreg", ("base", "protocol", "registers", "seqc", "mactalk_client", "command_line"), os=True
     ),
     Module("tests", None, ANY, os=True),
 ]

@@ -39,9 +39,10 @@ std::vector<std::string> register_names() {
 nplc::command_line::About about() {
     nplc::command_line::About about{.version = NPLC_VERSION,
                                     .title = "the registers of a MAC motor from a terminal",
-                                    .file_commands = {"load", "diff"},
+                                    .file_commands = {"load", "diff", "plot"},
                                     .file_options = {"-o", "--output"}};
-    for (const char* command : {"get", "list", "set", "watch"}) about.words[command] = register_names();
+    for (const char* command : {"get", "list", "record", "set", "watch"})
+        about.words[command] = register_names();
     return about;
 }
 
@@ -72,6 +73,10 @@ int main(int argc, char** argv) {
     add_diff(app, common);
     add_service(app, common);
     add_find(app, common);
+    add_record(app, common);
+    add_plot(app, common);
+    add_monitor(app, common);
+    add_ui(app, common);
     nplc::command_line::add_generated(app, common, about());
     return nplc::command_line::run(app, common, argc, argv);
 }

@@ -15,5 +15,9 @@ void add_load(CLI::App& app, Common& common);
 void add_diff(CLI::App& app, Common& common);
 void add_service(CLI::App& app, Common& common);  ///< flash, safe, reset, prepare
 void add_find(CLI::App& app, Common& common);
+void add_monitor(CLI::App& app, Common& common);
+void add_plot(CLI::App& app, Common& common);
+void add_record(CLI::App& app, Common& common);
+void add_ui(CLI::App& app, Common& common);
 
 }  // namespace nplc::macreg::cli

@@ -1,0 +1,246 @@
+#!/usr/bin/env python3
+"""macreg ui on virtual motors, driven in a terminal of tmux.
+
+usage: macreg_ui_test.py MACREG MACSIM
+"""
+
+import os
+import shlex
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+MACREG = MACSIM = ""
+LONG = 60  # seconds until something that must come is given up
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.motors = []
+        self.servers = 0
+        self.start_motor()
+
+    def tearDown(self):
+        self.tmux("kill-server", check=False)
+        for motor in self.motors:
+            motor.kill()
+            motor.communicate()
+        self.folder.cleanup()
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def start_motor(self):
+        motor = subprocess.Popen([MACSIM, "--model", "MAC140", "--address", "8", "--speed", "10", "--fastmac",
+                                  "pty:" + self.path("f"), "--mactalk", "pty:" + self.path("m")],
+                                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.motors.append(motor)
+        for line in motor.stdout:
+            if line == "ready\n":
+                threading.Thread(target=motor.stdout.read, daemon=True).start()
+                return
+        self.fail(f"ended before it was ready: {motor.communicate()}")
+
+    def stop_motor(self):
+        motor = self.motors[-1]
+        motor.send_signal(signal.SIGTERM)
+        motor.wait(LONG)
+
+    def tmux(self, *arguments, check=True):
+        result = subprocess.run(["tmux", "-S", self.path(f"tmux{self.servers}"), "-f", "/dev/null", *arguments], capture_output=True,
+                                text=True, check=check, env={**os.environ, "LC_ALL": "C.UTF-8"})
+        return result.stdout
+
+    def start(self, columns=80, rows=24, locale="C.UTF-8", term="screen-256color"):
+        """The screen within a shell that tells how it ended and how it found the terminal."""
+        script = (f"stty -g > {self.path('before')}; LC_ALL={locale} TERM={term} {MACREG} --port {self.path('m')} "
+                  f"--patience 500 ui; echo ended with $?; stty -g > {self.path('after')}; echo all done; sleep 600")
+        self.tmux("new-session", "-d", "-x", str(columns), "-y", str(rows), "sh -c " + shlex.quote(script))
+        return self.until("INIT_MODE, no error")
+
+    def screen(self):
+        return self.tmux("capture-pane", "-p")
+
+    def until(self, *words, gone=()):
+        end = time.monotonic() + LONG
+        while time.monotonic() < end:
+            screen = self.screen()
+            if all(word in screen for word in words) and not any(word in screen for word in gone):
+                return screen
+            time.sleep(0.05)
+        self.fail(f"never came: {words}, without {gone}; the screen is\n{screen}")
+
+    def keys(self, *keys):
+        self.tmux("send-keys", *keys)
+
+    def type(self, text):
+        self.tmux("send-keys", "-l", text)
+
+    def select(self, name):
+        self.keys("/")
+        self.type(name)
+        self.until("search: " + name)
+        self.keys("Enter")
+        self.until("/ search", gone=("search: ",))
+
+    def pid(self):
+        shell = self.tmux("list-panes", "-F", "#{pane_pid}").strip()
+        return int(subprocess.run(["pgrep", "-P", shell, "macreg"], capture_output=True, text=True, check=True).stdout)
+
+    def assert_ended(self, code):
+        self.until(f"ended with {code}", "all done")
+        with open(self.path("before"), encoding="ascii") as before, open(self.path("after"), encoding="ascii") as after:
+            self.assertEqual(before.read(), after.read())
+        self.assertEqual(self.tmux("display-message", "-p", "#{alternate_on} #{cursor_flag}").strip(), "0 1")
+
+
+class Screen(Case):
+    def test_reads_searches_and_quits(self):
+        screen = self.start()
+        self.assertEqual(max(len(line) for line in screen.splitlines()), 80)
+        for words in ("[Parameters]", "PROG_VERSION", "Transmit and receive", "> 5", "< 52 52 52", "? help"):
+            self.assertIn(words, screen)
+        self.select("V_SO")
+        self.keys("r")
+        self.until("V_SOLL = ", "rpm")
+        self.keys("q")
+        self.assert_ended(0)
+
+    def test_writes_and_asks_before_danger(self):
+        self.start()
+        self.select("V_SOLL")
+        self.keys("w")
+        self.until("V_SOLL (")
+        self.type("100 bananas")
+        self.keys("Enter")
+        self.until("takes rpm")
+        for _ in range(len("bananas")):
+            self.keys("BSpace")
+        self.type("rpm")
+        self.keys("Enter")
+        # 001 §3.2.5: 100 rpm are 209.7 steps; 210 are 100.14 rpm.
+        self.until("written; V_SOLL now reads 100.1")
+        self.select("AMPLITUDE")
+        self.keys("w")
+        self.until("AMPLITUDE (")
+        self.type("0.5")
+        self.keys("Enter")
+        self.until("type yes")
+        self.keys("n", "Enter")
+        self.until("not confirmed, nothing was written")
+        self.keys("q")
+        self.assert_ended(0)
+
+    def test_bits_have_names_and_can_be_written(self):
+        self.start()
+        self.select("CNTRL_BITS")
+        self.until("USERINTF", "COMMUNICATION", "RECORDBIT")
+        self.keys("Tab")
+        self.until("[CNTRL_BITS")
+        for _ in range(8):
+            self.keys("Down")
+        self.until("INIT_MODE P_FNC follows P_IST")  # AUTO_RESYNC's meaning
+        self.keys("w")
+        self.until("CNTRL_BITS.AUTO_RESYNC :=")
+        self.keys("1", "Enter")
+        self.until("written; CNTRL_BITS now reads")
+        self.until("AUTO_RESYNC   1")
+        self.keys("q")
+        self.assert_ended(0)
+
+    def test_records_and_shows_a_curve(self):
+        self.start()
+        self.keys("s")
+        self.until("slow or fast): P_IST,V_IST slow")
+        self.keys("Enter")
+        screen = self.until("Samples: P_IST [counts] 1 of 2", "895 samples in 1.716 s")
+        self.assertTrue(any("\u2800" <= c <= "\u28ff" for c in screen))
+        self.keys("Right")
+        self.until("Samples: V_IST [rpm] 2 of 2")
+        self.keys("s")
+        self.until("slow or fast): ")
+        self.type(",P_SOLL")
+        self.keys("Enter")
+        self.until("need 5")
+        self.keys("q")
+        self.assert_ended(0)
+
+    def test_without_colours_and_braille(self):
+        self.start(locale="C", term="vt100")
+        self.keys("s")
+        self.until("slow or fast): P_IST,V_IST slow")
+        self.keys("Enter")
+        screen = self.until("Samples: P_IST [counts] 1 of 2")
+        self.assertIn("****", screen)
+        self.keys("?")
+        self.until("Any key goes back")
+        self.keys("x")
+        self.until("[Parameters]")
+        self.keys("q")
+        self.assert_ended(0)
+
+    def test_follows_the_size_of_the_window(self):
+        self.start(columns=120, rows=40)
+        self.tmux("resize-window", "-x", "80", "-y", "24")
+        self.until("[Parameters]", "q quit")
+        self.tmux("resize-window", "-x", "40", "-y", "10")
+        self.until("40 by 10 is too small")
+        self.tmux("resize-window", "-x", "100", "-y", "30")
+        self.until("[Parameters]", "q quit")
+        self.keys("q")
+        self.assert_ended(0)
+
+
+class Ends(Case):
+    def test_a_motor_that_vanishes_is_shown_and_found_again(self):
+        self.start()
+        self.stop_motor()
+        self.until("PORT GONE")
+        self.start_motor()
+        self.until("INIT_MODE, no error")
+        self.select("P_IST")
+        self.keys("r")
+        self.until("P_IST = 0 counts")
+        self.keys("q")
+        self.assert_ended(0)
+
+    def test_signals_give_the_terminal_back(self):
+        for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGINT, signal.SIGQUIT):
+            self.start()
+            os.kill(self.pid(), number)
+            self.assert_ended(0)
+            self.tmux("kill-server")
+            self.servers += 1
+
+    def test_a_crash_gives_the_terminal_back(self):
+        self.start()
+        os.kill(self.pid(), signal.SIGABRT)
+        self.assert_ended(128 + signal.SIGABRT)
+
+    def test_a_signal_in_a_recording_leaves_the_motor_as_it_was(self):
+        self.start()
+        self.keys("s")
+        self.until("slow or fast): ")
+        self.keys("Enter")
+        self.until("Esc gives it up")
+        os.kill(self.pid(), signal.SIGTERM)
+        self.assert_ended(0)
+        result = subprocess.run([MACREG, "--port", self.path("m"), "get", "SAMPLE1", "SAMPLE2"], capture_output=True,
+                                text=True, check=True)
+        self.assertEqual(result.stdout.count("= 0"), 2, result.stdout)
+
+    def test_without_a_terminal_it_says_so(self):
+        result = subprocess.run([MACREG, "--port", self.path("m"), "ui"], stdin=subprocess.DEVNULL, capture_output=True,
+                                text=True, check=False)
+        self.assertEqual((result.returncode, result.stderr.count("\n")), (2, 1), result.stderr)
+        self.assertIn("needs a terminal", result.stderr)
+
+
+if __name__ == "__main__":
+    MACREG, MACSIM = sys.argv[1:3]
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -1,0 +1,191 @@
+#include "macreg/monitor.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cctype>
+#include <memory>
+
+#include "cli/subcommands.h"
+#include "macreg/words.h"
+#include "registers/gateway.h"
+#include "seqc/files.h"
+
+namespace nplc::macreg::cli {
+namespace {
+
+struct Options {
+    std::string protocol = "mactalk";
+    std::string from;
+    std::string motor_port;
+    std::string replay;
+    unsigned gateway = registers::gateway::kDefaultAddress;
+    bool old_code = false;
+    bool bytes = false;
+};
+
+class Teller {
+  public:
+    Teller(const Common& common, const Options& options) : common_(common), options_(options) {}
+
+    void tell(Monitor& monitor, base::Instant start) const {
+        for (const MonitorEvent& event : monitor.take()) {
+            std::string line = line_of(event, start);
+            if (options_.bytes && event.flaw.empty()) {
+                if (!event.sent.empty()) line += "   > " + hex_words(event.sent);
+                if (!event.received.empty()) line += "   < " + hex_words(event.received);
+            }
+            command_line::tell(common_, line, document(event, start));
+        }
+    }
+
+  private:
+    static Json document(const MonitorEvent& event, base::Instant start) {
+        Json document{{"time_s", static_cast<double>((event.at - start).count()) / 1e6}};
+        if (event.address) document["address"] = *event.address;
+        if (event.reg) document["register"] = *event.reg;
+        if (event.value) document["value"] = *event.value;
+        if (!event.request.empty()) document["request"] = event.request;
+        if (!event.answer.empty()) document["answer"] = event.answer;
+        if (!event.flaw.empty()) document["flaw"] = event.flaw;
+        if (!event.sent.empty()) document["sent"] = hex_words(event.sent);
+        if (!event.received.empty()) document["received"] = hex_words(event.received);
+        return document;
+    }
+
+    const Common& common_;
+    const Options& options_;
+};
+
+/// `50 50`, `505050`, `0x50`; # and what follows it in a line is a remark.
+std::vector<std::uint8_t> read_hex(const std::string& text, const std::string& name) {
+    std::vector<std::uint8_t> bytes;
+    std::size_t line = 1;
+    std::string word;
+    const auto end_word = [&] {
+        std::string digits = word.starts_with("0x") || word.starts_with("0X") ? word.substr(2) : word;
+        if (!digits.empty() && (digits.back() == 'h' || digits.back() == ',')) digits.pop_back();
+        const bool hex =
+            std::all_of(digits.begin(), digits.end(), [](unsigned char c) { return std::isxdigit(c) != 0; });
+        if (!hex || digits.size() % 2 != 0)
+            throw UserError(
+                fmt::format("{}:{}: '{}' is no byte in hex; write two digits a byte", name, line, word));
+        for (std::size_t i = 0; i < digits.size(); i += 2)
+            bytes.push_back(static_cast<std::uint8_t>(std::stoi(digits.substr(i, 2), nullptr, 16)));
+        word.clear();
+    };
+    bool remark = false;
+    for (const char c : text + "\n") {
+        remark = c != '\n' && (remark || c == '#');
+        if (!remark && std::isspace(static_cast<unsigned char>(c)) == 0) {
+            word += c;
+            continue;
+        }
+        end_word();
+        if (c == '\n') ++line;
+    }
+    return bytes;
+}
+
+std::unique_ptr<Monitor> make(const Common& common, const Options& options) {
+    MonitorOptions how{.gateway = static_cast<std::uint8_t>(options.gateway), .baud = common.baud};
+    if (const auto model = model_option(common)) how.model = *model;
+    if (options.old_code) how.code = protocol::fastmac::RegisterCode::older_example;
+    if (options.protocol == "mactalk") return make_mactalk_monitor(how);
+    if (options.protocol == "fastmac" || options.protocol == "flexmac") return make_fastmac_monitor(how);
+    throw UserError(
+        fmt::format("--protocol {}: write mactalk or fastmac (which is FlexMAC too)", options.protocol));
+}
+
+Side side_of(const Options& options) {
+    if (options.from == "motor") return Side::motor;
+    if (options.from == "master") return Side::master;
+    if (!options.from.empty()) throw UserError(fmt::format("--from {}: write master or motor", options.from));
+    if (!options.motor_port.empty() || options.protocol != "mactalk") return Side::master;
+    return Side::both;
+}
+
+void replay(const Common& common, const Options& options) {
+    const auto monitor = make(common, options);
+    const Side side = side_of(options);
+    const bool standard = options.replay == "-";
+    const seqc::FileText file = standard ? seqc::read_standard_input() : seqc::read_file(options.replay);
+    if (!file.error.empty()) throw UserError(file.error);
+    // A character takes ten bits; a file holds no times.
+    const base::Microseconds character{10'000'000 / common.baud};
+    base::Instant now{};
+    const Teller teller(common, options);
+    for (const std::uint8_t byte : read_hex(file.text, standard ? "standard input" : options.replay)) {
+        monitor->receive(side, byte, now);
+        now += character;
+        teller.tell(*monitor, {});
+    }
+    monitor->finish();
+    teller.tell(*monitor, {});
+}
+
+void listen(const Common& common, const Options& options) {
+    const auto monitor = make(common, options);
+    struct Line {
+        std::unique_ptr<mactalk_client::Wire> wire;
+        Side side;
+    };
+    std::vector<Line> lines;
+    lines.push_back({command_line::open_port(common), side_of(options)});
+    if (!options.motor_port.empty()) {
+        command_line::Common second = common;
+        second.port = options.motor_port;
+        lines.push_back({command_line::open_port(second), Side::motor});
+    }
+    const Teller teller(common, options);
+    const base::Instant start = lines.front().wire->now();
+    constexpr base::Microseconds kWait{10'000};
+    std::array<std::uint8_t, 256> bytes{};
+    while (goes_on()) {
+        for (Line& line : lines) {
+            const auto count = line.wire->read(bytes, kWait);
+            if (!count) {
+                monitor->finish();
+                teller.tell(*monitor, start);
+                throw mactalk_client::LineError(mactalk_client::LineError::Kind::port_gone,
+                                                line.wire->name() + ": the other end is gone");
+            }
+            const base::Instant now = line.wire->now();
+            for (std::size_t i = 0; i < *count; ++i) monitor->receive(line.side, bytes[i], now);
+            monitor->pass(now);
+        }
+        teller.tell(*monitor, start);
+    }
+    monitor->finish();
+    teller.tell(*monitor, start);
+}
+
+}  // namespace
+
+void add_monitor(CLI::App& app, Common& common) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = add_command(
+        app, "monitor",
+        "Tell what others say on a line, decoded; only listens, with an adapter of its own, until Ctrl-C");
+    command.add_option("--protocol", options->protocol, "mactalk, or fastmac (which is FlexMAC too)")
+        ->capture_default_str();
+    command.add_option(
+        "--from", options->from,
+        "Whose bytes come: master or motor; both of a MacTalk line, and the master of a FastMAC "
+        "line, if not said");
+    command.add_option("--motor-port", options->motor_port,
+                       "A second port that hears the motor; --port then hears the master");
+    command.add_option("--replay", options->replay, "Bytes in hex from a file instead; - is standard input");
+    command
+        .add_option("--gateway", options->gateway,
+                    "Address of a gateway, whose registers have other names; 0: none")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 254));
+    command.add_flag("--older-code", options->old_code, "FastMAC register codes of the manual's example");
+    command.add_flag("--bytes", options->bytes, "Show the bytes in hex too");
+    command.callback([options, &common] {
+        guard(common, [&] { options->replay.empty() ? listen(common, *options) : replay(common, *options); });
+    });
+}
+
+}  // namespace nplc::macreg::cli

@@ -1,0 +1,197 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <numeric>
+
+#include "cli/subcommands.h"
+#include "macreg/recorder.h"
+#include "macreg/values.h"
+#include "macreg/words.h"
+#include "seqc/files.h"
+
+namespace nplc::macreg::cli {
+namespace {
+
+using registers::Register;
+
+struct Options {
+    std::vector<std::string> registers;
+    std::string output;
+    std::string rate = "slow";
+    std::string when;
+    std::string move;
+    double within = 0;
+    double lasts = 0;
+    std::size_t samples = 0;
+    bool poll = false;
+};
+
+/// What --move writes: a position or speed, or how far from the one that is set.
+struct Move {
+    const Register* reg = nullptr;
+    std::int64_t raw = 0;
+};
+
+Move read_move(Session& session, const std::string& text) {
+    const std::size_t sign = text.find('=');
+    const bool relative = sign != std::string::npos && sign + 1 < text.size() && text[sign + 1] == '+';
+    if (sign == std::string::npos)
+        throw UserError(
+            fmt::format("--move {}: write REGISTER=VALUE, or REGISTER=+VALUE for so much more", text));
+    const registers::Model model = session.motor().model();
+    const Register* reg = find_registers(model, {text.substr(0, sign)}).front();
+    if (reg->number != registers::P_SOLL && reg->number != registers::V_SOLL)
+        throw UserError(fmt::format("--move {}: moves are made by P_SOLL or V_SOLL", text));
+    const TypedValue typed = typed_value(*reg, model, text.substr(sign + (relative ? 2 : 1)));
+    if (!typed.error.empty()) throw UserError("--move: " + typed.error);
+    const std::int64_t raw = typed.raw + (relative ? session.motor().read(*reg) : 0);
+    if (raw < reg->min || raw > reg->max)
+        throw UserError(fmt::format("--move {}: {} would be {}, out of its range {}", text, reg->name, raw,
+                                    range_text(*reg, model)));
+    session.ask(fmt::format("{} becomes {} while it records: the motor may move", reg->name,
+                            value_words(model, *reg, raw)));
+    return {reg, raw};
+}
+
+std::string phase_words(const RecordProgress& progress) {
+    const std::string of = progress.of > 0 ? fmt::format("{} of {}", progress.done, progress.of)
+                                           : fmt::format("{}", progress.done);
+    switch (progress.phase) {
+        case RecordProgress::Phase::waiting:
+            return "waiting";
+        case RecordProgress::Phase::recording:
+            return fmt::format("recorded {} samples", of);
+        case RecordProgress::Phase::reading:
+            return fmt::format("read {} samples", of);
+    }
+    return {};
+}
+
+void write_file(const std::string& path, const std::string& content) {
+    if (const std::string problem = seqc::write_files({{path, content}}); !problem.empty())
+        throw UserError(problem);
+}
+
+void save(Session& session, const Options& options, const Recording& recording) {
+    const std::string csv = to_csv(recording);
+    if (options.output.empty()) {
+        if (!session.json()) return fmt::print("{}", csv);
+    } else {
+        write_file(options.output, csv);
+    }
+    Json document{{"samples", recording.size()},
+                  {"rate_hz", recording.rate_hz},
+                  {"seconds", recording.size() > 0 ? recording.time_s.back() : 0.0},
+                  {"incomplete", recording.incomplete}};
+    if (!options.output.empty()) {
+        document["file"] = options.output;
+    } else {
+        document["time_s"] = recording.time_s;
+        for (const auto& column : recording.columns)
+            document["columns"].push_back(
+                {{"name", column.name}, {"unit", column.unit}, {"values", column.values}});
+    }
+    session.tell(fmt::format("{}: {} samples in {:.3f} s{}", options.output, recording.size(),
+                             recording.size() > 0 ? recording.time_s.back() : 0.0,
+                             recording.incomplete.empty() ? "" : ", incomplete: " + recording.incomplete),
+                 document);
+}
+
+void poll(Session& session, const Options& options, const RecordOptions& how) {
+    Recording recording;
+    try {
+        record_polling(session.motor(), how, recording);
+    } catch (const std::runtime_error& error) {
+        session.progress("");
+        if (recording.size() < 2) throw;
+        // A row may be half filled when the line failed.
+        for (auto& column : recording.columns) column.values.resize(recording.size());
+        recording.incomplete = error.what();
+        const bool without_end = how.samples == 0 && how.lasts.count() == 0;
+        if (without_end && !goes_on()) recording.incomplete.clear();  // Ctrl-C is how it ends
+        save(session, options, recording);
+        if (recording.incomplete.empty()) return;
+        throw;
+    }
+    session.progress("");
+    save(session, options, recording);
+}
+
+RecordOptions how_to(Session& session, const Options& options) {
+    RecordOptions how;
+    how.registers = find_registers(session.motor().model(), options.registers);
+    if (options.rate != "slow" && options.rate != "fast")
+        throw UserError(fmt::format(
+            "--rate {}: write slow (the position loop's) or fast (the current loop's)", options.rate));
+    how.fast = options.rate == "fast";
+    if (options.poll && how.fast)
+        throw UserError("--poll reads as fast as the line permits and takes no --rate");
+    if (!options.poll && options.lasts > 0)
+        throw UserError("--for is for --poll; a buffer's length is --samples");
+    how.samples = options.samples > 0 || options.poll ? options.samples : kMostSamples;
+    how.within = base::Microseconds{static_cast<std::int64_t>(options.within * 1e6)};
+    how.lasts = base::Microseconds{static_cast<std::int64_t>(options.lasts * 1e6)};
+    if (!options.when.empty()) {
+        const ConditionReading reading = read_condition(options.when, session.motor().model());
+        if (!reading.error.empty()) throw UserError("--when: " + reading.error);
+        how.when = reading.condition;
+    }
+    how.progress = [&session](const RecordProgress& progress) {
+        session.progress(phase_words(progress));
+        look_for_interruption();
+    };
+    return how;
+}
+
+void record(Session& session, const Options& options) {
+    RecordOptions how = how_to(session, options);
+    Move move;
+    if (!options.move.empty()) {
+        move = read_move(session, options.move);
+        how.then = [&] { session.motor().write(*move.reg, move.raw); };
+    }
+    try {
+        if (options.poll) return poll(session, options, how);
+        const Recording recording = record_buffer(session.motor(), how);
+        session.progress("");
+        save(session, options, recording);
+    } catch (const CannotRecord& error) {
+        session.progress("");
+        refuse(error.what());
+    } catch (...) {
+        session.progress("");
+        throw;
+    }
+}
+
+}  // namespace
+
+void add_record(CLI::App& app, Common& common) {
+    const auto options = std::make_shared<Options>();
+    CLI::App& command = add_command(app, "record", "Record registers over time as CSV");
+    command.add_option("registers", options->registers, "Names or numbers, P_IST,V_IST")
+        ->required()
+        ->delimiter(',');
+    command.add_option("-o,--output", options->output, "The file; standard output if not said");
+    command
+        .add_option("--rate", options->rate,
+                    "slow: a sample of the position loop, about 521 Hz; fast: of the current loop, 7812.5 Hz")
+        ->capture_default_str();
+    command.add_option("--samples", options->samples, "How many; 895, the whole buffer, if not said")
+        ->check(CLI::Range(1, 10'000'000));
+    command.add_option("--when", options->when, "Begin when a register condition holds: 'V_IST>100 rpm'");
+    command.add_option("--within", options->within, "Seconds to wait for it; without end if not said")
+        ->check(CLI::Range(0.001, 1e6));
+    command.add_option(
+        "--move", options->move,
+        "As soon as it records, P_SOLL=VALUE, P_SOLL=+VALUE (so much more) or V_SOLL=VALUE; asks first");
+    command.add_flag(
+        "--poll", options->poll,
+        "Read the registers again and again instead of using the motor's buffer: slower, any register, "
+        "through a gateway too");
+    command.add_option("--for", options->lasts, "With --poll: seconds; until Ctrl-C if not said")
+        ->check(CLI::Range(0.001, 1e6));
+    command.callback([options, &common] { work(common, [&](Session& s) { record(s, *options); }); });
+}
+
+}  // namespace nplc::macreg::cli

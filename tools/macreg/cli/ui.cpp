@@ -1,0 +1,44 @@
+#include "macreg/ui.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "cli/subcommands.h"
+
+namespace nplc::macreg::cli {
+namespace {
+
+void ui(Common& common) {
+    if (common.json) throw UserError("ui is for people and knows no --json; see get, set and watch");
+    UiOptions options;
+    {
+        // Who is there; the screen then opens the port for itself.
+        Session session(common);
+        options.address = session.motor().address();
+        options.model = session.motor().model();
+    }
+    constexpr unsigned kAttempts = 2;  // a person who waits presses again
+    options.line = {
+        .baud = common.baud, .patience = base::Milliseconds{common.patience_ms}, .attempts = kAttempts};
+    options.title =
+        fmt::format("macreg {} {} at {}", registers::name_of(options.model), options.address, common.port);
+    options.reopen = [&] { return mactalk_client::open_wire(common.port, common.baud); };
+    try {
+        run_ui(command_line::open_port(common), options);
+    } catch (const mactalk_client::LineError&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        throw UserError(error.what());
+    }
+}
+
+}  // namespace
+
+void add_ui(CLI::App& app, Common& common) {
+    CLI::App& command =
+        add_command(app, "ui", "The full screen: parameters, bits, samples, the line's bytes");
+    command.callback([&common] { guard(common, [&] { ui(common); }); });
+}
+
+}  // namespace nplc::macreg::cli

@@ -1,0 +1,288 @@
+// FastMAC and FlexMAC on a line (001 §5.2).
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "macreg/monitor.h"
+#include "macreg/words.h"
+#include "protocol/flexmac.h"
+#include "registers/layout.h"
+
+namespace nplc::macreg {
+
+namespace fastmac = protocol::fastmac;
+namespace flexmac = protocol::flexmac;
+namespace reg = registers;
+
+namespace {
+
+const char* number_words(fastmac::Number number) {
+    using fastmac::Number;
+    switch (number) {
+        case Number::nop:
+            return "no operation";
+        case Number::reset_error:
+            return "reset errors";
+        case Number::clear_p_soll:
+            return "P_SOLL := 0";
+        case Number::clear_p_ist:
+            return "P_IST := 0";
+        case Number::clear_p_fnc:
+            return "P_FNC := 0";
+        case Number::clear_v_soll:
+            return "V_SOLL := 0";
+        case Number::clear_t_soll:
+            return "T_SOLL := 0";
+        case Number::clear_in_pos:
+            return "clear IN_POS";
+        case Number::move_p7_by_p_fnc:
+            return "move by P7, from P_FNC";
+        case Number::move_p8_by_p_fnc:
+            return "move by P8, from P_FNC";
+        case Number::rapid_communication:
+            return "rapid communication";
+        case Number::safe_communication:
+            return "safe communication";
+        case Number::use_set_1:
+            return "use register set 1";
+        case Number::use_set_2:
+            return "use register set 2";
+        case Number::use_set_3:
+            return "use register set 3";
+        case Number::use_set_4:
+            return "use register set 4";
+        case Number::home:
+            return "start homing";
+        case Number::move_p7_by_p_soll:
+            return "move by P7, from P_SOLL";
+        case Number::move_p8_by_p_soll:
+            return "move by P8, from P_SOLL";
+        case Number::transmit_slowly:
+            return "transmit slowly";
+        case Number::positions_absolute:
+            return "positions are absolute";
+        case Number::positions_relative_p_soll:
+            return "positions are relative to P_SOLL";
+        case Number::positions_relative_p_fnc:
+            return "positions are relative to P_FNC";
+        case Number::transmit_address:
+            return "transmit MYADDR";
+        case Number::use_fastmac:
+            return "use FastMAC";
+        case Number::use_flexmac:
+            return "use FlexMAC";
+    }
+    return "unused, no operation";
+}
+
+std::string command_words(const fastmac::Command& command) {
+    if (command.mode == fastmac::Mode::command)
+        return number_words(static_cast<fastmac::Number>(command.number));
+    constexpr const char* kModes[] = {"INIT_MODE", "V_MODE", "P_MODE"};
+    constexpr char kGroups[] = {'P', 'V', 'A', 'T', 'L', 'Z'};
+    return fmt::format("{}, use {}{}", kModes[static_cast<std::size_t>(command.mode)],
+                       kGroups[static_cast<std::size_t>(command.group)], command.index);
+}
+
+std::string status_words(const fastmac::Status& status) {
+    std::string words = fmt::format("status: toggle {}", status.toggle ? 1 : 0);
+    const auto add = [&](bool is, const char* what) {
+        if (is) words += fmt::format(", {}", what);
+    };
+    add(status.in_position, "in position");
+    add(!status.in_position, "not in position");
+    add(status.accelerating, "speeding up");
+    add(status.decelerating, "slowing down");
+    add(status.flexmac, "receives FlexMAC");
+    add(status.framing_error, "saw a framing error");
+    add(status.error, "ERROR");
+    return words;
+}
+
+class FastMacMonitor final : public Monitor {
+  public:
+    explicit FastMacMonitor(const MonitorOptions& options)
+        : options_(options), pause_(std::int64_t{30'000'000} / static_cast<std::int64_t>(options.baud)) {}
+
+    void receive(Side side, std::uint8_t byte, base::Instant at) override {
+        if (side == Side::motor) return from_motor(byte, at);
+        if (!sent_.empty() && at - last_sent_ >= pause_) break_message();
+        last_sent_ = at;
+        if (flexmac_)
+            from_master_flexmac(byte, at);
+        else
+            from_master(byte, at);
+    }
+    void framing_error(Side side, base::Instant at) override {
+        if (side == Side::motor) {
+            replies_.abandon();
+            flush(received_, true);
+        } else {
+            break_message();
+        }
+        add(at, {}, {}, "a character with a framing error: is the speed right?", {}, {});
+    }
+    void pass(base::Instant now) override {
+        if (!sent_.empty() && now - last_sent_ >= pause_) break_message();
+    }
+    void finish() override {
+        break_message();
+        flush(received_, true);
+    }
+    std::vector<MonitorEvent> take() override { return std::exchange(events_, {}); }
+
+  private:
+    struct Stray {
+        base::Instant at{};
+        std::vector<std::uint8_t> bytes{};
+        bool empty() const { return bytes.empty(); }
+    };
+
+    void from_master(std::uint8_t byte, base::Instant at) {
+        const bool toggle = (byte & fastmac::kToggle) != 0;
+        const bool again = last_toggle_ && *last_toggle_ == toggle;
+        const auto command = fastmac::decode_command(byte, options_.code);
+        if (again && last_command_ == byte) return;  // a repeat does nothing; masters send many
+        add(at, fmt::format("{:02X} {}, toggle {}", byte, command_words(command), toggle ? 1 : 0), {},
+            again ? "the toggle is as before: the motor takes no such command" : "", {byte}, {});
+        last_toggle_ = toggle;
+        last_command_ = byte;
+        if (command.mode != fastmac::Mode::command || again) return;
+        flexmac_ = command.number == static_cast<std::uint8_t>(fastmac::Number::use_flexmac);
+    }
+
+    void from_master_flexmac(std::uint8_t byte, base::Instant at) {
+        if (sent_.empty()) sent_.at = at;
+        sent_.bytes.push_back(byte);
+        const auto message = requests_.receive(byte);
+        if (!message) {
+            if (!requests_.in_message()) flush(sent_, false);
+            return;
+        }
+        const std::size_t size = flexmac::encode(*message).size;
+        std::vector<std::uint8_t> own = split(sent_, size);
+        MonitorEvent event{.at = at};
+        event.request = message_words(*message);
+        event.sent = std::move(own);
+        if (const auto number = register_of(*message)) event.reg = *number;
+        if (!message->read) event.value = message->value;
+        events_.push_back(std::move(event));
+        last_toggle_.reset();
+        if (flexmac::is_protocol_command(*message))
+            flexmac_ = message->target != flexmac::kReadIndexUseFastMac;
+    }
+
+    void from_motor(std::uint8_t byte, base::Instant at) {
+        if (received_.empty()) received_.at = at;
+        received_.bytes.push_back(byte);
+        const auto event = replies_.receive(byte);
+        using Kind = flexmac::ReplyDecoder::Event::Kind;
+        if (event.kind == Kind::reply) {
+            MonitorEvent told{.at = received_.at};
+            told.received = split(received_, flexmac::encode_reply(event.reply, event.reply.value).size);
+            told.answer = message_words(event.reply) + " is " + value_words_of(event.reply);
+            told.value = event.reply.value;
+            if (const auto number = register_of(event.reply)) told.reg = *number;
+            events_.push_back(std::move(told));
+        } else if (event.kind == Kind::status) {
+            received_.bytes.pop_back();
+            flush(received_, true);
+            if (last_status_ == event.status) return;
+            last_status_ = event.status;
+            add(at, {},
+                fmt::format("{:02X} {}", event.status, status_words(fastmac::decode_status(event.status))),
+                {}, {}, {event.status});
+        }
+    }
+
+    /// The last `size` bytes; what stood before them was no message.
+    std::vector<std::uint8_t> split(Stray& stray, std::size_t size) {
+        std::vector<std::uint8_t> own(stray.bytes.end() - static_cast<std::ptrdiff_t>(size),
+                                      stray.bytes.end());
+        stray.bytes.resize(stray.bytes.size() - size);
+        flush(stray, &stray == &received_);
+        return own;
+    }
+
+    void break_message() {
+        requests_.abandon();
+        flush(sent_, false);
+    }
+
+    void flush(Stray& stray, bool from_motor) {
+        if (stray.empty()) return;
+        const std::string what = fmt::format("no whole FlexMAC message{}: {}",
+                                             from_motor ? " from the motor" : "", hex_words(stray.bytes));
+        std::vector<std::uint8_t> bytes = std::exchange(stray.bytes, {});
+        if (from_motor)
+            add(stray.at, {}, {}, what, {}, std::move(bytes));
+        else
+            add(stray.at, {}, {}, what, std::move(bytes), {});
+    }
+
+    std::optional<std::uint8_t> register_of(const flexmac::Message& message) const {
+        const auto target = static_cast<std::uint8_t>(message.target);
+        switch (message.level) {
+            case flexmac::Level::reg:
+                return target;
+            case flexmac::Level::address:
+                return flexmac::register_of_address(message.target);
+            case flexmac::Level::index:
+                break;
+        }
+        const std::uint8_t number =
+            message.read ? flexmac::register_of_read_index(target) : flexmac::register_of_write_index(target);
+        return number == 0 ? std::nullopt : std::optional(number);
+    }
+
+    std::string message_words(const flexmac::Message& message) const {
+        if (flexmac::is_protocol_command(message))
+            return message.target == flexmac::kReadIndexUseFastMac ? "FlexMAC: use FastMAC" : "FlexMAC: stay";
+        const auto number = register_of(message);
+        std::string name =
+            number ? register_words(options_.model, *number) : fmt::format("address {:04X}", message.target);
+        if (message.level == flexmac::Level::address && number)
+            name += fmt::format(" at {:04X}", message.target);
+        if (message.read) return "FlexMAC: read " + name;
+        return fmt::format("FlexMAC: write {} := {}", name, value_words_of(message));
+    }
+
+    std::string value_words_of(const flexmac::Message& message) const {
+        const std::size_t bytes = message.longword ? 4 : 2;
+        const auto number = register_of(message);
+        if (!number) return fmt::format("{:0{}X}", message.value, 2 * bytes);
+        return bytes_words(options_.model, *number, message.value, bytes);
+    }
+
+    void add(base::Instant at, std::string request, std::string answer, std::string flaw,
+             std::vector<std::uint8_t> sent, std::vector<std::uint8_t> received) {
+        MonitorEvent event{.at = at};
+        event.request = std::move(request);
+        event.answer = std::move(answer);
+        event.flaw = std::move(flaw);
+        event.sent = std::move(sent);
+        event.received = std::move(received);
+        events_.push_back(std::move(event));
+    }
+
+    MonitorOptions options_;
+    base::Microseconds pause_;
+    bool flexmac_ = false;
+    std::optional<bool> last_toggle_;
+    std::optional<std::uint8_t> last_command_;
+    std::optional<std::uint8_t> last_status_;
+    base::Instant last_sent_{};
+    flexmac::RequestDecoder requests_;
+    flexmac::ReplyDecoder replies_;
+    Stray sent_;
+    Stray received_;
+    std::vector<MonitorEvent> events_;
+};
+
+}  // namespace
+
+std::unique_ptr<Monitor> make_fastmac_monitor(const MonitorOptions& options) {
+    return std::make_unique<FastMacMonitor>(options);
+}
+
+}  // namespace nplc::macreg

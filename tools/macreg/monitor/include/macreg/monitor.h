@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/time.h"
+#include "protocol/fastmac.h"
+#include "registers/mac.h"
+
+/// What passes on a line between a master and motors, in lines for people. Only listens.
+namespace nplc::macreg {
+
+/// Whose bytes a stream holds.
+enum class Side : std::uint8_t { both, master, motor };
+
+struct MonitorEvent {
+    base::Instant at{};
+    std::string request{};  ///< "motor 254: read P_IST (10)"
+    std::string answer{};   ///< "00001234 = 4660 counts", "accepted", "no answer"
+    std::string flaw{};     ///< what is wrong with the bytes
+    std::vector<std::uint8_t> sent{};
+    std::vector<std::uint8_t> received{};
+    std::optional<std::uint8_t> address{};
+    std::optional<std::uint8_t> reg{};
+    std::optional<std::uint32_t> value{};  ///< read or written, as it went over the line
+};
+
+/// "12.034 s  -> motor 254: read P_IST (10)   <- 00001234 = 4660 counts"
+std::string line_of(const MonitorEvent& event, base::Instant start);
+
+class Monitor {
+  public:
+    virtual ~Monitor() = default;
+    virtual void receive(Side side, std::uint8_t byte, base::Instant at) = 0;
+    /// A character with a framing error.
+    virtual void framing_error(Side side, base::Instant at) = 0;
+    /// Nothing came until now: what waits too long is told.
+    virtual void pass(base::Instant now) = 0;
+    /// The end of the line: whatever is under way is told.
+    virtual void finish() = 0;
+    /// In the order in which they are complete.
+    virtual std::vector<MonitorEvent> take() = 0;
+};
+
+struct MonitorOptions {
+    registers::Model model = registers::Model::mac140;
+    /// Whose register numbers mean the gateway's own map; 0: nobody's.
+    std::uint8_t gateway = 0;
+    std::uint32_t baud = 19'200;
+    base::Microseconds longest_answer{1'000'000};
+    protocol::fastmac::RegisterCode code = protocol::fastmac::RegisterCode::format_list;
+};
+
+/// 001 §5.1. Requests and answers may come in one stream (a two-wire line) or in one each.
+std::unique_ptr<Monitor> make_mactalk_monitor(const MonitorOptions& options);
+
+/// 001 §5.2. The two directions have a pair of wires each, so every stream is the master's or the motor's;
+/// `both` is taken for the master's. Status bytes are told when they change. Which protocol the motor expects
+/// is known from the commands seen; a listener who came later follows at the next switch.
+std::unique_ptr<Monitor> make_fastmac_monitor(const MonitorOptions& options);
+
+}  // namespace nplc::macreg

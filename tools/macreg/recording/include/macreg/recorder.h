@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "macreg/condition.h"
+#include "macreg/motor.h"
+#include "macreg/recording.h"
+
+namespace nplc::macreg {
+
+/// Registers that cannot be recorded so, a unit that does not record; one line with what to do.
+class CannotRecord : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+struct RecordProgress {
+    enum class Phase : std::uint8_t { waiting, recording, reading } phase;
+    std::size_t done;
+    std::size_t of;  ///< 0: no end is known
+};
+
+struct RecordOptions {
+    std::vector<const registers::Register*> registers{};
+    bool fast = false;          ///< current loop's rate instead of the position loop's
+    std::size_t samples = 895;  ///< 1 to kMostSamples; polling takes any number, 0 is no end
+    std::optional<Condition> when{};
+    base::Microseconds within{};  ///< for `when`; 0 is no end
+    base::Microseconds lasts{};   ///< polling: 0 is no end
+    /// Called as soon as the motor records: what is to be seen.
+    std::function<void()> then{};
+    /// Called between questions; throws to end it.
+    std::function<void(const RecordProgress&)> progress = [](const RecordProgress&) {};
+};
+
+/// Of the motor's buffer (001 §3.2.116: REC_CNT is 0 to 895).
+inline constexpr std::size_t kMostSamples = 895;
+
+/// Words (longwords on MAC800) of the buffer's four that each sample of the register takes.
+/// R: a sampled number yields the word that lies there, so a 32-bit register takes its own and the next (001
+/// §3.2).
+unsigned sample_words(registers::Model model, const registers::Register& reg);
+
+/// Records in the motor's sample buffer (001 §3.2.36, §3.2.112-116) and reads it by 53h. A sample whose
+/// answer was lost is read again after a rewind. SAMPLE1..4 and RECINNERBIT are put back whatever happens,
+/// and recording is stopped. Throws CannotRecord, LineError, and what `progress` throws.
+Recording record_buffer(Motor& motor, const RecordOptions& options);
+
+/// Reads the registers as fast as the line permits; each row has the time in the middle of its questions.
+/// `into` holds what came so far even if it throws.
+void record_polling(Motor& motor, const RecordOptions& options, Recording& into);
+
+}  // namespace nplc::macreg

@@ -1,0 +1,299 @@
+#include "macreg/recorder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "base/bytes.h"
+#include "macreg/words.h"
+#include "mactalk_client/master.h"
+#include "registers/convert.h"
+#include "registers/details.h"
+#include "registers/layout.h"
+#include "registers/scale.h"
+
+namespace nplc::macreg {
+
+using mactalk_client::LineError;
+using registers::Model;
+using registers::Register;
+using Phase = RecordProgress::Phase;
+
+namespace {
+
+constexpr std::size_t kSlots = 4;
+constexpr unsigned kMostPasses = 20;
+constexpr unsigned kMostLosses = 12;  // in a row
+constexpr base::Microseconds kSilence{2'000'000};
+
+using Sample = std::array<std::uint32_t, kSlots>;
+
+void wait_for(Motor& motor, const RecordOptions& options) {
+    if (!options.when) return;
+    const base::Instant begin = motor.now();
+    while (!options.when->holds(motor.read(*options.when->reg))) {
+        options.progress({Phase::waiting, 0, 0});
+        if (options.within.count() > 0 && motor.now() - begin > options.within)
+            throw CannotRecord(fmt::format("{} did not come true within {:g} s; nothing was recorded",
+                                           condition_words(*options.when, motor.model()),
+                                           static_cast<double>(options.within.count()) / 1e6));
+    }
+}
+
+std::string start_words(const Motor& motor, const RecordOptions& options) {
+    return options.when ? "when " + condition_words(*options.when, motor.model()) : std::string("now");
+}
+
+Recording empty_recording(const Motor& motor, const RecordOptions& options) {
+    Recording recording;
+    recording.model = registers::name_of(motor.model());
+    recording.address = motor.address();
+    recording.start = start_words(motor, options);
+    for (const Register* reg : options.registers) recording.columns.push_back(column_of(*reg));
+    return recording;
+}
+
+class BufferRecorder {
+  public:
+    BufferRecorder(Motor& motor, const RecordOptions& options)
+        : motor_(motor),
+          options_(options),
+          record_(mask("RECORDBIT")),
+          rewind_(mask("REWINDBIT")),
+          inner_(mask("RECINNERBIT")),
+          momentary_(record_ | rewind_ |
+                     mask(motor.model() == Model::mac800 ? "SYNCPOSAMAN" : "MAN_RESYNC")) {
+        plan();
+    }
+
+    Recording run() {
+        if (motor_.is_behind_gateway())
+            throw CannotRecord(
+                "the motor is behind a gateway, whose line to it carries no sample buffer; use --poll");
+        save();
+        try {
+            arrange();
+            wait_for(motor_, options_);
+            change_bits(record_ | wanted_inner(), inner_);
+            if (options_.then) options_.then();
+            const std::size_t count = wait_until_recorded();
+            change_bits(0, 0);
+            Recording recording = read(count);
+            restore();
+            return recording;
+        } catch (...) {
+            try {
+                change_bits(0, 0);
+                restore();
+            } catch (const LineError&) {
+                // The line is what failed; the first failure says so.
+            }
+            throw;
+        }
+    }
+
+  private:
+    std::int64_t mask(std::string_view name) const {
+        const auto* field = registers::field_of(motor_.model(), registers::CNTRL_BITS, name);
+        return field != nullptr ? static_cast<std::int64_t>(registers::mask_of(*field)) : 0;
+    }
+    std::int64_t wanted_inner() const { return options_.fast ? inner_ : 0; }
+
+    void plan() {
+        std::string words;
+        for (const Register* reg : options_.registers) {
+            const unsigned count = sample_words(motor_.model(), *reg);
+            for (unsigned i = 0; i < count; ++i) slots_.push_back(static_cast<std::uint8_t>(reg->number + i));
+            words += fmt::format("{}{} takes {}", words.empty() ? "" : ", ", reg->name, count);
+        }
+        if (slots_.empty()) throw CannotRecord("name a register to record");
+        if (slots_.size() > kSlots)
+            throw CannotRecord(fmt::format(
+                "a sample has {} words, and these registers need {} ({}); name fewer, or use --poll", kSlots,
+                slots_.size(), words));
+        if (options_.samples < 1 || options_.samples > kMostSamples)
+            throw CannotRecord(
+                fmt::format("the buffer holds 1 to {} samples; use --poll for more", kMostSamples));
+    }
+
+    void save() {
+        for (std::size_t i = 0; i < slots_.size(); ++i) {
+            samples_[i] = motor_.find(fmt::format("SAMPLE{}", i + 1));
+            saved_[i] = motor_.read(*samples_[i]);
+        }
+        saved_inner_ = control() & inner_;
+    }
+
+    void restore() {
+        for (std::size_t i = 0; i < slots_.size(); ++i) motor_.write(*samples_[i], saved_[i]);
+        change_bits(saved_inner_, inner_);
+    }
+
+    void arrange() {
+        change_bits(0, 0);
+        for (std::size_t i = 0; i < slots_.size(); ++i) motor_.write(*samples_[i], slots_[i]);
+        rewind();
+    }
+
+    std::int64_t control() { return motor_.read(registers::CNTRL_BITS); }
+    std::int64_t counted() { return motor_.read("REC_CNT"); }
+
+    /// What the motor clears by itself is written as 0 unless it is to be set.
+    void change_bits(std::int64_t set, std::int64_t clear) {
+        const std::int64_t now = control();
+        const std::int64_t wanted = (now & ~momentary_ & ~clear) | set;
+        if (wanted != now) motor_.write(*motor_.find(registers::CNTRL_BITS), wanted);
+    }
+
+    void rewind() {
+        change_bits(rewind_, 0);
+        const base::Instant begin = motor_.now();
+        while ((control() & rewind_) != 0) {
+            options_.progress({Phase::waiting, 0, 0});
+            if (motor_.now() - begin > kSilence)
+                throw CannotRecord("the motor does not clear REWINDBIT: it does not rewind its buffer");
+        }
+    }
+
+    /// How many samples there are.
+    std::size_t wait_until_recorded() {
+        base::Instant moved = motor_.now();
+        std::int64_t last = 0;
+        for (;;) {
+            const bool ended = (control() & record_) == 0;
+            const std::int64_t count = counted();
+            const auto whole = static_cast<std::size_t>(std::clamp<std::int64_t>(count, 0, kMostSamples));
+            options_.progress({Phase::recording, std::min(whole, options_.samples), options_.samples});
+            if (whole >= options_.samples || (ended && whole > 0)) return std::min(whole, options_.samples);
+            if (count != last) moved = motor_.now();
+            last = count;
+            if (motor_.now() - moved > kSilence)
+                throw CannotRecord(fmt::format("the motor records nothing: REC_CNT stays at {}", count));
+        }
+    }
+
+    Recording read(std::size_t count) {
+        std::vector<std::optional<Sample>> samples(count);
+        const auto is_missing = [](const auto& sample) { return !sample.has_value(); };
+        for (unsigned pass = 0;; ++pass) {
+            const auto last = std::find_if(samples.rbegin(), samples.rend(), is_missing);
+            if (last == samples.rend()) break;
+            if (pass == kMostPasses)
+                throw CannotRecord(fmt::format(
+                    "{} of {} samples were still missing after reading the buffer {} times; look at the "
+                    "line",
+                    std::count_if(samples.begin(), samples.end(), is_missing), count, kMostPasses));
+            read_pass(samples, static_cast<std::size_t>(samples.rend() - last));
+        }
+        return put_together(samples);
+    }
+
+    /// From the start of the buffer to sample number `end`. The motor counts what it sent: after an answer
+    /// that did not come REC_CNT tells whether that was lost or the question.
+    void read_pass(std::vector<std::optional<Sample>>& samples, std::size_t end) {
+        rewind();
+        auto got = samples;
+        unsigned losses = 0;
+        for (std::size_t i = 0; i < end;) {
+            options_.progress({Phase::reading,
+                               static_cast<std::size_t>(std::count_if(got.begin(), got.end(),
+                                                                      [](auto& s) { return s.has_value(); })),
+                               got.size()});
+            try {
+                got[i] = ask();
+                ++i;
+                losses = 0;
+            } catch (const LineError& error) {
+                if (error.kind() != LineError::Kind::no_answer || ++losses == kMostLosses) throw;
+                const std::int64_t next = counted();
+                if (next < static_cast<std::int64_t>(i) || next > static_cast<std::int64_t>(i) + 1) return;
+                i = static_cast<std::size_t>(next);
+            }
+        }
+        if (counted() == static_cast<std::int64_t>(end)) samples = got;
+    }
+
+    Sample ask() {
+        const std::size_t width = motor_.model() == Model::mac800 ? 4 : 2;
+        const auto bytes = motor_.master().read_sample(motor_.address(), kSlots * width);
+        Sample sample{};
+        for (std::size_t i = 0; i < kSlots; ++i)
+            sample[i] = width == 4 ? base::load_u32(&bytes[4 * i]) : base::load_u16(&bytes[2 * i]);
+        return sample;
+    }
+
+    Recording put_together(const std::vector<std::optional<Sample>>& samples) const {
+        Recording recording = empty_recording(motor_, options_);
+        recording.rate_hz = rate();
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            recording.time_s.push_back(static_cast<double>(i) / recording.rate_hz);
+            std::size_t slot = 0;
+            for (std::size_t c = 0; c < options_.registers.size(); ++c) {
+                const Register& reg = *options_.registers[c];
+                std::uint32_t bits = (*samples[i])[slot++];
+                if (sample_words(motor_.model(), reg) == 2) bits |= (*samples[i])[slot++] << 16;
+                const auto format = motor_.model() == Model::mac800 && !registers::is_32_bit(reg.format)
+                                        ? registers::Format::long_int
+                                        : reg.format;
+                recording.columns[c].values.push_back(
+                    shown_value(reg, motor_.model(), registers::value_of(format, bits)));
+            }
+        }
+        return recording;
+    }
+
+    /// 001 §3.2.36: the current loop's rate is 15 times the position loop's.
+    double rate() const {
+        constexpr double kInnerSamples = 15;
+        const registers::Ratio outer = registers::exact_scale_of(motor_.model()).samples_per_second;
+        const double rate = static_cast<double>(outer.numerator) / static_cast<double>(outer.denominator);
+        return options_.fast ? kInnerSamples * rate : rate;
+    }
+
+    Motor& motor_;
+    const RecordOptions& options_;
+    std::int64_t record_;
+    std::int64_t rewind_;
+    std::int64_t inner_;
+    std::int64_t momentary_;
+    std::vector<std::uint8_t> slots_;
+    std::array<const Register*, kSlots> samples_{};
+    std::array<std::int64_t, kSlots> saved_{};
+    std::int64_t saved_inner_ = 0;
+};
+
+}  // namespace
+
+unsigned sample_words(Model model, const Register& reg) {
+    return model != Model::mac800 && registers::is_32_bit(reg.format) ? 2 : 1;
+}
+
+Recording record_buffer(Motor& motor, const RecordOptions& options) {
+    return BufferRecorder(motor, options).run();
+}
+
+void record_polling(Motor& motor, const RecordOptions& options, Recording& into) {
+    if (options.registers.empty()) throw CannotRecord("name a register to record");
+    into = empty_recording(motor, options);
+    wait_for(motor, options);
+    if (options.then) options.then();
+    const base::Instant begin = motor.now();
+    const auto goes_on = [&] {
+        return (options.samples == 0 || into.size() < options.samples) &&
+               (options.lasts.count() == 0 || motor.now() - begin < options.lasts);
+    };
+    while (goes_on()) {
+        options.progress({Phase::recording, into.size(), options.samples});
+        const base::Instant before = motor.now();
+        const Snapshot row = motor.read_block(options.registers);
+        const base::Microseconds middle = (before - begin) + (motor.now() - before) / 2;
+        for (std::size_t c = 0; c < options.registers.size(); ++c) {
+            const Register& reg = *options.registers[c];
+            into.columns[c].values.push_back(shown_value(reg, motor.model(), row.at(reg.number)));
+        }
+        into.time_s.push_back(static_cast<double>(middle.count()) / 1e6);
+    }
+}
+
+}  // namespace nplc::macreg

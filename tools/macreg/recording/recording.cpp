@@ -1,0 +1,188 @@
+#include "macreg/recording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "macreg/words.h"
+#include "registers/convert.h"
+
+namespace nplc::macreg {
+namespace {
+
+constexpr std::string_view kFirstLine = "# macreg recording 1";
+constexpr std::string_view kTime = "time_s";
+constexpr std::size_t kMostColumns = 64;
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r'))
+        text.remove_suffix(1);
+    return text;
+}
+
+std::vector<std::string_view> split(std::string_view line, char by) {
+    std::vector<std::string_view> parts;
+    for (;;) {
+        const std::size_t end = line.find(by);
+        parts.push_back(trimmed(line.substr(0, end)));
+        if (end == std::string_view::npos) return parts;
+        line.remove_prefix(end + 1);
+    }
+}
+
+std::optional<double> number(std::string_view text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+        return std::nullopt;
+    return value;
+}
+
+class Reader {
+  public:
+    Reader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+
+    RecordingReading read() {
+        while (result_.error.empty() && !text_.empty()) {
+            const std::size_t end = std::min(text_.find('\n'), text_.size());
+            take(trimmed(text_.substr(0, end)));
+            text_.remove_prefix(std::min(end + 1, text_.size()));
+        }
+        if (result_.error.empty() && !header_)
+            fail("there is no header; a recording of `macreg record` has one that begins with time_s", 1);
+        if (result_.error.empty() && result_.recording.size() == 0)
+            fail("there are no samples; record again", line_);
+        if (!result_.error.empty()) result_.recording = {};
+        return std::move(result_);
+    }
+
+  private:
+    void take(std::string_view line) {
+        ++line_;
+        if (line.empty()) return;
+        if (line.front() == '#') return comment(trimmed(line.substr(1)));
+        if (header_)
+            row(line);
+        else
+            header(line);
+    }
+
+    void comment(std::string_view line) {
+        const auto starts = [&](std::string_view key) {
+            if (!line.starts_with(key)) return false;
+            line = trimmed(line.substr(key.size()));
+            return true;
+        };
+        Recording& to = result_.recording;
+        if (starts("model ")) {
+            to.model = line;
+        } else if (starts("address ")) {
+            to.address = static_cast<unsigned>(number(line).value_or(0));
+        } else if (starts("rate ")) {
+            to.rate_hz = number(line.substr(0, line.find(' '))).value_or(0);
+        } else if (starts("start ")) {
+            to.start = line;
+        } else if (starts("incomplete: ")) {
+            to.incomplete = line;
+        }
+    }
+
+    void header(std::string_view line) {
+        const auto names = split(line, ',');
+        if (names.front() != kTime)
+            return fail(
+                fmt::format("the header begins with '{}' and not with time_s; name a recording of "
+                            "`macreg record`, or mend the header",
+                            names.front()));
+        if (names.size() < 2) return fail("the header names no register behind time_s");
+        if (names.size() > kMostColumns)
+            return fail(fmt::format("{} columns are more than {}", names.size(), kMostColumns));
+        for (std::size_t i = 1; i < names.size(); ++i) {
+            const std::size_t open = names[i].find('[');
+            std::string_view unit;
+            if (open != std::string_view::npos) {
+                if (names[i].back() != ']')
+                    return fail(fmt::format("'{}': the unit's ] is missing", names[i]));
+                unit = names[i].substr(open + 1, names[i].size() - open - 2);
+            }
+            const std::string_view name = trimmed(names[i].substr(0, open));
+            if (name.empty()) return fail(fmt::format("column {} has no name", i + 1));
+            result_.recording.columns.push_back({std::string(name), std::string(unit), {}});
+        }
+        header_ = true;
+    }
+
+    void row(std::string_view line) {
+        const auto fields = split(line, ',');
+        Recording& to = result_.recording;
+        if (fields.size() != to.columns.size() + 1)
+            return fail(fmt::format("{} fields where the header has {}; the file is damaged or was cut off",
+                                    fields.size(), to.columns.size() + 1));
+        for (std::size_t i = 0; i < fields.size(); ++i) {
+            const auto value = number(fields[i]);
+            if (!value) return fail(fmt::format("'{}' in column {} is no number", fields[i], i + 1));
+            if (i > 0) {
+                to.columns[i - 1].values.push_back(*value);
+                continue;
+            }
+            if (!to.time_s.empty() && *value <= to.time_s.back())
+                return fail(
+                    fmt::format("the time {} is not after {} of the row before", *value, to.time_s.back()));
+            to.time_s.push_back(*value);
+        }
+    }
+
+    void fail(const std::string& what) { fail(what, line_); }
+    void fail(const std::string& what, std::size_t line) {
+        result_.error = fmt::format("{}:{}: {}", name_, line, what);
+    }
+
+    std::string_view text_;
+    const std::string& name_;
+    std::size_t line_ = 0;
+    bool header_ = false;
+    RecordingReading result_;
+};
+
+}  // namespace
+
+Recording::Column column_of(const registers::Register& reg) {
+    return {std::string(reg.name), std::string(shown_unit(reg)), {}};
+}
+
+double shown_value(const registers::Register& reg, registers::Model model, std::int64_t raw) {
+    if (reg.unit == registers::Unit::bits) return static_cast<double>(raw);
+    const auto text = registers::to_text(raw, reg, model, shown_unit(reg));
+    const std::string_view digits = text.view().substr(0, text.view().find(' '));
+    return number(digits).value_or(0);
+}
+
+std::string to_csv(const Recording& recording) {
+    std::string out =
+        fmt::format("{}\n# model {}\n# address {}\n", kFirstLine, recording.model, recording.address);
+    out += recording.rate_hz > 0
+               ? fmt::format("# rate {} Hz\n", recording.rate_hz)
+               : std::string("# rate polled: a row's registers are read one after the other\n");
+    out += fmt::format("# start {}\n", recording.start);
+    if (!recording.incomplete.empty()) out += fmt::format("# incomplete: {}\n", recording.incomplete);
+    out += kTime;
+    for (const auto& column : recording.columns)
+        out += column.unit.empty() ? "," + column.name : fmt::format(",{} [{}]", column.name, column.unit);
+    out += '\n';
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+        out += fmt::format("{:.6f}", recording.time_s[i]);
+        for (const auto& column : recording.columns) out += fmt::format(",{}", column.values[i]);
+        out += '\n';
+    }
+    return out;
+}
+
+RecordingReading from_csv(std::string_view text, const std::string& name) {
+    return Reader(text, name).read();
+}
+
+}  // namespace nplc::macreg

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "mactalk_client/master.h"
+#include "registers/mac.h"
+
+namespace nplc::macreg {
+
+struct UiOptions {
+    std::uint8_t address = 255;
+    registers::Model model = registers::Model::mac140;
+    mactalk_client::MasterOptions line{};
+    std::string title{};
+    /// Opens the port anew after it was lost.
+    std::function<mactalk_client::OpenedWire()> reopen{};
+};
+
+/// The full screen, until a person quits it or a signal ends it. A motor that goes away is shown, and looked
+/// for again. Throws std::runtime_error if there is no terminal.
+void run_ui(std::unique_ptr<mactalk_client::Wire> wire, const UiOptions& options);
+
+}  // namespace nplc::macreg

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "macreg/ui_model.h"
+
+namespace nplc::macreg {
+
+/// The terminal as long as the full screen has it; put back by the destructor, and before a crash ends the
+/// program. One at a time.
+class Terminal {
+  public:
+    /// Throws std::runtime_error if there is no terminal, or an unknown one.
+    Terminal();
+    ~Terminal();
+    Terminal(const Terminal&) = delete;
+    Terminal& operator=(const Terminal&) = delete;
+
+    /// Waits no longer than this for a key.
+    static KeyPress key(int milliseconds);
+    /// Until SIGINT, SIGTERM, SIGHUP or SIGQUIT came.
+    static bool goes_on();
+    bool has_colours() const { return colours_; }
+    /// Braille and line characters can be shown.
+    bool is_utf8() const { return utf8_; }
+
+  private:
+    bool colours_ = false;
+    bool utf8_ = false;
+    void* screen_ = nullptr;
+};
+
+}  // namespace nplc::macreg
