@@ -98,6 +98,7 @@ void Servo::use_settings(const MotorMemory& memory) {
 std::int32_t Servo::advance(MotorMemory& memory, const Terminals& terminals, InnerWatcher* watcher) {
     take_settings(memory);
     take_sums(memory);
+    plant_.take_load();
     if (depth_ == Depth::current_loop) {
         run_inner(memory, terminals, watcher);
     } else {
@@ -253,9 +254,10 @@ Servo::Result Servo::carry_out(const Drive& drive, MotorMemory& memory) {
 // 001 §3.2.140. R: by one a sample, so that what a turning shaft drives through the shorted windings averages
 // out.
 void Servo::follow_offsets(MotorMemory& memory) const {
+    const PerPhase<std::int32_t> currents = inner_.regulator().measured().integers();
     const int measured = is_mac800(memory.model()) ? 2 : 3;
     for (int p = 0; p < measured; ++p) {
-        const std::int32_t current = inner_.regulator().measured()[static_cast<std::size_t>(p)];
+        const std::int32_t current = currents[static_cast<std::size_t>(p)];
         if (current == 0) continue;
         memory.set(cell::IA_OFFSET[p], memory.get(cell::IA_OFFSET[p]) + (current > 0 ? -1 : 1));
     }
@@ -265,11 +267,14 @@ void Servo::show_currents(MotorMemory& memory) const {
     const CurrentRegulator& r = inner_.regulator();
     memory.set(cell::I_NOM, r.i_nom());
     memory.set(cell::PHI_SOLL, r.phi_soll());
+    const PerPhase<std::int32_t> wanted = r.wanted().integers();
+    const PerPhase<std::int32_t> measured = r.measured().integers();
+    const PerPhase<std::int32_t> voltage = r.voltage().integers();
     for (int p = 0; p < 3; ++p) {
         const auto phase = static_cast<std::size_t>(p);
-        memory.show(cell::IA_SOLL[p], r.wanted()[phase]);
-        memory.set(cell::IA_IST[p], r.measured()[phase]);
-        memory.set(cell::UA_VAL[p], r.voltage()[phase]);
+        memory.set(cell::IA_SOLL[p], wanted[phase]);
+        memory.set(cell::IA_IST[p], measured[phase]);
+        memory.set(cell::UA_VAL[p], voltage[phase]);
     }
     memory.set(cell::ELDEG_IST, inner_.eldeg());
     memory.set(cell::V_ELDEG, inner_.v_eldeg());

@@ -33,18 +33,12 @@ class Plant {
     /// `steps`: in an outer sample.
     Plant(double full_acceleration, int steps, const Load& load);
 
-    /// One step with the motor's `torque`, and `brake` of torque against each count/step of velocity.
-    void step(double torque, double brake = 0) {
-        const double of_one = this->of_one();
-        const double push = within(torque + load_.torque, kTorqueBound) * of_one;
-        const double pushed = brake == 0 ? velocity_ + push : (velocity_ + push) / (1 + brake * of_one);
-        const double before = velocity_;
-        velocity_ = rubbed(pushed, std::max(load_.friction_torque, 0) * of_one);
-        velocity_ = within(velocity_, fastest_);
-        const std::int64_t from = position_;
-        position_ += static_cast<std::int64_t>((before + velocity_) * (kCount / 2));
-        if (load_.low_stop || load_.high_stop) keep_within_stops(from);
-    }
+    /// Before the steps of a sample: the load as it is now.
+    void take_load();
+    /// One step with the motor's `torque`.
+    void step(double torque) { move(velocity_ + push(torque)); }
+    /// The same with `brake` of torque against each count/step of velocity.
+    void step(double torque, double brake) { move((velocity_ + push(torque)) / (1 + brake * of_one_)); }
 
     /// Encoder counts since the motor was built.
     std::int64_t counts() const { return (position_ + kCount / 2) >> kFractionBits; }
@@ -67,13 +61,14 @@ class Plant {
         if (velocity < -friction) return velocity + friction;
         return 0;
     }
-    /// What torque 1 gives motor and load, counts/step^2.
-    double of_one() {
-        if (load_.inertia_256 != inertia_256_) {
-            inertia_256_ = load_.inertia_256;
-            of_one_ = acceleration_of_one_ * 256 / std::max(inertia_256_, 1);
-        }
-        return of_one_;
+    double push(double torque) const { return within(torque + pull_, kTorqueBound) * of_one_; }
+    /// On to the velocity that this would be without friction.
+    void move(double pushed) {
+        const double before = velocity_;
+        velocity_ = within(rubbed(pushed, friction_), fastest_);
+        const std::int64_t from = position_;
+        position_ += static_cast<std::int64_t>((before + velocity_) * (kCount / 2));
+        if (has_stops_) keep_within_stops(from);
     }
     void keep_within_stops(std::int64_t from);
     const MechanicalStop* stop_beyond() const;
@@ -84,7 +79,10 @@ class Plant {
     double thrown_;  // of the velocity with which a spring throws, what is left after a step
     Load load_;
     std::int32_t inertia_256_ = -1;  // that of_one_ is for
-    double of_one_ = 0;
+    double of_one_ = 0;              // of torque 1 on motor and load, counts/step^2
+    double friction_ = 0;            // counts/step^2
+    double pull_ = 0;                // torque
+    bool has_stops_ = false;
     std::int64_t position_ = 0;  // 1/kCount counts
     double velocity_ = 0;        // counts/step
 };

@@ -27,6 +27,7 @@ class Supply {
           volts_of_ampere_(seconds / constants.farads),
           charged_(volts_of_ampere_ / (volts_of_ampere_ + constants.source_ohms)),
           dumped_(volts_of_ampere_ / (volts_of_ampere_ + constants.dump_ohms)),
+          held_(constants.dump_volts * kHold),
           volts_(constants.source_volts) {}
 
     /// What the source gives without load; may be changed at any time.
@@ -40,8 +41,7 @@ class Supply {
     /// which no step is too long for.
     void step(double watts) {
         double volts = volts_ - watts / volts_ * volts_of_ampere_;
-        const double held = constants_.dump_volts * kHold;
-        if (volts > held) volts = std::max(volts - volts * dumped_, held);
+        if (volts > held_) volts = std::max(volts - volts * dumped_, held_);
         if (volts < constants_.source_volts) volts += (constants_.source_volts - volts) * charged_;
         volts_ = within(volts, kLeast, kMost);
     }
@@ -53,6 +53,7 @@ class Supply {
     double volts_of_ampere_;
     double charged_;  // of what is missing, in a step
     double dumped_;
+    double held_;  // what the dump keeps the bus at
     double volts_;
 };
 
