@@ -9,7 +9,7 @@ void CurrentRegulator::reset() {
 }
 
 void CurrentRegulator::apply(const PerPhase<std::int32_t>& voltage) {
-    voltage_ = Phases(voltage).limited(kRange);
+    voltage_ = Phases(voltage).within(kRange);
     wanted_ = {};
     measured_before_ = error_before_ = output_ = output_before_ = {};
     i_nom_ = phi_ = 0;

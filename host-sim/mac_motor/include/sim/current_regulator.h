@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "sim/bounds.h"
 #include "sim/motor_memory.h"
 #include "sim/phases.h"
 #include "sim/sine_table.h"
@@ -32,10 +33,13 @@ class CurrentRegulator {
     /// Currents as the converters give them, whole, without offset.
     void measure(Phases converted) {
         const Phases scaled = (converted + s_.offset) * s_.gain;
-        measured_ = scaled.limited(kRange).whole();
+        const bool inside = scaled.inside(kRange - 1);
+        measured_ = (inside ? scaled : scaled.clamped(-kRange, kRange)).whole();
         if (s_.third_is_rest) {
-            const double rest = std::clamp<double>(-measured_.a() - measured_.b(), -kRange, kRange);
+            const double rest = within(-measured_.a() - measured_.b(), kRange);
             measured_ = {measured_.a(), measured_.b(), rest};
+        } else if (inside) {
+            return;
         }
         at_the_end_ |= !measured_.inside(kRange - 1);
     }
@@ -52,7 +56,7 @@ class CurrentRegulator {
         phi_ = angle & (kTurn - 1);
         const double amplitude = i_nom * s_.amplitude;
         wanted_ = kSine.phases(phi_) * amplitude;
-        if (std::abs(amplitude) > kLargest) wanted_ = wanted_.limited(kLargest);
+        if (std::abs(amplitude) > kLargest) wanted_ = wanted_.within(kLargest);
         wanted_ = wanted_.whole();
     }
     /// Regulates what was measured to what was asked for; the answer is in `voltage`.
@@ -60,7 +64,7 @@ class CurrentRegulator {
         const Phases error = wanted_ - (measured_ * s_.kib1 + measured_before_ * s_.kib0);
         Phases output = error * s_.kifx2 + error_before_ * s_.kifx1 + output_ * s_.kify1;
         if (s_.kify0.c() != 0) output = output + output_before_ * s_.kify0;
-        output = output.limited(kRange);  // so that it cannot wind up
+        output = output.within(kRange);  // so that it cannot wind up
         measured_before_ = measured_;
         error_before_ = error;
         output_before_ = output_;

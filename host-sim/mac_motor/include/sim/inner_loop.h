@@ -74,8 +74,9 @@ class InnerLoop {
     /// A converter's half that the motor uses: 0 down to -2047. To the nearest integer, for kFar takes what
     /// is measured above 0, where the point is cut off downwards.
     static Phases converted(Phases current) {
-        constexpr double kSpan = 2047, kFar = 100'000;
-        return ((current + kFar + 0.5).whole() - kFar - Phases(kMiddle)).limited(-kSpan, 0);
+        constexpr double kSpan = 2047, kFar = 100'000, kInside = 1000;
+        const Phases raw = (current + kFar + 0.5).whole() - kFar - Phases(kMiddle);
+        return current.inside(kInside) ? raw : raw.clamped(-kSpan, 0);
     }
     void turn(std::int32_t by) {
         const std::int32_t angle = angle_ + by;

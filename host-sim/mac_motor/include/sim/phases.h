@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -34,19 +35,16 @@ class Phases {
         const PairOfIntegers ab = __builtin_convertvector(ab_, PairOfIntegers);
         return {__builtin_convertvector(ab, Pair), static_cast<double>(integer(c_))};
     }
-    bool inside(double low, double high) const {
-        const auto outside = reinterpret_cast<Mask>((ab_ < low) | (ab_ > high));
-        const bool all = (outside[0] | outside[1]) == 0 && c_ >= low && c_ <= high;
+    bool inside(double limit) const {
+        const bool all = std::abs(a()) <= limit && std::abs(b()) <= limit && std::abs(c_) <= limit;
         return __builtin_expect_with_probability(all, 1, 0.999);
     }
-    bool inside(double limit) const { return inside(-limit, limit); }
-    /// As `within` of bounds.h.
-    Phases limited(double low, double high) const {
-        if (inside(low, high)) return *this;
+    Phases clamped(double low, double high) const {
         const auto one = [&](double value) { return std::clamp(value, low, high); };
-        return {one(a()), one(b()), one(c())};
+        return {one(a()), one(b()), one(c_)};
     }
-    Phases limited(double limit) const { return limited(-limit, limit); }
+    /// As `within` of bounds.h.
+    Phases within(double limit) const { return inside(limit) ? *this : clamped(-limit, limit); }
 
     friend Phases operator+(Phases x, Phases y) { return {x.ab_ + y.ab_, x.c_ + y.c_}; }
     friend Phases operator-(Phases x, Phases y) { return {x.ab_ - y.ab_, x.c_ - y.c_}; }
@@ -57,7 +55,6 @@ class Phases {
 
   private:
     using Pair [[gnu::vector_size(16)]] = double;
-    using Mask [[gnu::vector_size(16)]] = long long;
     using PairOfIntegers [[gnu::vector_size(8)]] = std::int32_t;
 
     Phases(Pair ab, double c) : ab_(ab), c_(c) {}
