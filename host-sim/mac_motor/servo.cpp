@@ -113,22 +113,19 @@ std::int32_t Servo::advance(MotorMemory& memory, const Terminals& terminals, Inn
 }
 
 void Servo::run_inner(MotorMemory& memory, const Terminals& terminals, InnerWatcher* watcher) {
+    // By far the most of all samples are by torque and without a watcher: in the loop itself.
     const bool by_torque = drive_.kind == Drive::Kind::velocity || drive_.kind == Drive::Kind::torque;
+    const bool plain = by_torque && watcher == nullptr;
     double squares = 0;
     double regenerated = 0;
     inner_.clear_at_the_end();
     for (int n = 0; n < kInnerSamples; ++n) {
         inner_.sense(plant_.counts());
-        if (by_torque) {  // by far the most of all samples: in the loop itself
+        if (plain) {
             inner_.drive_torque(torque_);
         } else {
             set_voltages(memory, terminals);
-        }
-        if (watcher != nullptr) {
-            show_currents(memory);
-            memory.set(cell::VF_OUT, torque_);
-            show_supply(memory);
-            watcher->inner_sample();
+            if (watcher != nullptr) show_inner_sample(memory, *watcher);
         }
         squares += inner_.squares();
         if (supply_.dumping()) regenerated += inner_.regenerated();
@@ -137,6 +134,13 @@ void Servo::run_inner(MotorMemory& memory, const Terminals& terminals, InnerWatc
     warm(squares / kInnerSamples, regenerated / kInnerSamples);
     show_currents(memory);
     if (drive_.kind == Drive::Kind::shorted) follow_offsets(memory);
+}
+
+void Servo::show_inner_sample(MotorMemory& memory, InnerWatcher& watcher) const {
+    show_currents(memory);
+    memory.set(cell::VF_OUT, torque_);
+    show_supply(memory);
+    watcher.inner_sample();
 }
 
 void Servo::set_voltages(const MotorMemory& memory, const Terminals& terminals) {

@@ -69,8 +69,9 @@ class Servo {
   private:
     void take_settings(MotorMemory& memory);
     void use_settings(const MotorMemory& memory);
-    void run_inner(MotorMemory& memory, const Terminals& terminals, InnerWatcher* watcher);
-    void set_voltages(const MotorMemory& memory, const Terminals& terminals);
+    [[gnu::flatten]] void run_inner(MotorMemory& memory, const Terminals& terminals, InnerWatcher* watcher);
+    [[gnu::cold]] void show_inner_sample(MotorMemory& memory, InnerWatcher& watcher) const;
+    [[gnu::noinline]] void set_voltages(const MotorMemory& memory, const Terminals& terminals);
     void run_outer(const MotorMemory& memory, const Terminals& terminals);
     double reachable(double torque) const;
     std::int32_t analogue_torque(const MotorMemory& memory, const Terminals& terminals) const;
