@@ -7,7 +7,6 @@
 namespace nplc::sim {
 namespace {
 
-constexpr std::int32_t kFullTorque = 1023;
 constexpr std::int32_t kBound =
     0xFFFF;  // of velocities and accelerations in 1/16: MAC800 registers hold more
 

@@ -9,13 +9,11 @@
 namespace nplc::sim {
 namespace {
 
-constexpr std::int32_t kFullTorque = 1023;
 constexpr double kAtLimit = 10000;  // I2T and UIT at what is borne for ever: the limits' default
-constexpr int kOuterSteps = 3;      // of the shaft in an outer sample, without the current loop
 
-/// Of a new torque, what the current loop gives on the average of each third of the sample: 1 - 0.825 x
-/// 0.65^n in its n-th sample, 0.65 being the loop's pole with the coefficients from the box.
-constexpr std::array<double, kOuterSteps> kRise{0.583, 0.952, 0.994};
+int steps_of(Servo::Depth depth) {
+    return depth == Servo::Depth::current_loop ? kInnerSamples : 1;
+}
 
 bool hall_int(const MotorMemory& memory) {
     constexpr std::int32_t kHallInt = 1 << 5;  // CNTRL_BITS
@@ -25,13 +23,6 @@ bool hall_int(const MotorMemory& memory) {
 double kvout_of(const MotorMemory& memory) {
     if (is_mac800(memory.model())) return within(memory.get(cell::KVOUT) / 65536.0, 0, 255);
     return memory.get(cell::KVOUT) / 256.0;
-}
-
-/// Of a winding, in voltage units for a current unit and a count/step of the shaft.
-double reactance_of(const MotorConstants& c) {
-    constexpr double kTwoPi = 6.28318530717958647692;
-    const double inner_samples = (1 + c.decay) / (2 * (1 - c.decay));  // L / R
-    return kTwoPi / c.counts_a_field * kOuterSteps / kInnerSamples * inner_samples * c.resistance;
 }
 
 /// Of the three currents, at the torque that is borne for ever.
@@ -50,14 +41,12 @@ std::int32_t rounded(double value) {
 Servo::Servo(registers::Model model, Depth depth, const Load& load)
     : constants_(constants_of(model)),
       depth_(depth),
-      plant_(constants_.full_acceleration, depth == Depth::current_loop ? kInnerSamples : kOuterSteps, load),
-      supply_(constants_.supply,
-              constants_.outer_period / (depth == Depth::current_loop ? kInnerSamples : kOuterSteps)),
+      plant_(constants_.full_acceleration, steps_of(depth), load),
+      supply_(constants_.supply, constants_.outer_period / steps_of(depth)),
       inner_(model),
-      emf_(constants_.emf * kOuterSteps / kInnerSamples),
-      reactance_(reactance_of(constants_)),
-      current_of_torque_(constants_.full_current / kFullTorque),
-      nominal_squares_(nominal_squares_of(constants_)),
+      quick_(constants_),
+      heat_of_square_(kAtLimit / nominal_squares_of(constants_)),
+      dumped_of_watt_(kAtLimit / constants_.dump_watts),
       copper_share_(constants_.outer_period / constants_.copper_seconds),
       dump_share_(constants_.outer_period / constants_.dump_seconds) {}
 
@@ -65,7 +54,8 @@ void Servo::power_up(MotorMemory& memory) {
     regulator_.reset();
     drive_ = {};
     torque_ = v_ist_ = test_samples_ = 0;
-    torque_before_ = i2t_ = uit_ = 0;
+    i2t_ = uit_ = 0;
+    quick_.rest();
     last_counts_ = plant_.counts();
     supply_.settle();
     inner_.power_up(last_counts_);
@@ -131,7 +121,8 @@ void Servo::run_inner(MotorMemory& memory, const Terminals& terminals, InnerWatc
         if (supply_.dumping()) regenerated += inner_.regenerated();
         supply_.step(inner_.move(plant_, supply_.volts()));
     }
-    warm(squares / kInnerSamples, regenerated / kInnerSamples);
+    constexpr double kShare = 1.0 / kInnerSamples;
+    warm(squares * kShare, regenerated * kShare);
     show_currents(memory);
     if (drive_.kind == Drive::Kind::shorted) follow_offsets(memory);
 }
@@ -172,50 +163,15 @@ std::int32_t Servo::analogue_torque(const MotorMemory& memory, const Terminals& 
     return static_cast<std::int32_t>(std::clamp(aninp * limit / full, -limit, limit));
 }
 
-/// The sample in thirds, the current loop replaced by what it does with the coefficients from the box.
 void Servo::run_outer(const MotorMemory& memory, const Terminals& terminals) {
     if (drive_.kind == Drive::Kind::analogue_torque) torque_ = analogue_torque(memory, terminals);
     const bool driven = drive_.kind == Drive::Kind::velocity || drive_.kind == Drive::Kind::torque ||
                         drive_.kind == Drive::Kind::analogue_torque;
-    double squares = 0;
-    double regenerated = 0;
-    for (const double rise : kRise) {
-        const double emf = emf_ * plant_.velocity();
-        if (!driven) {  // a shorted winding brakes with the current that its EMF drives through it
-            const double current = emf / constants_.resistance;
-            plant_.step(0, emf_ / constants_.resistance * kFullTorque / constants_.full_current);
-            supply_.step(0);
-            squares += 1.5 * current * current;
-            continue;
-        }
-        const double torque = reachable(torque_before_ + (torque_ - torque_before_) * rise);
-        const double current = torque * current_of_torque_;
-        const double watts = 1.5 * (emf + current * constants_.resistance) * current *
-                             constants_.volts_of_one * constants_.amperes_of_one;
-        squares += 1.5 * current * current;
-        if (supply_.dumping()) regenerated += std::max(-watts, 0.0);
-        supply_.step(watts);
-        plant_.step(torque);
-    }
-    torque_before_ = driven ? torque_ : 0;
-    warm(squares / kOuterSteps, regenerated / kOuterSteps);
-}
-
-/// What the supply can drive against the EMF, through resistance and inductance.
-double Servo::reachable(double torque) const {
-    const double available = CurrentRegulator::kRange * supply_.volts() / constants_.nominal_volts;
-    const double sign = torque < 0 ? -1 : 1;
-    const double emf = emf_ * plant_.velocity() * sign;
-    const double reactance = std::abs(reactance_ * plant_.velocity());
-    const double current = torque * sign * current_of_torque_;
-    if (std::abs(emf) + (constants_.resistance + reactance) * current <= available) return torque;
-    const double square = constants_.resistance * constants_.resistance + reactance * reactance;
-    const double along = emf * constants_.resistance;
-    const double spare = emf * emf - available * available;
-    if (square * current * current + 2 * along * current + spare <= 0) return torque;
-    const double root = along * along - square * spare;
-    const double most = root <= 0 ? 0 : std::max((std::sqrt(root) - along) / square, 0.0);
-    return sign * std::min(current, most) / current_of_torque_;
+    const QuickLoop::Step step =
+        driven ? quick_.drive(torque_, supply_.volts(), plant_) : quick_.brake(plant_);
+    const bool dumped = supply_.dumping() && step.watts < 0;
+    supply_.step(step.watts);
+    warm(step.squares, dumped ? -step.watts : 0);
 }
 
 Servo::Result Servo::carry_out(const Drive& drive, MotorMemory& memory) {
@@ -294,10 +250,8 @@ void Servo::show_currents(MotorMemory& memory) const {
 
 // 001 §3.2.16, §3.2.18. R: leaky sums that come to rest at 10000 with what is borne for ever.
 void Servo::warm(double squares, double regenerated) {
-    const double heat = squares / nominal_squares_ * kAtLimit;
-    i2t_ += (heat - i2t_) * copper_share_;
-    const double dumped = regenerated / constants_.dump_watts * kAtLimit;
-    uit_ += (dumped - uit_) * dump_share_;
+    i2t_ += (squares * heat_of_square_ - i2t_) * copper_share_;
+    uit_ += (regenerated * dumped_of_watt_ - uit_) * dump_share_;
 }
 
 /// What was written into the registers since is what the sums go on from.

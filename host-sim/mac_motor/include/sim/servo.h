@@ -6,6 +6,7 @@
 #include "sim/inner_loop.h"
 #include "sim/motor_memory.h"
 #include "sim/plant.h"
+#include "sim/quick_loop.h"
 #include "sim/regulator.h"
 #include "sim/supply.h"
 #include "sim/terminals.h"
@@ -73,7 +74,6 @@ class Servo {
     [[gnu::cold]] void show_inner_sample(MotorMemory& memory, InnerWatcher& watcher) const;
     [[gnu::noinline]] void set_voltages(const MotorMemory& memory, const Terminals& terminals);
     void run_outer(const MotorMemory& memory, const Terminals& terminals);
-    double reachable(double torque) const;
     std::int32_t analogue_torque(const MotorMemory& memory, const Terminals& terminals) const;
     void follow_offsets(MotorMemory& memory) const;
     void show_currents(MotorMemory& memory) const;
@@ -88,19 +88,17 @@ class Servo {
     Supply supply_;
     Regulator regulator_;
     InnerLoop inner_;
-    double emf_;        // voltage units a count/step of the shaft, outer_loop only
-    double reactance_;  // and for each current unit
-    double current_of_torque_;
-    double nominal_squares_;
-    double copper_share_;  // of I2T's way to where it would end, in a sample
-    double dump_share_;    // and of UIT's
+    QuickLoop quick_;        // outer_loop only
+    double heat_of_square_;  // I2T that a sum of squares of the currents ends at
+    double dumped_of_watt_;  // UIT that a watt in the dump ends at
+    double copper_share_;    // of I2T's way to where it would end, in a sample
+    double dump_share_;      // and of UIT's
     Drive drive_;
     std::int32_t man_i_nom_ = 0;
     std::int32_t man_alpha_ = 0;
     std::int32_t umeas_ = 0;
     int test_samples_ = 0;
     std::int32_t torque_ = 0;
-    double torque_before_ = 0;  // of the sample before, outer_loop only
     double i2t_ = 0;
     double uit_ = 0;
     std::int32_t i2t_shown_ = 0;

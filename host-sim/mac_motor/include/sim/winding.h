@@ -23,7 +23,7 @@ class Winding {
     };
 
     explicit Winding(const Constants& constants)
-        
+
         : decay_(constants.decay),
           conductance_((1 - constants.decay) / constants.resistance),
           emf_(constants.emf),
