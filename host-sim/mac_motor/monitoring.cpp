@@ -31,8 +31,8 @@ void MacMotor::fail(std::uint32_t error) {
 // 001 §4.5.1 to §4.5.5
 void MacMotor::watch_limits() {
     if (is_above(cell::I2T, cell::I2TLIM)) fail(err::I2T_ERR);
-    const bool feeds_back = is_mac800(model()) || memory_.get(cell::U_SUPPLY) > kAbove52V;
-    if (is_above(cell::UIT, cell::UITLIM) && feeds_back) fail(err::UIT_ERR);
+    const auto feeds_back = [&] { return is_mac800(model()) || memory_.get(cell::U_SUPPLY) > kAbove52V; };
+    if (is_above(cell::UIT, cell::UITLIM) && feeds_back()) fail(err::UIT_ERR);
     if (exceeds(cell::FLWERR, cell::FLWERRMAX)) fail(err::FLW_ERR);
     if (exceeds(cell::FNCERR, cell::FNCERRMAX)) fail(err::FNC_ERR);
     const std::int32_t low = memory_.get(cell::MIN_P_IST);

@@ -163,14 +163,17 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     void request_home();
     void request_init();
     void enter(std::uint16_t mode);
-    void set_mode(std::uint16_t mode) { memory_.set(cell::MODE_REG, mode); }
+    void set_mode(std::uint16_t mode) {
+        memory_.set(cell::MODE_REG, mode);
+        facts_ = facts_of(mode);
+    }
     void leave_for(std::uint16_t mode);
     void go_passive(bool emergency);
     void begin_stop(std::uint16_t then, bool emergency);
     void begin_at_measured_speed();
     void end_mode_by_itself();
     bool error_keeps_mode() const;
-    const ModeFacts& facts() const { return *facts_of(mode()); }
+    const ModeFacts& facts() const { return *facts_; }
     bool is_driven() const { return facts().driven(); }
     bool below_300_rpm() const;
     void begin_correction();
@@ -206,6 +209,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
 
     // One sample: mac_motor.cpp
     void measure();
+    void show_v_ist_16(std::int32_t v_ist);
     void read_inputs();
     void resynchronise();
     bool resynchronises_by_itself() const;
@@ -231,15 +235,20 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     std::int32_t acceleration() const;
     std::int32_t torque_limit() const;
     std::int32_t v_soll() const;
-    void set_error_bits(std::uint32_t mask, bool on) {
+    void set_error_bits(std::uint32_t mask, bool on) { set_error_bits(mask, on ? mask : 0); }
+    /// Those of `mask` become those of `on`.
+    void set_error_bits(std::uint32_t mask, std::uint32_t on) {
         const std::uint32_t status = error_status();
-        memory_.set(cell::ERR_STAT, static_cast<std::int32_t>(on ? status | mask : status & ~mask));
+        const std::uint32_t wanted = (status & ~mask) | on;
+        if (wanted != status) memory_.set(cell::ERR_STAT, static_cast<std::int32_t>(wanted));
     }
-    const FamilyBits& bits() const { return family_bits(model()); }
+    const FamilyBits& bits() const { return *bits_; }
 
     MacMotorOptions options_;
     MotorMemory memory_;
     MotorMemory stored_;
+    const FamilyBits* bits_;
+    const ModeFacts* facts_ = facts_of(0);  // of MODE_REG
     Servo servo_;
     Terminals terminals_;
     Surroundings surroundings_;
