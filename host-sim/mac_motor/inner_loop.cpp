@@ -40,7 +40,7 @@ void InnerLoop::turn_at_the_mark(std::int32_t by) {
 }
 
 void InnerLoop::pass_mark(bool forwards) {
-    if (mac800_ || (at_mark_ && !hall_.always)) return;
+    if (mac800_ || (at_mark_ && !every_mark_)) return;
     shift_ = forwards ? hall_.eldegp_offset : hall_.eldegn_offset + kMarkWidth;
     at_mark_ = true;
 }

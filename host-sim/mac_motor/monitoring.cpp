@@ -46,6 +46,7 @@ void MacMotor::watch_limits() {
 void MacMotor::watch_supply() {
     const std::int64_t voltage = memory_.get(cell::U_SUPPLY);
     const std::int64_t least = is_mac800(model()) ? kLowBus : memory_.get(cell::U_MIN_SUP);
+    if (uv_timer_ == 0 && 4 * voltage > 5 * least) return set_error_bits(bits().uv_detect, false);
     const bool low = voltage < least;
     const bool well = is_mode(MotorMode::init) ? 4 * voltage >= 5 * least : 4 * voltage > 5 * least;
     if (uv_timer_ > 0) --uv_timer_;

@@ -27,16 +27,6 @@ Plant::Plant(double full_acceleration, int steps, const Load& load)
       thrown_(thrown_in(steps)),
       load_(load) {}
 
-void Plant::take_load() {
-    if (load_.inertia_256 != inertia_256_) {
-        inertia_256_ = load_.inertia_256;
-        of_one_ = acceleration_of_one_ * 256 / std::max(inertia_256_, 1);
-    }
-    friction_ = std::max(load_.friction_torque, 0) * of_one_;
-    pull_ = load_.torque;
-    has_stops_ = load_.low_stop || load_.high_stop;
-}
-
 void Plant::keep_within_stops(std::int64_t from) {
     if (const MechanicalStop* stop = stop_beyond()) press(*stop, from);
 }

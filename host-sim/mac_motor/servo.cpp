@@ -36,6 +36,14 @@ std::int32_t rounded(double value) {
     return static_cast<std::int32_t>(within(value, kMost));
 }
 
+/// Puts a sum into its register, and answers what stands there.
+std::int32_t shown(MotorMemory& memory, Cell sum, double value) {
+    const std::int32_t all = rounded(value);
+    const std::int32_t shown = is_mac800(memory.model()) ? all : std::clamp(all, 0, 0xFFFF);
+    memory.set(sum, shown);
+    return shown;
+}
+
 }  // namespace
 
 Servo::Servo(registers::Model model, Depth depth, const Load& load)
@@ -70,23 +78,16 @@ void Servo::power_up(MotorMemory& memory) {
 }
 
 /// Coefficients are worked out anew only when one of their registers was written.
-void Servo::take_settings(MotorMemory& memory) {
-    const bool written = memory.take_settings_written();
-    if (written || hall_int_ != hall_int(memory)) use_settings(memory);
-}
-
 void Servo::use_settings(const MotorMemory& memory) {
     const Cell forwards = is_mac800(memory.model()) ? cell::ELDEG_OFFSET : cell::ELDEGP_OFFSET;
     constexpr std::int32_t kTurn = CurrentRegulator::kTurn;
-    hall_int_ = hall_int(memory);
     regulator_.use(regulator_coefficients(memory));
     inner_.use(current_settings(memory), {.eldegp_offset = memory.get(forwards) & (kTurn - 1),
-                                          .eldegn_offset = memory.get(cell::ELDEGN_OFFSET) & (kTurn - 1),
-                                          .always = hall_int_});
+                                          .eldegn_offset = memory.get(cell::ELDEGN_OFFSET) & (kTurn - 1)});
 }
 
 std::int32_t Servo::advance(MotorMemory& memory, const Terminals& terminals, InnerWatcher* watcher) {
-    take_settings(memory);
+    if (memory.take_settings_written()) use_settings(memory);
     take_sums(memory);
     plant_.take_load();
     if (depth_ == Depth::current_loop) {
@@ -108,6 +109,7 @@ void Servo::run_inner(MotorMemory& memory, const Terminals& terminals, InnerWatc
     const bool plain = by_torque && watcher == nullptr;
     double squares = 0;
     double regenerated = 0;
+    inner_.use_every_mark(hall_int(memory));
     inner_.clear_at_the_end();
     for (int n = 0; n < kInnerSamples; ++n) {
         inner_.sense(plant_.counts());
@@ -175,40 +177,45 @@ void Servo::run_outer(const MotorMemory& memory, const Terminals& terminals) {
 }
 
 Servo::Result Servo::carry_out(const Drive& drive, MotorMemory& memory) {
-    if (drive.kind != Drive::Kind::voltage || drive_.kind != Drive::Kind::voltage) test_samples_ = 0;
+    const bool regulated = drive.kind == Drive::Kind::velocity;
+    const Regulator::Output out = regulated ? regulator_.step(regulator_input(drive, memory))
+                                            : Regulator::Output{.torque = unregulated_torque(drive, memory)};
     drive_ = drive;
-    Regulator::Output out;
-    const std::int32_t limit = std::clamp(drive.torque_limit, 0, kFullTorque);
-    if (drive.kind == Drive::Kind::velocity) {
-        out = regulator_.step(
-            {.fnc_out = drive.fnc_out, .v_ist = v_ist_, .torque_limit = limit, .kvout = kvout_of(memory)});
-    } else {
-        regulator_.reset();
-    }
-    switch (drive.kind) {
-        case Drive::Kind::torque:
-            out.torque = std::clamp(drive.torque, -kFullTorque, kFullTorque);
-            break;
-        case Drive::Kind::analogue_torque:
-            out.torque = torque_;
-            break;
-        case Drive::Kind::field: {
-            const std::int32_t i_nom = memory.get(cell::MAN_I_NOM);
-            man_i_nom_ = std::clamp(is_mac800(memory.model()) ? i_nom / 65536 : i_nom, 0, kFullTorque);
-            man_alpha_ = memory.get(cell::MAN_ALPHA) & (CurrentRegulator::kTurn - 1);
-            break;
-        }
-        case Drive::Kind::voltage:
-            umeas_ = std::clamp(memory.get(cell::UMEAS), -kFullTorque, kFullTorque);
-            break;
-        default:
-            break;
-    }
     torque_ = out.torque;
     memory.set(cell::VF_OUT, torque_);
     memory.show(cell::FF_OUT, rounded(out.ff_out));
     memory.show(cell::VB_OUT, rounded(out.vb_out));
     return {out.torque, out.correction};
+}
+
+Regulator::Input Servo::regulator_input(const Drive& drive, const MotorMemory& memory) const {
+    return {.fnc_out = drive.fnc_out,
+            .v_ist = v_ist_,
+            .torque_limit = std::clamp(drive.torque_limit, 0, kFullTorque),
+            .kvout = kvout_of(memory)};
+}
+
+/// The speed regulator is passive. Takes what MANI and TESTU are set to.
+std::int32_t Servo::unregulated_torque(const Drive& drive, const MotorMemory& memory) {
+    regulator_.reset();
+    if (drive.kind != Drive::Kind::voltage || drive_.kind != Drive::Kind::voltage) test_samples_ = 0;
+    switch (drive.kind) {
+        case Drive::Kind::torque:
+            return std::clamp(drive.torque, -kFullTorque, kFullTorque);
+        case Drive::Kind::analogue_torque:
+            return torque_;
+        case Drive::Kind::field: {
+            const std::int32_t i_nom = memory.get(cell::MAN_I_NOM);
+            man_i_nom_ = std::clamp(is_mac800(memory.model()) ? i_nom / 65536 : i_nom, 0, kFullTorque);
+            man_alpha_ = memory.get(cell::MAN_ALPHA) & (CurrentRegulator::kTurn - 1);
+            return 0;
+        }
+        case Drive::Kind::voltage:
+            umeas_ = std::clamp(memory.get(cell::UMEAS), -kFullTorque, kFullTorque);
+            return 0;
+        default:
+            return 0;
+    }
 }
 
 // 001 §3.2.140. R: by one a sample, so that what a turning shaft drives through the shorted windings averages
@@ -261,10 +268,8 @@ void Servo::take_sums(const MotorMemory& memory) {
 }
 
 void Servo::show_sums(MotorMemory& memory) {
-    memory.show(cell::I2T, rounded(i2t_));
-    memory.show(cell::UIT, rounded(uit_));
-    i2t_shown_ = memory.get(cell::I2T);
-    uit_shown_ = memory.get(cell::UIT);
+    i2t_shown_ = shown(memory, cell::I2T, i2t_);
+    uit_shown_ = shown(memory, cell::UIT, uit_);
 }
 
 void Servo::show_supply(MotorMemory& memory) const {

@@ -16,11 +16,12 @@ class InnerLoop {
     struct HallSettings {
         std::int32_t eldegp_offset = 0;  ///< MAC800: ELDEG_OFFSET
         std::int32_t eldegn_offset = 0;
-        bool always = false;  ///< HALL_INT: at every mark, not only at the first after power-up
     };
 
     explicit InnerLoop(registers::Model model);
 
+    /// HALL_INT: the mark counts every time, not only the first after power-up.
+    void use_every_mark(bool every) { every_mark_ = every; }
     void use(const CurrentRegulator::Settings& settings, const HallSettings& hall);
     /// As after power-up: no currents. R: the rotor's angle is known at once.
     void power_up(std::int64_t counts);
@@ -105,6 +106,7 @@ class InnerLoop {
     std::int32_t angle_ = 0;  // of the rotor in its field, encoder counts
     std::int32_t shift_ = 0;  // from it to ELDEG_IST
     std::int32_t v_eldeg_ = 0;
+    bool every_mark_ = false;
     bool at_mark_ = false;  // has been at the hall elements' mark
 };
 

@@ -225,7 +225,8 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     std::int32_t analogue_v_soll() const;
     void set_target_by_voltage();
     void set_target_by_level();
-    std::int32_t braking(std::int64_t distance);
+    void run_to(std::int64_t distance);
+    std::int32_t braking(std::int64_t distance, std::int32_t acceleration);
     void learn_braking(std::int32_t wanted, std::int32_t correction);
     void regulate(std::int32_t fnc_out);
     void show_profile(std::int32_t fnc_out);

@@ -34,7 +34,15 @@ class Plant {
     Plant(double full_acceleration, int steps, const Load& load);
 
     /// Before the steps of a sample: the load as it is now.
-    void take_load();
+    void take_load() {
+        if (load_.inertia_256 != inertia_256_) {
+            inertia_256_ = load_.inertia_256;
+            of_one_ = acceleration_of_one_ * 256 / std::max(inertia_256_, 1);
+        }
+        friction_ = std::max(load_.friction_torque, 0) * of_one_;
+        pull_ = load_.torque;
+        has_stops_ = load_.low_stop || load_.high_stop;
+    }
     /// One step with the motor's `torque`.
     void step(double torque) { move(velocity_ + push(torque)); }
     /// The same with `brake` of torque against each count/step of velocity.

@@ -16,7 +16,8 @@ namespace nplc::sim {
 /// limit to be kept ("correction"). The filters go on from the corrected velocity, so nothing winds up.
 class Regulator {
   public:
-    static constexpr std::size_t kOrder = 6;  // MAC800's; the others use four
+    static constexpr std::size_t kOrder = 6;       // MAC800's
+    static constexpr std::size_t kSmallOrder = 4;  // the others'
     using Taps = std::array<double, kOrder>;
 
     /// By age, the newest sample first; what a family has not is 0.
@@ -25,6 +26,7 @@ class Regulator {
         Taps vb{};
         Taps vfx{};
         Taps vfy{};
+        std::size_t taps = kOrder;  ///< or kSmallOrder: only so many are computed
     };
     struct Input {
         std::int32_t fnc_out;       ///< wanted velocity, 1/16 counts/sample
@@ -57,6 +59,8 @@ class Regulator {
         double error = 0;
         double torque = 0;
     };
+    template <std::size_t kTaps>
+    Output filter(const Input& input);
     std::int32_t correct(double excess, double kvout, Newest& newest) const;
 
     Coefficients c_;

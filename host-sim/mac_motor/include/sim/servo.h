@@ -68,11 +68,12 @@ class Servo {
     const Supply& supply() const { return supply_; }
 
   private:
-    void take_settings(MotorMemory& memory);
     void use_settings(const MotorMemory& memory);
     [[gnu::flatten]] void run_inner(MotorMemory& memory, const Terminals& terminals, InnerWatcher* watcher);
     [[gnu::cold]] void show_inner_sample(MotorMemory& memory, InnerWatcher& watcher) const;
     [[gnu::noinline]] void set_voltages(const MotorMemory& memory, const Terminals& terminals);
+    Regulator::Input regulator_input(const Drive& drive, const MotorMemory& memory) const;
+    std::int32_t unregulated_torque(const Drive& drive, const MotorMemory& memory);
     void run_outer(const MotorMemory& memory, const Terminals& terminals);
     std::int32_t analogue_torque(const MotorMemory& memory, const Terminals& terminals) const;
     void follow_offsets(MotorMemory& memory) const;
@@ -105,7 +106,6 @@ class Servo {
     std::int32_t uit_shown_ = 0;
     std::int64_t last_counts_ = 0;
     std::int32_t v_ist_ = 0;
-    bool hall_int_ = false;
 };
 
 }  // namespace nplc::sim
