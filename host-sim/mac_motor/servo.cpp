@@ -13,9 +13,9 @@ constexpr std::int32_t kFullTorque = 1023;
 constexpr double kAtLimit = 10000;  // I2T and UIT at what is borne for ever: the limits' default
 constexpr int kOuterSteps = 3;      // of the shaft in an outer sample, without the current loop
 
-/// Of a new torque, what the current loop gives on the average of each third of the sample: 1 - 0.825 x
-/// 0.65^n in its n-th sample, 0.65 being the loop's pole with the coefficients from the box.
-constexpr std::array<double, kOuterSteps> kRise{0.583, 0.952, 0.994};
+/// Of a new torque, what the current loop gives on the average of each third of the sample: after n samples of
+/// its own 1 - (1 + n / 2) / 2^n, with the coefficients from the box.
+constexpr std::array<double, kOuterSteps> kRise{0.539, 0.963, 0.998};
 
 bool hall_int(const MotorMemory& memory) {
     constexpr std::int32_t kHallInt = 1 << 5;  // CNTRL_BITS

@@ -62,7 +62,7 @@ class CurrentRegulator {
             error_before_[p] = error;
             output_before_[p] = output_[p];
             output_[p] = std::clamp<double>(output, -kRange, kRange);  // so that it cannot wind up
-            voltage_[p] = static_cast<std::int32_t>(output_[p]);
+            voltage_[p] = nearest(output_[p]);
         }
     }
     /// No regulation: these voltages, and filters that have forgotten.
@@ -81,7 +81,7 @@ class CurrentRegulator {
     static constexpr double kLargest = 32767;
 
     static std::int32_t limited(double value, double limit) {
-        return static_cast<std::int32_t>(within(value, limit));
+        return nearest(within(value, limit));
     }
 
     Settings s_;
