@@ -61,7 +61,7 @@ Regulator::Output Regulator::filter(const Input& input) {
 
     const double torque = newest.torque * input.kvout;
     const double limited = within(torque, input.torque_limit);
-    out.torque = static_cast<std::int32_t>(limited);
+    out.torque = nearest(limited);
     if (torque != limited) {
         out.correction = correct(limited - torque, input.kvout, newest);
         out.ff_out += c_.ff[0] * out.correction;
@@ -89,20 +89,24 @@ std::int32_t Regulator::correct(double excess, double kvout, Newest& newest) con
     return correction;
 }
 
-// VF is given the sum of its input as it would be: the lag less what the filters still hold. Its output rises
-// by the sum of its numerator for each unit of that.
+// VF is given the sum of its input as it would be: the lag less what the filters still hold. With two poles
+// at 1 its output rises by the sum of its numerator over what else its denominator is at 1, for each unit of
+// that.
 void Regulator::restart(std::int32_t velocity) {
     reset();
     lag_16_ = velocity;
     fnc_out_.fill(velocity);
     v_ist_.fill(velocity / 16.0);
     double sum = 0;
-    double held = 0;
+    double gone = 0;  // of the lag, what the filters do not hold
+    double rest = 0;
     for (std::size_t i = 0; i < torque_.size(); ++i) {
+        const auto age = static_cast<double>(i);
         sum += c_.vfx[i];
-        held += static_cast<double>(i) * (c_.ff[i] - c_.vb[i] / 16);
+        gone += c_.ff[i] - age * (c_.ff[i] - c_.vb[i] / 16);
+        rest -= age * (age + 1) / 2 * c_.vfy[i];
     }
-    const double rise = sum * velocity * (1 - held);
+    const double rise = rest < kLeastGain ? 0 : sum * velocity * gone / rest;
     for (std::size_t i = 0; i < torque_.size(); ++i) {
         torque_[i] = std::clamp(-rise * static_cast<double>(i), -kTorqueBound, kTorqueBound);
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 namespace nplc::sim {
 
 /// `value` cut to [low, high], as std::clamp. For what hardly ever is outside: the bounds are tested, not
@@ -12,6 +14,12 @@ inline double within(double value, double low, double high) {
 }
 inline double within(double value, double limit) {
     return within(value, -limit, limit);
+}
+
+/// To the nearest integer, within +/-100,000: a cast alone would take a little of each torque away.
+inline std::int32_t nearest(double value) {
+    constexpr std::int32_t kFar = 100'000;
+    return static_cast<std::int32_t>(value + (kFar + 0.5)) - kFar;
 }
 
 }  // namespace nplc::sim

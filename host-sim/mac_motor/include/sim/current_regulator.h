@@ -34,7 +34,7 @@ class CurrentRegulator {
     void measure(Phases converted) {
         const Phases scaled = (converted + s_.offset) * s_.gain;
         const bool inside = scaled.inside(kRange - 1);
-        measured_ = (inside ? scaled : scaled.clamped(-kRange, kRange)).whole();
+        measured_ = (inside ? scaled : scaled.clamped(-kRange, kRange)).nearest();
         if (s_.third_is_rest) {
             const double rest = within(-measured_.a() - measured_.b(), kRange);
             measured_ = {measured_.a(), measured_.b(), rest};
@@ -45,7 +45,7 @@ class CurrentRegulator {
     }
     /// A field of `torque` (with its sign) across the rotor at `eldeg`, which goes on by `v_eldeg` a sample.
     void commutate(std::int32_t torque, std::int32_t eldeg, std::int32_t v_eldeg) {
-        const std::int64_t ahead = v_eldeg * s_.phase_comp_256 / 256;  // 001 §3.2.126
+        const std::int64_t ahead = (v_eldeg * s_.phase_comp_256 + 128) >> 8;  // 001 §3.2.126
         const auto lead = static_cast<std::int32_t>(std::clamp(ahead, -kLargest, kLargest));
         const std::int32_t half_turn = torque < 0 ? kTurn / 2 : 0;
         aim(torque < 0 ? -torque : torque, eldeg + lead + half_turn);
@@ -57,7 +57,7 @@ class CurrentRegulator {
         const double amplitude = i_nom * s_.amplitude;
         wanted_ = kSine.phases(phi_) * amplitude;
         if (std::abs(amplitude) > kLargest) wanted_ = wanted_.within(kLargest);
-        wanted_ = wanted_.whole();
+        wanted_ = wanted_.nearest();
     }
     /// Regulates what was measured to what was asked for; the answer is in `voltage`.
     void regulate() {
@@ -69,7 +69,7 @@ class CurrentRegulator {
         error_before_ = error;
         output_before_ = output_;
         output_ = output;
-        voltage_ = output.whole();
+        voltage_ = output.nearest();
     }
     /// No regulation: these voltages, and filters that have forgotten.
     void apply(const PerPhase<std::int32_t>& voltage);

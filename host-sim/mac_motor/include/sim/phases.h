@@ -35,6 +35,11 @@ class Phases {
         const PairOfIntegers ab = __builtin_convertvector(ab_, PairOfIntegers);
         return {__builtin_convertvector(ab, Pair), static_cast<double>(integer(c_))};
     }
+    /// As `nearest` of bounds.h.
+    Phases nearest() const {
+        constexpr double kFar = 100'000;
+        return (*this + (kFar + 0.5)).whole() - kFar;
+    }
     bool inside(double limit) const {
         const bool all = std::abs(a()) <= limit && std::abs(b()) <= limit && std::abs(c_) <= limit;
         return __builtin_expect_with_probability(all, 1, 0.999);

@@ -37,7 +37,7 @@ class Regulator {
     struct Output {
         std::int32_t torque = 0;      ///< VF_OUT, within the limit
         std::int32_t correction = 0;  ///< to be added to FNC_OUT, 1/16 counts/sample; 0 within the limit
-        double ff_out = 0;            ///< 1/16 counts/sample, as FNC_OUT
+        double ff_out = 0;            ///< in the unit that the coefficients give it
         double vb_out = 0;
     };
 
