@@ -16,10 +16,12 @@ inline double within(double value, double limit) {
     return within(value, -limit, limit);
 }
 
-/// To the nearest integer, within +/-100,000: a cast alone would take a little of each torque away.
+/// 1.5 x 2^52: beyond it a double has no digits after the point.
+inline constexpr double kNoFraction = 6755399441055744;
+
+/// To the nearest integer, halves to the even one: a cast alone would take a little of each torque away.
 inline std::int32_t nearest(double value) {
-    constexpr std::int32_t kFar = 100'000;
-    return static_cast<std::int32_t>(value + (kFar + 0.5)) - kFar;
+    return static_cast<std::int32_t>((value + kNoFraction) - kNoFraction);
 }
 
 }  // namespace nplc::sim

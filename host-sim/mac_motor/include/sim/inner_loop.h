@@ -72,11 +72,10 @@ class InnerLoop {
     static constexpr std::int32_t kMarkWidth = 8;    // counts between the hall mark both ways, ours
     static constexpr std::int32_t kBigField = 2000;  // MAC800's counts_a_field
 
-    /// A converter's half that the motor uses: 0 down to -2047. To the nearest integer, for kFar takes what
-    /// is measured above 0, where the point is cut off downwards.
+    /// A converter's half that the motor uses: 0 down to -2047.
     static Phases converted(Phases current) {
-        constexpr double kSpan = 2047, kFar = 100'000, kInside = 1000;
-        const Phases raw = (current + kFar + 0.5).whole() - kFar - Phases(kMiddle);
+        constexpr double kSpan = 2047, kInside = 1000;
+        const Phases raw = current.nearest() - Phases(kMiddle);
         return current.inside(kInside) ? raw : raw.clamped(-kSpan, 0);
     }
     void turn(std::int32_t by) {

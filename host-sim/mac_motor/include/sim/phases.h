@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "sim/bounds.h"
+
 namespace nplc::sim {
 
 inline constexpr std::size_t kPhases = 3;
@@ -37,8 +39,7 @@ class Phases {
     }
     /// As `nearest` of bounds.h.
     Phases nearest() const {
-        constexpr double kFar = 100'000;
-        return (*this + (kFar + 0.5)).whole() - kFar;
+        return (*this + kNoFraction) - kNoFraction;
     }
     bool inside(double limit) const {
         const bool all = std::abs(a()) <= limit && std::abs(b()) <= limit && std::abs(c_) <= limit;
