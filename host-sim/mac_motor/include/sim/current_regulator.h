@@ -55,16 +55,15 @@ class CurrentRegulator {
         i_nom_ = i_nom;
         phi_ = angle & (kTurn - 1);
         const double amplitude = i_nom * s_.amplitude;
-        wanted_ = kSine.phases(phi_) * amplitude;
+        wanted_ = kSine.phases(phi_, amplitude);
         if (std::abs(amplitude) > kLargest) wanted_ = wanted_.within(kLargest);
         wanted_ = wanted_.nearest();
     }
     /// Regulates what was measured to what was asked for; the answer is in `voltage`.
     void regulate() {
         const Phases error = wanted_ - (measured_ * s_.kib1 + measured_before_ * s_.kib0);
-        Phases output = error * s_.kifx2 + error_before_ * s_.kifx1 + output_ * s_.kify1;
-        if (s_.kify0.c() != 0) output = output + output_before_ * s_.kify0;
-        output = output.within(kRange);  // so that it cannot wind up
+        const Phases kept = error_before_ * s_.kifx1 + output_ * s_.kify1 + output_before_ * s_.kify0;
+        const Phases output = (error * s_.kifx2 + kept).within(kRange);  // so that it cannot wind up
         measured_before_ = measured_;
         error_before_ = error;
         output_before_ = output_;

@@ -32,11 +32,6 @@ class Phases {
     double sum() const { return ab_[0] + ab_[1] + c_; }
     PerPhase<std::int32_t> integers() const { return {integer(ab_[0]), integer(ab_[1]), integer(c_)}; }
 
-    /// Without the digits after the point; each must fit in 32 bits.
-    Phases whole() const {
-        const PairOfIntegers ab = __builtin_convertvector(ab_, PairOfIntegers);
-        return {__builtin_convertvector(ab, Pair), static_cast<double>(integer(c_))};
-    }
     /// As `nearest` of bounds.h.
     Phases nearest() const {
         return (*this + kNoFraction) - kNoFraction;
@@ -61,7 +56,6 @@ class Phases {
 
   private:
     using Pair [[gnu::vector_size(16)]] = double;
-    using PairOfIntegers [[gnu::vector_size(8)]] = std::int32_t;
 
     Phases(Pair ab, double c) : ab_(ab), c_(c) {}
     static std::int32_t integer(double value) { return static_cast<std::int32_t>(value); }

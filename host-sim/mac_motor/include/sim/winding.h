@@ -27,7 +27,7 @@ class Winding {
         : decay_(constants.decay),
           conductance_((1 - constants.decay) / constants.resistance),
           emf_(constants.emf),
-          torque_(constants.torque * (2.0 / 3.0)) {}
+          torque_(constants.torque / 3.0) {}
 
     /// `voltage` at the terminals, times `supply` (1: nominal); rotor at `angle`, 0 to 2047, at `velocity`
     /// counts/step. The torque is that of the currents' mean.
@@ -36,9 +36,10 @@ class Winding {
         const Phases shapes = kSine.phases(angle);
         const Phases across = (voltage - middle) * supply;
         const Phases before = current_;
-        current_ = before * decay_ + (across - shapes * (emf_ * velocity)) * conductance_;
-        const Phases mean = (before + current_) * 0.5;
-        return {.torque = (mean * shapes).sum() * torque_, .power = (mean * across).sum()};
+        const Phases kept = before * decay_ - shapes * (emf_ * velocity * conductance_);
+        current_ = kept + (voltage - middle) * (supply * conductance_);
+        const Phases twice = before + current_;
+        return {.torque = (twice * shapes).sum() * torque_, .power = (twice * across).sum() * 0.5};
     }
 
     Phases currents() const { return current_; }
@@ -46,9 +47,9 @@ class Winding {
 
   private:
     Phases decay_;
-    Phases conductance_;
+    double conductance_;
     double emf_;
-    double torque_;
+    double torque_;  // of the sum of the currents before and after a step
     Phases current_;
 };
 
