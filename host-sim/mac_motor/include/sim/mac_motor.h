@@ -53,7 +53,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     std::chrono::nanoseconds sample_period() const;
 
     /// One outer sample: shaft, encoder, profile, regulator, flags, monitoring (001 §4).
-    void sample();
+    [[gnu::flatten]] void sample();
 
     /// The user interface, see FastMacSlave. Dead if CNTRL_BITS chose another use of the pins at power-up.
     void receive(std::uint8_t byte, bool framing_error, base::Instant now);
@@ -180,7 +180,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     std::string_view why_it_stands(std::uint16_t mode) const;
 
     // Monitoring: monitoring.cpp
-    void monitor();
+    [[gnu::flatten]] void monitor();
     void fail(std::uint32_t error);
     void watch_limits();
     void watch_supply();
@@ -216,7 +216,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     void stay_passive();
 
     // Profile and regulator: motor_profile.cpp
-    void run_profile();
+    [[gnu::flatten]] void run_profile();
     void run_position();
     void run_gear();
     void run_coil();
@@ -230,7 +230,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     void learn_braking(std::int32_t wanted, std::int32_t correction);
     void regulate(std::int32_t fnc_out);
     void show_profile(std::int32_t fnc_out);
-    void judge_in_position();
+    [[gnu::flatten]] void judge_in_position();
     bool within_window() const;
     std::int64_t distance_16() const;
     std::int32_t acceleration() const;

@@ -33,9 +33,7 @@ class Phases {
     PerPhase<std::int32_t> integers() const { return {integer(ab_[0]), integer(ab_[1]), integer(c_)}; }
 
     /// As `nearest` of bounds.h.
-    Phases nearest() const {
-        return (*this + kNoFraction) - kNoFraction;
-    }
+    Phases nearest() const { return (*this + kNoFraction) - kNoFraction; }
     bool inside(double limit) const {
         const bool all = std::abs(a()) <= limit && std::abs(b()) <= limit && std::abs(c_) <= limit;
         return __builtin_expect_with_probability(all, 1, 0.999);

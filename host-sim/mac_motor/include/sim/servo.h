@@ -40,10 +40,11 @@ class Servo {
 
     /// One outer sample with what was asked for last. Answers the encoder counts of that sample (V_IST).
     /// `watcher`, if any, is called in every inner sample when currents are measured and voltages set.
-    std::int32_t advance(MotorMemory& memory, const Terminals& terminals, InnerWatcher* watcher = nullptr);
+    [[gnu::flatten]] std::int32_t advance(MotorMemory& memory, const Terminals& terminals,
+                                          InnerWatcher* watcher = nullptr);
     /// What the next sample is to do. Writes VF_OUT, FF_OUT, VB_OUT. Unless the Drive is `velocity` the speed
     /// regulator forgets what it was at.
-    Result carry_out(const Drive& drive, MotorMemory& memory);
+    [[gnu::flatten]] Result carry_out(const Drive& drive, MotorMemory& memory);
 
     /// As after power-up: windings shorted, IA_OFFSET ... found. The shaft stays where it is.
     void power_up(MotorMemory& memory);
@@ -68,13 +69,14 @@ class Servo {
     const Supply& supply() const { return supply_; }
 
   private:
-    void use_settings(const MotorMemory& memory);
-    [[gnu::flatten]] void run_inner(MotorMemory& memory, const Terminals& terminals, InnerWatcher* watcher);
+    [[gnu::noinline]] void use_settings(const MotorMemory& memory);
+    [[gnu::flatten, gnu::noinline]] void run_inner(MotorMemory& memory, const Terminals& terminals,
+                                                   InnerWatcher* watcher);
     [[gnu::cold]] void show_inner_sample(MotorMemory& memory, InnerWatcher& watcher) const;
     [[gnu::noinline]] void set_voltages(const MotorMemory& memory, const Terminals& terminals);
     Regulator::Input regulator_input(const Drive& drive, const MotorMemory& memory) const;
     std::int32_t unregulated_torque(const Drive& drive, const MotorMemory& memory);
-    void run_outer(const MotorMemory& memory, const Terminals& terminals);
+    [[gnu::noinline]] void run_outer(const MotorMemory& memory, const Terminals& terminals);
     std::int32_t analogue_torque(const MotorMemory& memory, const Terminals& terminals) const;
     void follow_offsets(MotorMemory& memory) const;
     void show_currents(MotorMemory& memory) const;
