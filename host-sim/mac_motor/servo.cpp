@@ -50,7 +50,8 @@ std::int32_t rounded(double value) {
 Servo::Servo(registers::Model model, Depth depth, const Load& load)
     : constants_(constants_of(model)),
       depth_(depth),
-      plant_(constants_.full_acceleration, depth == Depth::current_loop ? kInnerSamples : kOuterSteps, load),
+      plant_(constants_.full_acceleration, depth == Depth::current_loop ? kInnerSamples : kOuterSteps, load,
+             depth == Depth::current_loop ? constants_.emf_inertia : 0),
       supply_(constants_.supply,
               constants_.outer_period / (depth == Depth::current_loop ? kInnerSamples : kOuterSteps)),
       inner_(model),

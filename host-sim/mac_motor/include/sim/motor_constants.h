@@ -10,6 +10,7 @@ namespace nplc::sim {
 struct MotorConstants {
     double outer_period;          ///< s
     double full_acceleration;     ///< of the bare motor at full torque, counts/sample^2 of the outer loop
+    double emf_inertia;           ///< of the motor's, what a rising EMF makes of it with the box's current loop
     std::int32_t counts_a_field;  ///< encoder counts in a turn of the field
     double full_current;          ///< peak phase current at full torque, register units
     double resistance;            ///< voltage units a current unit

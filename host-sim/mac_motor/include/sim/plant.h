@@ -30,8 +30,9 @@ struct Load {
 class Plant {
   public:
     /// `full_acceleration`: what full torque gives the bare motor, counts/sample^2 of the outer loop;
-    /// `steps`: in an outer sample.
-    Plant(double full_acceleration, int steps, const Load& load);
+    /// `steps`: in an outer sample; `elsewhere`: of the bare motor's inertia, what the current loop shows of it
+    /// already.
+    Plant(double full_acceleration, int steps, const Load& load, double elsewhere = 0);
 
     /// One step with the motor's `torque`, and `brake` of torque against each count/step of velocity.
     void step(double torque, double brake = 0) {
@@ -71,7 +72,7 @@ class Plant {
     double of_one() {
         if (load_.inertia_256 != inertia_256_) {
             inertia_256_ = load_.inertia_256;
-            of_one_ = acceleration_of_one_ * 256 / std::max(inertia_256_, 1);
+            of_one_ = acceleration_of_one_ * 256 / std::max(inertia_256_ - elsewhere_256_, 1.0);
         }
         return of_one_;
     }
@@ -80,6 +81,7 @@ class Plant {
     void press(const MechanicalStop& stop, std::int64_t from);
 
     double acceleration_of_one_;  // of torque 1 on the bare motor, counts/step^2
+    double elsewhere_256_;
     double fastest_;
     double thrown_;  // of the velocity with which a spring throws, what is left after a step
     Load load_;
