@@ -71,8 +71,9 @@ std::int32_t Regulator::correct(double excess, double kvout, Newest& newest) con
     return correction;
 }
 
-// VF is given the sum of its input as it would be: the lag less what the filters still hold. With two poles at
-// 1 its output rises by the sum of its numerator over what else its denominator is at 1, for each unit of that.
+// VF is given the sum of its input as it would be: the lag less what the filters still hold. With two poles
+// at 1 its output rises by the sum of its numerator over what else its denominator is at 1, for each unit of
+// that.
 void Regulator::restart(std::int32_t velocity) {
     reset();
     lag_16_ = velocity;

@@ -13,8 +13,8 @@ constexpr std::int32_t kFullTorque = 1023;
 constexpr double kAtLimit = 10000;  // I2T and UIT at what is borne for ever: the limits' default
 constexpr int kOuterSteps = 3;      // of the shaft in an outer sample, without the current loop
 
-/// Of a new torque, what the current loop gives on the average of each third of the sample: after n samples of
-/// its own 1 - (1 + n / 2) / 2^n, with the coefficients from the box.
+/// Of a new torque, what the current loop gives on the average of each third of the sample: after n samples
+/// of its own 1 - (1 + n / 2) / 2^n, with the coefficients from the box.
 constexpr std::array<double, kOuterSteps> kRise{0.539, 0.963, 0.998};
 
 bool hall_int(const MotorMemory& memory) {
@@ -105,7 +105,7 @@ std::int32_t Servo::advance(MotorMemory& memory, const Terminals& terminals, Inn
         run_outer(memory, terminals);
     }
     const std::int64_t counts = plant_.counts();
-    v_ist_ = static_cast<std::int32_t>(counts - last_counts_);
+    v_ist_ = encoder_broken_ ? 0 : static_cast<std::int32_t>(counts - last_counts_);
     last_counts_ = counts;
     show_sums(memory);
     show_supply(memory);

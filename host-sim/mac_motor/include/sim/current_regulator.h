@@ -80,9 +80,7 @@ class CurrentRegulator {
   private:
     static constexpr double kLargest = 32767;
 
-    static std::int32_t limited(double value, double limit) {
-        return nearest(within(value, limit));
-    }
+    static std::int32_t limited(double value, double limit) { return nearest(within(value, limit)); }
 
     Settings s_;
     PerPhase<std::int32_t> wanted_{};

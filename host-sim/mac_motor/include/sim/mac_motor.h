@@ -89,8 +89,8 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     std::string_view note() const { return note_; }
     /// As if I2T had been above its limit for a moment: I2T_ERR and all that follows from it.
     void overload() { fail(err::I2T_ERR); }
-    /// The output for a holding brake (004, MAN_NO_BRAKE): on while the motor is passive. R: no brake is
-    /// built in; it holds nothing.
+    /// The output for a holding brake (004, MAN_NO_BRAKE): on while the motor is passive. A brake that
+    /// is built in (Load::brake_torque) then holds the shaft.
     bool brake_output() const;
 
     /// 001 §4.4.16: only over MacTalk, so not over the user interface. False: refused (not in INIT, not in

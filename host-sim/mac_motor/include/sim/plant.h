@@ -20,6 +20,7 @@ struct MechanicalStop {
 struct Load {
     std::int32_t inertia_256 = 256;  ///< motor and load over the motor's own inertia, x 256 (KVOUT's meaning)
     std::int32_t friction_torque = 5;           ///< Coulomb friction
+    std::int32_t brake_torque = 0;              ///< of a holding brake (MAC800's output); 0: none is built in
     std::int32_t torque = 0;                    ///< constant pull, positive turns the shaft forward
     std::optional<MechanicalStop> low_stop{};   ///< below which the shaft is held
     std::optional<MechanicalStop> high_stop{};  ///< above which it is
@@ -30,8 +31,8 @@ struct Load {
 class Plant {
   public:
     /// `full_acceleration`: what full torque gives the bare motor, counts/sample^2 of the outer loop;
-    /// `steps`: in an outer sample; `elsewhere`: of the bare motor's inertia, what the current loop shows of it
-    /// already.
+    /// `steps`: in an outer sample; `elsewhere`: of the bare motor's inertia, what the current loop shows of
+    /// it already.
     Plant(double full_acceleration, int steps, const Load& load, double elsewhere = 0);
 
     /// One step with the motor's `torque`, and `brake` of torque against each count/step of velocity.
@@ -40,7 +41,7 @@ class Plant {
         const double push = within(torque + load_.torque, kTorqueBound) * of_one;
         const double pushed = brake == 0 ? velocity_ + push : (velocity_ + push) / (1 + brake * of_one);
         const double before = velocity_;
-        velocity_ = rubbed(pushed, std::max(load_.friction_torque, 0) * of_one);
+        velocity_ = rubbed(pushed, std::max(load_.friction_torque + holding_, 0) * of_one);
         velocity_ = within(velocity_, fastest_);
         const std::int64_t from = position_;
         position_ += static_cast<std::int64_t>((before + velocity_) * (kCount / 2));
@@ -49,6 +50,8 @@ class Plant {
 
     /// Encoder counts since the motor was built.
     std::int64_t counts() const { return (position_ + kCount / 2) >> kFractionBits; }
+    /// The holding brake is on or off: a friction more.
+    void hold(bool on) { holding_ = on ? std::clamp(load_.brake_torque, 0, kStrongestBrake) : 0; }
     /// Counts a step.
     double velocity() const { return velocity_; }
 
@@ -60,6 +63,7 @@ class Plant {
     static constexpr int kFractionBits = 20;
     static constexpr std::int64_t kCount = std::int64_t{1} << kFractionBits;
     static constexpr double kTorqueBound = 1'000'000;
+    static constexpr std::int32_t kStrongestBrake = 1'000'000;
 
     /// Friction works against motion, holds what is slower than it brakes in a step, and never turns a shaft
     /// round.
@@ -85,6 +89,7 @@ class Plant {
     double fastest_;
     double thrown_;  // of the velocity with which a spring throws, what is left after a step
     Load load_;
+    std::int32_t holding_ = 0;       // of the brake
     std::int32_t inertia_256_ = -1;  // that of_one_ is for
     double of_one_ = 0;
     std::int64_t position_ = 0;  // 1/kCount counts
