@@ -111,6 +111,8 @@ void MacMotor::measure() {
     const std::uint32_t inner = bits().record | bits().record_inner;
     const bool watching = (control & inner) == inner;
     if (watching && (control & bits().rewind) != 0) rewind_samples();
+    servo_.break_encoder(is_mac800(model()) && surroundings_.encoder_broken);
+    servo_.plant().hold(brake_output());
     const std::int32_t v_ist = servo_.advance(memory_, terminals_, watching ? this : nullptr);
     memory_.set(cell::V_IST, v_ist);
     memory_.set(cell::P_IST, wrap32(std::int64_t{p_ist()} + v_ist));

@@ -81,6 +81,7 @@ void MacMotor::watch_mac800() {
     if (is_above(cell::DEGC, cell::DEGCMAX)) fail(err800::DEGC_ERR);
     if (memory_.get(cell::U_SUPPLY) > kHighBus) fail(err800::OV_ERR);
     if (memory_.get(cell::U_24V) < kLowLogic) fail(err800::U24V_ERR);
+    set_error_bits(err800::OLD_FILT_ERR, !servo_.filters_answer());  // R: shown, and stops nothing
     if (surroundings_.encoder_broken) fail(err800::INDEX_ERR);
 }
 

@@ -30,14 +30,14 @@ std::int32_t fixed(double value, double one) {
     return static_cast<std::int32_t>(value * one + (value < 0 ? -0.5 : 0.5));
 }
 
-// (2 - 1/z)^2 (5 - 4/z): its zeros are the slow poles of the loop, so a move goes through the quick ones
-// only. Sum 1: a move ends where the profile does.
-constexpr double kForward[] = {20, -36, 21, -4};
+// (3 - 2/z)^3: its zeros are the slow poles of the loop, so a move goes through the quick ones only. Sum 1: a
+// move ends where the profile does.
+constexpr double kForward[] = {27, -54, 36, -8};
 // Of the lag, its rise and its sum. Sum 1, as kForward's.
-constexpr double kBackward[] = {11378 / 256.0, -19853 / 256.0, 8731 / 256.0};
-constexpr double kError = 21 / 4096.0;
-// 1 - (1 - 1/z)^2 (1 + 867/4096/z + 107/4096/z^2): two poles at 1, exact in the format, so nothing leaks.
-constexpr double kTorque[] = {7325 / 4096.0, -2469 / 4096.0, -653 / 4096.0, -107 / 4096.0};
+constexpr double kBackward[] = {9684 / 256.0, -16745 / 256.0, 7317 / 256.0};
+constexpr double kError = 27 / 4096.0;
+// 1 - (1 - 1/z)^2 (1 + 1088/4096/z + 109/4096/z^2): two poles at 1, exact in the format, so nothing leaks.
+constexpr double kTorque[] = {7104 / 4096.0, -2029 / 4096.0, -870 / 4096.0, -109 / 4096.0};
 
 void write_speed_regulator(MotorMemory& memory) {
     const bool big = is_mac800(memory.model());
@@ -52,21 +52,18 @@ void write_speed_regulator(MotorMemory& memory) {
     memory.set(cell::GEARB, fixed(16, f.one_f));
 }
 
-// Both poles of the loop at 0.5. IF has its zero on the winding's pole and two poles at 1, so that an EMF
-// that rises takes no torque; IB has the zero that keeps them in place.
+// Both poles of the loop at 0.5: an integrator in IF, and in IB the zero that they need.
 void write_current_loop(MotorMemory& memory) {
     const bool big = is_mac800(memory.model());
     const Filters& f = big ? kBigFilters : kSmallFilters;
     constexpr double kPole = 0.5;
-    constexpr double kZero = (1 - kPole * kPole) / (2 * (1 - kPole));
     const MotorConstants& c = constants_of(memory.model());
     const double gain = (1 - kPole) * (1 - kPole) * c.resistance / (1 - c.decay);
+    const double newest = (1 + c.decay - 2 * kPole) / ((1 - kPole) * (1 - kPole));
     memory.set(cell::KIFX2, fixed(gain, f.one_if));
-    memory.set(cell::KIFX1, fixed(-gain * c.decay, f.one_if));
-    memory.set(cell::KIFY1, fixed(2, f.one_if));
-    memory.set(cell::KIFY0, fixed(-1, f.one_if));
-    memory.set(cell::KIB1, fixed(1 / (1 - kZero), f.one_f));
-    memory.set(cell::KIB0, fixed(-kZero / (1 - kZero), f.one_f));
+    memory.set(cell::KIFY1, fixed(1, f.one_if));
+    memory.set(cell::KIB1, fixed(newest, f.one_f));
+    memory.set(cell::KIB0, fixed(1, f.one_f) - fixed(newest, f.one_f));
     memory.set(cell::AMPLITUDE, 212);
     memory.set(cell::PHASE_COMP, fixed(3.5, 256));
     for (int p = 0; p < (big ? 2 : 3); ++p) memory.set(cell::IA_OFFSET[p], 1024);

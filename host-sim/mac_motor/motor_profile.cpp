@@ -120,7 +120,7 @@ void MacMotor::learn_braking(std::int32_t wanted, std::int32_t correction) {
 
 void MacMotor::show_profile(std::int32_t fnc_out) {
     const std::uint32_t flags = fnc_out > v_old_ ? err::ACC_FLAG : fnc_out < v_old_ ? err::DEC_FLAG : 0;
-    set_error_bits(err::ACC_FLAG | err::DEC_FLAG, flags);
+    show_error_bits(err::ACC_FLAG | err::DEC_FLAG, flags);
     memory_.set(cell::FNC_OUT, is_mac800(model()) ? wrap32(std::int64_t{fnc_out} * 0x10000) : fnc_out);
 }
 

@@ -21,8 +21,9 @@ std::int64_t edge_of(const MechanicalStop& stop) {
 
 }  // namespace
 
-Plant::Plant(double full_acceleration, int steps, const Load& load)
+Plant::Plant(double full_acceleration, int steps, const Load& load, double elsewhere)
     : acceleration_of_one_(full_acceleration / kFullTorque / steps / steps),
+      elsewhere_256_(256 * elsewhere),
       fastest_(kFastest / steps),
       thrown_(thrown_in(steps)),
       load_(load) {}

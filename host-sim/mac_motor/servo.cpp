@@ -49,7 +49,8 @@ std::int32_t shown(MotorMemory& memory, Cell sum, double value) {
 Servo::Servo(registers::Model model, Depth depth, const Load& load)
     : constants_(constants_of(model)),
       depth_(depth),
-      plant_(constants_.full_acceleration, steps_of(depth), load),
+      plant_(constants_.full_acceleration, steps_of(depth), load,
+             depth == Depth::current_loop ? constants_.emf_inertia : 0),
       supply_(constants_.supply, constants_.outer_period / steps_of(depth)),
       inner_(model),
       quick_(constants_),
@@ -96,7 +97,7 @@ std::int32_t Servo::advance(MotorMemory& memory, const Terminals& terminals, Inn
         run_outer(memory, terminals);
     }
     const std::int64_t counts = plant_.counts();
-    v_ist_ = static_cast<std::int32_t>(counts - last_counts_);
+    v_ist_ = encoder_broken_ ? 0 : static_cast<std::int32_t>(counts - last_counts_);
     last_counts_ = counts;
     show_sums(memory);
     show_supply(memory);

@@ -111,6 +111,35 @@ TEST(Load, BlockedInVelocityModeCountsFollowError) {
     EXPECT_EQ(b.motor.p_ist(), 0);
 }
 
+// 004, MAN_NO_BRAKE: a brake that is built in holds what pulls until the motor is told to drive, or to let
+// go.
+TEST(Load, TheBrakeOfAMac800HoldsTheShaft) {
+    constexpr std::int32_t kManNoBrake = 0x80;
+    MotorBench b(registers::Model::mac800);
+    b.motor.plant().load().torque = 100;
+    b.motor.plant().load().brake_torque = 300;
+    b.samples(200);
+    EXPECT_TRUE(b.motor.brake_output());
+    EXPECT_EQ(b.motor.p_ist(), 0);
+    b.set(P_SOLL, 2000);
+    b.set(MODE_REG, 2);
+    b.until_in_position();
+    EXPECT_FALSE(b.motor.brake_output());
+    b.set(MODE_REG, 0);
+    b.samples(500);
+    EXPECT_TRUE(b.motor.brake_output());
+    const std::int32_t held = b.motor.p_ist();
+    b.samples(200);
+    EXPECT_EQ(b.motor.p_ist(), held);
+    b.set(CNTRL_BITS, kManNoBrake);
+    b.samples(200);
+    EXPECT_GT(b.motor.p_ist(), held + 100);
+    b.motor.plant().load().brake_torque = 50;
+    b.set(CNTRL_BITS, 0);
+    b.samples(200);
+    EXPECT_GT(b.motor.v_ist(), 0) << "too weak for the pull";
+}
+
 TEST(Load, ConstantPullAndMoreInertia) {
     for (const std::int32_t kvout_256 : {0x100, 0x200, 0x300}) {
         MotorBench b;

@@ -330,6 +330,40 @@ TEST(Monitoring, OverspeedOfMac800) {
     EXPECT_FALSE(MotorBench().reg(ERR_STAT) & 1 << 13);
 }
 
+// What a broken encoder does not count is lost; the windings brake, for INIT shorts them.
+TEST(Monitoring, ABrokenEncoderLosesCounts) {
+    MotorBench b = running(registers::Model::mac800);
+    b.samples(100);
+    b.motor.surroundings().encoder_broken = true;
+    const std::int32_t lost_at = b.motor.p_ist();
+    const std::int64_t shaft = b.motor.plant().counts();
+    b.samples(20);
+    EXPECT_EQ(b.motor.v_ist(), 0);
+    EXPECT_EQ(b.motor.p_ist(), lost_at);
+    EXPECT_NE(b.motor.plant().counts(), shaft);
+    b.samples(1000);
+    EXPECT_EQ(b.reg(MODE_REG), 0);
+    EXPECT_EQ(b.motor.p_ist(), lost_at);
+    EXPECT_NEAR(b.motor.plant().velocity(), 0, 0.01);
+}
+
+// 004, ERR_STAT bit 16: without KFF5 or KVFX6 no velocity gives a torque.
+TEST(Monitoring, OldFiltErrShowsFiltersThatCannotDrive) {
+    constexpr int kKff5 = 121, kKvfx6 = 127;
+    for (const int reg : {kKff5, kKvfx6}) {
+        MotorBench b = running(registers::Model::mac800);
+        const std::int32_t right = b.reg(reg);
+        EXPECT_EQ(b.reg(ERR_STAT) & 1 << 16, 0);
+        b.set(reg, 0);
+        b.samples(2);
+        EXPECT_NE(b.reg(ERR_STAT) & 1 << 16, 0);
+        EXPECT_EQ(b.reg(MODE_REG), 1) << "shown, and nothing more";
+        b.set(reg, right);
+        b.samples(2);
+        EXPECT_EQ(b.reg(ERR_STAT) & 1 << 16, 0);
+    }
+}
+
 // 001 §3.2.35 bit 11: shown, and nothing more; an offset of -400 puts the converter at its end.
 TEST(Monitoring, IxErrStopsNothing) {
     MotorBench b = running();

@@ -89,8 +89,8 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     std::string_view note() const { return note_; }
     /// As if I2T had been above its limit for a moment: I2T_ERR and all that follows from it.
     void overload() { fail(err::I2T_ERR); }
-    /// The output for a holding brake (004, MAN_NO_BRAKE): on while the motor is passive. R: no brake is
-    /// built in; it holds nothing.
+    /// The output for a holding brake (004, MAN_NO_BRAKE): on while the motor is passive. A brake that
+    /// is built in (Load::brake_torque) then holds the shaft.
     bool brake_output() const;
 
     /// 001 §4.4.16: only over MacTalk, so not over the user interface. False: refused (not in INIT, not in
@@ -236,9 +236,9 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     std::int32_t acceleration() const;
     std::int32_t torque_limit() const;
     std::int32_t v_soll() const;
-    void set_error_bits(std::uint32_t mask, bool on) { set_error_bits(mask, on ? mask : 0); }
+    void set_error_bits(std::uint32_t mask, bool on) { show_error_bits(mask, on ? mask : 0); }
     /// Those of `mask` become those of `on`.
-    void set_error_bits(std::uint32_t mask, std::uint32_t on) {
+    void show_error_bits(std::uint32_t mask, std::uint32_t on) {
         const std::uint32_t status = error_status();
         const std::uint32_t wanted = (status & ~mask) | on;
         if (wanted != status) memory_.set(cell::ERR_STAT, static_cast<std::int32_t>(wanted));

@@ -20,6 +20,7 @@ struct MechanicalStop {
 struct Load {
     std::int32_t inertia_256 = 256;  ///< motor and load over the motor's own inertia, x 256 (KVOUT's meaning)
     std::int32_t friction_torque = 5;           ///< Coulomb friction
+    std::int32_t brake_torque = 0;              ///< of a holding brake (MAC800's output); 0: none is built in
     std::int32_t torque = 0;                    ///< constant pull, positive turns the shaft forward
     std::optional<MechanicalStop> low_stop{};   ///< below which the shaft is held
     std::optional<MechanicalStop> high_stop{};  ///< above which it is
@@ -30,16 +31,17 @@ struct Load {
 class Plant {
   public:
     /// `full_acceleration`: what full torque gives the bare motor, counts/sample^2 of the outer loop;
-    /// `steps`: in an outer sample.
-    Plant(double full_acceleration, int steps, const Load& load);
+    /// `steps`: in an outer sample; `elsewhere`: of the bare motor's inertia, what the current loop shows of
+    /// it already.
+    Plant(double full_acceleration, int steps, const Load& load, double elsewhere = 0);
 
     /// Before the steps of a sample: the load as it is now.
     void take_load() {
         if (load_.inertia_256 != inertia_256_) {
             inertia_256_ = load_.inertia_256;
-            of_one_ = acceleration_of_one_ * 256 / std::max(inertia_256_, 1);
+            of_one_ = acceleration_of_one_ * 256 / std::max(inertia_256_ - elsewhere_256_, 1.0);
         }
-        friction_ = std::max(load_.friction_torque, 0) * of_one_;
+        friction_ = std::max(load_.friction_torque + holding_, 0) * of_one_;
         pull_ = load_.torque;
         has_stops_ = load_.low_stop || load_.high_stop;
     }
@@ -50,6 +52,8 @@ class Plant {
 
     /// Encoder counts since the motor was built.
     std::int64_t counts() const { return (position_ + kCount / 2) >> kFractionBits; }
+    /// The holding brake is on or off: a friction more.
+    void hold(bool on) { holding_ = on ? std::clamp(load_.brake_torque, 0, kStrongestBrake) : 0; }
     /// Counts a step.
     double velocity() const { return velocity_; }
 
@@ -61,6 +65,7 @@ class Plant {
     static constexpr int kFractionBits = 20;
     static constexpr std::int64_t kCount = std::int64_t{1} << kFractionBits;
     static constexpr double kTorqueBound = 1'000'000;
+    static constexpr std::int32_t kStrongestBrake = 1'000'000;
 
     /// Friction works against motion, holds what is slower than it brakes in a step, and never turns a shaft
     /// round.
@@ -83,9 +88,11 @@ class Plant {
     void press(const MechanicalStop& stop, std::int64_t from);
 
     double acceleration_of_one_;  // of torque 1 on the bare motor, counts/step^2
+    double elsewhere_256_;
     double fastest_;
     double thrown_;  // of the velocity with which a spring throws, what is left after a step
     Load load_;
+    std::int32_t holding_ = 0;       // of the brake
     std::int32_t inertia_256_ = -1;  // that of_one_ is for
     double of_one_ = 0;              // of torque 1 on motor and load, counts/step^2
     double friction_ = 0;            // counts/step^2

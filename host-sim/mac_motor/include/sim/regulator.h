@@ -48,6 +48,8 @@ class Regulator {
     /// Profile and shaft are at the same place and run at `velocity`, 1/16 counts/sample, in the next step.
     void restart(std::int32_t velocity);
 
+    /// Some FNC_OUT gives each torque.
+    bool answers() const { return c_.ff[0] * c_.vfx[0] > 0; }
     /// How far the shaft is behind the profile, corrections taken off, 1/16 counts.
     std::int64_t lag_16() const { return lag_16_; }
 

@@ -62,6 +62,11 @@ class Servo {
     /// Samples of the inner loop since a Drive `voltage` began, kTestSamples at the most.
     int test_samples() const { return test_samples_; }
 
+    /// The speed regulator's filters can drive the motor.
+    bool filters_answer() const { return regulator_.answers(); }
+    /// A broken encoder counts nothing: V_IST is 0, whatever the shaft does. R: commutation has its own eye.
+    void break_encoder(bool broken) { encoder_broken_ = broken; }
+
     Plant& plant() { return plant_; }
     const Plant& plant() const { return plant_; }
     /// The supply voltage can be changed at any time; the registers follow.
@@ -108,6 +113,7 @@ class Servo {
     std::int32_t uit_shown_ = 0;
     std::int64_t last_counts_ = 0;
     std::int32_t v_ist_ = 0;
+    bool encoder_broken_ = false;
 };
 
 }  // namespace nplc::sim
