@@ -14,8 +14,8 @@ constexpr double kAtLimit = 10000;  // I2T and UIT at what is borne for ever: th
 constexpr int kOuterSteps = 3;      // of the shaft in an outer sample, without the current loop
 
 /// Of a new torque, what the current loop gives on the average of each third of the sample: after n samples
-/// of its own 1 - (1 + n / 2) / 2^n, with the coefficients from the box.
-constexpr std::array<double, kOuterSteps> kRise{0.539, 0.963, 0.998};
+/// of its own 1 - (1 + 0.6 n) 0.4^n, with the coefficients from the box.
+constexpr std::array<double, kOuterSteps> kRise{0.644, 0.989, 1.000};
 
 bool hall_int(const MotorMemory& memory) {
     constexpr std::int32_t kHallInt = 1 << 5;  // CNTRL_BITS
