@@ -34,10 +34,10 @@ std::int32_t fixed(double value, double one) {
 // move ends where the profile does.
 constexpr double kForward[] = {27, -54, 36, -8};
 // Of the lag, its rise and its sum. Sum 1, as kForward's.
-constexpr double kBackward[] = {9684 / 256.0, -16745 / 256.0, 7317 / 256.0};
-constexpr double kError = 27 / 4096.0;
-// 1 - (1 - 1/z)^2 (1 + 1088/4096/z + 109/4096/z^2): two poles at 1, exact in the format, so nothing leaks.
-constexpr double kTorque[] = {7104 / 4096.0, -2029 / 4096.0, -870 / 4096.0, -109 / 4096.0};
+constexpr double kBackward[] = {9490 / 256.0, -16377 / 256.0, 7143 / 256.0};
+constexpr double kError = 28 / 4096.0;
+// 1 - (1 - 1/z)^2 (1 + 1091/4096/z + 67/4096/z^2): two poles at 1, exact in the format, so nothing leaks.
+constexpr double kTorque[] = {7101 / 4096.0, -1981 / 4096.0, -957 / 4096.0, -67 / 4096.0};
 
 void write_speed_regulator(MotorMemory& memory) {
     const bool big = is_mac800(memory.model());
@@ -52,11 +52,11 @@ void write_speed_regulator(MotorMemory& memory) {
     memory.set(cell::GEARB, fixed(16, f.one_f));
 }
 
-// Both poles of the loop at 0.5: an integrator in IF, and in IB the zero that they need.
+// Both poles of the loop at 0.4: an integrator in IF, and in IB the zero that they need.
 void write_current_loop(MotorMemory& memory) {
     const bool big = is_mac800(memory.model());
     const Filters& f = big ? kBigFilters : kSmallFilters;
-    constexpr double kPole = 0.5;
+    constexpr double kPole = 0.4;
     const MotorConstants& c = constants_of(memory.model());
     const double gain = (1 - kPole) * (1 - kPole) * c.resistance / (1 - c.decay);
     const double newest = (1 + c.decay - 2 * kPole) / ((1 - kPole) * (1 - kPole));
@@ -65,7 +65,7 @@ void write_current_loop(MotorMemory& memory) {
     memory.set(cell::KIB1, fixed(newest, f.one_f));
     memory.set(cell::KIB0, fixed(1, f.one_f) - fixed(newest, f.one_f));
     memory.set(cell::AMPLITUDE, 212);
-    memory.set(cell::PHASE_COMP, fixed(3.5, 256));
+    memory.set(cell::PHASE_COMP, fixed(3, 256));
     for (int p = 0; p < (big ? 2 : 3); ++p) memory.set(cell::IA_OFFSET[p], 1024);
     for (int p = 0; p < (big ? 2 : 3); ++p) memory.set(cell::KIA[p], 256);
     memory.set(cell::ELDEGN_OFFSET, 2040);

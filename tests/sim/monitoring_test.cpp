@@ -297,8 +297,6 @@ TEST(Monitoring, ErrorsOfMac800) {
              m.supply().set_source(325);
              m.supply().settle();
          }},
-        {"encoder", 1 << 15, [](MacMotor& m) { m.surroundings().encoder_broken = true; },
-         [](MacMotor& m) { m.surroundings().encoder_broken = false; }},
         {"24 V", 1 << 17, [](MacMotor& m) { m.surroundings().logic_millivolts = 17'900; },
          [](MacMotor& m) { m.surroundings().logic_millivolts = 24'000; }},
     };
