@@ -26,7 +26,9 @@ Plant::Plant(double full_acceleration, int steps, const Load& load, double elsew
       elsewhere_256_(256 * elsewhere),
       fastest_(kFastest / steps),
       thrown_(thrown_in(steps)),
-      load_(load) {}
+      load_(load) {
+    take_load();
+}
 
 void Plant::keep_within_stops(std::int64_t from) {
     if (const MechanicalStop* stop = stop_beyond()) press(*stop, from);

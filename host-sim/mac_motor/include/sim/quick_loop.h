@@ -39,8 +39,8 @@ class QuickLoop {
     Step brake(Plant& plant);
 
   private:
-    /// Of a change of torque, what the current loop gives on the average of the sample: after n samples of its
-    /// own 1 - (1 + 0.6 n) 0.4^n, with the coefficients from the box.
+    /// Of a change of torque, what the current loop gives on the average of the sample: after n samples of
+    /// its own 1 - (1 + 0.6 n) 0.4^n, with the coefficients from the box.
     static constexpr double kRise = 0.878;
 
     double reachable(double torque, double velocity, double volts) const {
