@@ -28,7 +28,7 @@ TEST(Load, FunctionCorrectionKeepsTheTorque) {
 
 // Whatever the torque, the load and how well KVOUT fits it: the motor ends on its target and stays there.
 // Where friction and a pull leave one direction hardly any torque, one in twenty may step to and fro by a
-// count.
+// count or two.
 TEST(Load, RandomLoadsAndLimitsEndOnTheTarget) {
     std::mt19937 random(5);
     const auto between = [&](int low, int high) {
@@ -52,7 +52,7 @@ TEST(Load, RandomLoadsAndLimitsEndOnTheTarget) {
         bool exact = b.motor.p_ist() == target;
         for (int i = 0; i < 500; ++i) {
             b.samples(1);
-            ASSERT_NEAR(b.motor.p_ist(), target, 1) << "seed 5, round " << round;
+            ASSERT_NEAR(b.motor.p_ist(), target, 2) << "seed 5, round " << round;
             ASSERT_TRUE(b.motor.in_position()) << "seed 5, round " << round;
             exact = exact && b.motor.p_ist() == target;
         }
