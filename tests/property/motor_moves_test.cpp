@@ -43,7 +43,8 @@ struct Move {
 /// Within the torque that there is: 1000 of A_SOLL are a third of it with KVOUT 1, on MAC800 two fifths.
 Move random_move(Random& random, int kvout) {
     const std::int32_t velocity = spread(random, 10, 5000);
-    const std::int32_t farthest = std::min(4'000'000, velocity / 16 * 8000 + 1000);
+    const std::int32_t samples = between(random, 0, 15) == 0 ? 15'000 : 1000;
+    const std::int32_t farthest = std::min(4'000'000, velocity / 16 * samples + 1000);
     const std::int32_t distance = spread(random, 1, farthest);
     return {.velocity = velocity,
             .acceleration = spread(random, 1, 1023 / kvout),

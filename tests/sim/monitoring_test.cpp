@@ -374,6 +374,7 @@ TEST(Monitoring, IxErrStopsNothing) {
 // 004 bit 12, the same provoked: there it is an error.
 TEST(Monitoring, IpeakErrOfMac800) {
     MotorBench b = running(registers::Model::mac800);
+    b.motor.plant().load().inertia_256 = 100 * 256;  // or the wrong current would stop it before STOP does
     const std::int32_t offset = b.reg(186);
     b.set(186, 2047);
     b.samples(1);

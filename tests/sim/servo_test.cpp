@@ -225,7 +225,7 @@ TEST(Supply, ThePowerDumpBeginsAt52Volts) {
 }
 
 // 48 V are as much as the EMF at 6000 rpm, 786 counts/sample (README); 4 / pi of it if the voltage is
-// no sine any more but square. At 24 V it is half of that.
+// no sine any more but square, and more for the current that leads. At 24 V it is half of that.
 TEST(Supply, SpeedIsWhatTheVoltageCanDrive) {
     for (const double volts : {48.0, 24.0}) {
         MotorBench b;
@@ -234,7 +234,7 @@ TEST(Supply, SpeedIsWhatTheVoltageCanDrive) {
         b.set(MODE_REG, 1);
         b.samples(2000);
         EXPECT_GT(b.motor.v_ist(), 786 * volts / 48);
-        EXPECT_LT(b.motor.v_ist(), 1.28 * 786 * volts / 48);
+        EXPECT_LT(b.motor.v_ist(), 1.35 * 786 * volts / 48);
         EXPECT_NEAR(b.reg(kUSupply), volts / 0.0537, 25);
     }
 }
