@@ -30,8 +30,17 @@ void InnerLoop::power_up(std::int64_t counts) {
     at_mark_ = false;
 }
 
+// 001 §3.2.124, §3.2.125, §3.2.36: at the mark the motor takes the register for its angle.
+void InnerLoop::turn_at_the_mark(std::int32_t by) {
+    const std::int32_t whole = constants_.counts_a_field;
+    const std::int32_t behind = angle_ >= whole - kMarkWidth ? angle_ - whole : angle_;
+    const bool forwards = angle_ + by >= whole;
+    if (forwards || behind + by < -kMarkWidth) pass_mark(forwards);
+    angle_ = (((angle_ + by) % whole) + whole) % whole;
+}
+
 void InnerLoop::pass_mark(bool forwards) {
-    if (mac800_ || (at_mark_ && !hall_.always)) return;
+    if (mac800_ || (at_mark_ && !every_mark_)) return;
     shift_ = forwards ? hall_.eldegp_offset : hall_.eldegn_offset + kMarkWidth;
     at_mark_ = true;
 }
@@ -47,17 +56,12 @@ std::uint32_t InnerLoop::hall_bits() const {
 }
 
 PerPhase<std::int32_t> InnerLoop::emf() const {
-    PerPhase<std::int32_t> emf;
-    const PerPhase<double> shapes = kSine.phases(table_angle(angle_));
-    for (std::size_t p = 0; p < kPhases; ++p) {
-        emf[p] = static_cast<std::int32_t>(constants_.emf * v_eldeg_ * shapes[p]);
-    }
-    return emf;
+    const double field = constants_.emf * v_eldeg_;
+    return (kSine.phases(table_angle(angle_)) * field).integers();
 }
 
 double InnerLoop::regenerated() const {
-    double sum = 0;
-    for (std::size_t p = 0; p < kPhases; ++p) sum -= regulator_.measured()[p] * regulator_.voltage()[p];
+    const double sum = -(regulator_.measured() * regulator_.voltage()).sum();
     const double watts =
         sum * constants_.volts_of_one * constants_.amperes_of_one * supply_volts_ / constants_.nominal_volts;
     return std::max(watts, 0.0);

@@ -14,6 +14,7 @@ MacMotor::MacMotor(registers::Model model, const MacMotorOptions& options)
     : options_(options),
       memory_(model),
       stored_(model),
+      bits_(&family_bits(model)),
       servo_(model, options.depth, options.load),
       analogue_level_(model),
       link_(
@@ -26,6 +27,7 @@ MacMotor::MacMotor(registers::Model model, const MacMotorOptions& options)
 void MacMotor::power_cycle() {
     memory_ = stored_;
     clear_volatile(memory_);
+    set_mode(number(MotorMode::init));
     constexpr std::uint32_t kKept = err::DIS_P_LIM;
     set_error_bits(~(kKept | bits().relpos_p_soll | bits().relpos_p_fnc), false);
     set_home_done(false);
@@ -109,10 +111,16 @@ void MacMotor::measure() {
     const std::uint32_t inner = bits().record | bits().record_inner;
     const bool watching = (control & inner) == inner;
     if (watching && (control & bits().rewind) != 0) rewind_samples();
+    servo_.break_encoder(is_mac800(model()) && surroundings_.encoder_broken);
+    servo_.plant().hold(brake_output());
     const std::int32_t v_ist = servo_.advance(memory_, terminals_, watching ? this : nullptr);
     memory_.set(cell::V_IST, v_ist);
     memory_.set(cell::P_IST, wrap32(std::int64_t{p_ist()} + v_ist));
 
+    if (is_mac800(model())) show_v_ist_16(v_ist);
+}
+
+void MacMotor::show_v_ist_16(std::int32_t v_ist) {
     std::int32_t& oldest = v_history_[v_next_++ % v_history_.size()];
     v_sum_ += v_ist - oldest;
     oldest = v_ist;

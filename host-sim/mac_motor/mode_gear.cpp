@@ -14,12 +14,10 @@ void MacMotor::run_gear() {
     gear_.take(
         gear_.scale(memory_.get(cell::V_EXT), memory_.get(cell::GEARF1), memory_.get(cell::GEARF2), factor));
     if (is_mode(MotorMode::analogue_velocity_gear)) gear_.take(analogue_trim(model(), aninp));
-    const std::int64_t distance = -gear_.g_fnc();
-    const std::int32_t limit = std::abs(v_soll());
     if (is_mode(MotorMode::gear_follow)) {
-        regulate(gear_follow_block(gear_.g_fnc(), v_old_, limit, acceleration()));
+        regulate(gear_follow_block(gear_.g_fnc(), v_old_, std::abs(v_soll()), acceleration()));
     } else {
-        regulate(position_block(distance, v_old_, limit, acceleration(), braking(distance)));
+        run_to(-gear_.g_fnc());
     }
     gear_.went(v_old_);
     show_gear_error();
@@ -43,7 +41,7 @@ void MacMotor::run_coil() {
     coil_.step(setup, analogue_level_.on(), travel);
     const std::int32_t here = memory_.get(cell::P_FNC);
     const std::int64_t distance = wrap32(coil_.target_16(setup, here) - here);
-    regulate(position_block(distance, v_old_, std::abs(v_soll()), acceleration(), braking(distance)));
+    run_to(distance);
     gear_.stand_at(v_old_ - distance);
     show_gear_error();
 }

@@ -31,8 +31,8 @@ void MacMotor::fail(std::uint32_t error) {
 // 001 §4.5.1 to §4.5.5
 void MacMotor::watch_limits() {
     if (is_above(cell::I2T, cell::I2TLIM)) fail(err::I2T_ERR);
-    const bool feeds_back = is_mac800(model()) || memory_.get(cell::U_SUPPLY) > kAbove52V;
-    if (is_above(cell::UIT, cell::UITLIM) && feeds_back) fail(err::UIT_ERR);
+    const auto feeds_back = [&] { return is_mac800(model()) || memory_.get(cell::U_SUPPLY) > kAbove52V; };
+    if (is_above(cell::UIT, cell::UITLIM) && feeds_back()) fail(err::UIT_ERR);
     if (exceeds(cell::FLWERR, cell::FLWERRMAX)) fail(err::FLW_ERR);
     if (exceeds(cell::FNCERR, cell::FNCERRMAX)) fail(err::FNC_ERR);
     const std::int32_t low = memory_.get(cell::MIN_P_IST);
@@ -46,6 +46,7 @@ void MacMotor::watch_limits() {
 void MacMotor::watch_supply() {
     const std::int64_t voltage = memory_.get(cell::U_SUPPLY);
     const std::int64_t least = is_mac800(model()) ? kLowBus : memory_.get(cell::U_MIN_SUP);
+    if (uv_timer_ == 0 && 4 * voltage > 5 * least) return set_error_bits(bits().uv_detect, false);
     const bool low = voltage < least;
     const bool well = is_mode(MotorMode::init) ? 4 * voltage >= 5 * least : 4 * voltage > 5 * least;
     if (uv_timer_ > 0) --uv_timer_;
@@ -80,6 +81,7 @@ void MacMotor::watch_mac800() {
     if (is_above(cell::DEGC, cell::DEGCMAX)) fail(err800::DEGC_ERR);
     if (memory_.get(cell::U_SUPPLY) > kHighBus) fail(err800::OV_ERR);
     if (memory_.get(cell::U_24V) < kLowLogic) fail(err800::U24V_ERR);
+    set_error_bits(err800::OLD_FILT_ERR, !servo_.filters_answer());  // R: shown, and stops nothing
     if (surroundings_.encoder_broken) fail(err800::INDEX_ERR);
 }
 

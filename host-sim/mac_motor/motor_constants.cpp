@@ -8,6 +8,7 @@ namespace {
 constexpr MotorConstants kSmall{
     .outer_period = 1.92e-3,
     .full_acceleration = 3500 / 16.0,
+    .emf_inertia = 0.017,
     .counts_a_field = 2048,
     .full_current = 847,
     .resistance = 0.366,
@@ -28,6 +29,7 @@ constexpr MotorConstants kSmall{
 constexpr MotorConstants kBig{
     .outer_period = 1.0 / 770,
     .full_acceleration = 2500 / 16.0,
+    .emf_inertia = 0.0075,
     .counts_a_field = 2000,
     .full_current = 847,
     .resistance = 0.3,

@@ -30,35 +30,42 @@ std::int32_t fixed(double value, double one) {
     return static_cast<std::int32_t>(value * one + (value < 0 ? -0.5 : 0.5));
 }
 
+// (3 - 2/z)^3: its zeros are the slow poles of the loop, so a move goes through the quick ones only. Sum 1: a
+// move ends where the profile does.
+constexpr double kForward[] = {27, -54, 36, -8};
+// Of the lag, its rise and its sum. Sum 1, as kForward's.
+constexpr double kBackward[] = {9490 / 256.0, -16377 / 256.0, 7143 / 256.0};
+constexpr double kError = 28 / 4096.0;
+// 1 - (1 - 1/z)^2 (1 + 1091/4096/z + 67/4096/z^2): two poles at 1, exact in the format, so nothing leaks.
+constexpr double kTorque[] = {7101 / 4096.0, -1981 / 4096.0, -957 / 4096.0, -67 / 4096.0};
+
 void write_speed_regulator(MotorMemory& memory) {
     const bool big = is_mac800(memory.model());
     const Filters& f = big ? kBigFilters : kSmallFilters;
+    // MAC800 has no GEARB: its filters are in counts/sample, or VB's 16 would take KVB out of its range.
+    const double unit = big ? 16 : 1;
     const double scale = big ? 3500.0 / 2500.0 : 1.0;  // of torque that an acceleration takes
-    // Their sum is 1, so a move ends where the profile does; the sum of n times the n-th is 0, so there is no
-    // lag at constant velocity.
-    constexpr double kForward[] = {410 / 256.0, -154 / 256.0, -154 / 256.0, 154 / 256.0};
-    // 0.55 of the velocity error, 0.25 of the lag and 0.02 of its sum, as acceleration.
-    constexpr double kError[] = {982 / 4096.0, -1616 / 4096.0, 658 / 4096.0};
-    for (int n = 0; n < 4; ++n) memory.set(cell::KFF[n], fixed(kForward[n], f.one_f));
-    for (int n = 0; n < 3; ++n) memory.set(cell::KVFX[n], fixed(kError[n] * scale, f.one_vf));
-    memory.set(cell::KVFY[0], fixed(2, f.one_vf));
-    memory.set(cell::KVFY[1], fixed(-1, f.one_vf));
+    for (int n = 0; n < 4; ++n) memory.set(cell::KFF[n], fixed(kForward[n] / unit, f.one_f));
+    for (int n = 0; n < 3; ++n) memory.set(cell::KVB[n], fixed(kBackward[n], f.one_f));
+    memory.set(cell::KVFX, fixed(kError * scale * unit, f.one_vf));
+    for (int n = 0; n < 4; ++n) memory.set(cell::KVFY[n], fixed(kTorque[n], f.one_vf));
     memory.set(cell::GEARB, fixed(16, f.one_f));
-    memory.set(cell::KVB, fixed(big ? 16 : 1, f.one_f));
 }
 
+// Both poles of the loop at 0.4: an integrator in IF, and in IB the zero that they need.
 void write_current_loop(MotorMemory& memory) {
     const bool big = is_mac800(memory.model());
     const Filters& f = big ? kBigFilters : kSmallFilters;
-    constexpr double kRate = 0.35;  // of an error that a sample takes away
+    constexpr double kPole = 0.4;
     const MotorConstants& c = constants_of(memory.model());
-    const double gain = kRate * c.resistance / (1 - c.decay);
+    const double gain = (1 - kPole) * (1 - kPole) * c.resistance / (1 - c.decay);
+    const double newest = (1 + c.decay - 2 * kPole) / ((1 - kPole) * (1 - kPole));
     memory.set(cell::KIFX2, fixed(gain, f.one_if));
-    memory.set(cell::KIFX1, fixed(-gain * c.decay, f.one_if));
     memory.set(cell::KIFY1, fixed(1, f.one_if));
-    memory.set(cell::KIB1, fixed(1, f.one_f));
+    memory.set(cell::KIB1, fixed(newest, f.one_f));
+    memory.set(cell::KIB0, fixed(1, f.one_f) - fixed(newest, f.one_f));
     memory.set(cell::AMPLITUDE, 212);
-    memory.set(cell::PHASE_COMP, fixed(3.4, 256));
+    memory.set(cell::PHASE_COMP, fixed(3, 256));
     for (int p = 0; p < (big ? 2 : 3); ++p) memory.set(cell::IA_OFFSET[p], 1024);
     for (int p = 0; p < (big ? 2 : 3); ++p) memory.set(cell::KIA[p], 256);
     memory.set(cell::ELDEGN_OFFSET, 2040);

@@ -97,7 +97,7 @@ void MacMotor::end_mode_by_itself() {
     } else if (coasting_ && below_300_rpm()) {
         coasting_ = false;
         set_mode(number(MotorMode::init));
-    } else {
+    } else if (!is_driven()) {
         end_test();
     }
 }

@@ -7,7 +7,6 @@
 namespace nplc::sim {
 namespace {
 
-constexpr std::int32_t kFullTorque = 1023;
 constexpr std::int32_t kBound =
     0xFFFF;  // of velocities and accelerations in 1/16: MAC800 registers hold more
 
@@ -34,11 +33,16 @@ std::int64_t MacMotor::distance_16() const {
 }
 
 std::int32_t MacMotor::torque_limit() const {
-    if (is_mode(MotorMode::stop)) return kFullTorque;
-    if (is_mode(MotorMode::home1)) return Homing::torque_limit(memory_.get(cell::T_HOME));
-    const std::int32_t t_soll = memory_.get(cell::T_SOLL);
-    if (!is_mode(MotorMode::velocity_analogue_torque)) return t_soll;
-    return analogue_torque_limit(model(), memory_.get(cell::ANINP), t_soll);
+    switch (static_cast<MotorMode>(mode())) {
+        case MotorMode::stop:
+            return kFullTorque;
+        case MotorMode::home1:
+            return Homing::torque_limit(memory_.get(cell::T_HOME));
+        case MotorMode::velocity_analogue_torque:
+            return analogue_torque_limit(model(), memory_.get(cell::ANINP), memory_.get(cell::T_SOLL));
+        default:
+            return memory_.get(cell::T_SOLL);
+    }
 }
 
 void MacMotor::run_profile() {
@@ -66,15 +70,22 @@ void MacMotor::run_profile() {
 }
 
 /// What the end of a move may count on.
-std::int32_t MacMotor::braking(std::int64_t distance) {
+std::int32_t MacMotor::braking(std::int64_t distance, std::int32_t acceleration) {
     if (v_old_ == 0 && distance == 0) corrected_braking_ = 0;
-    return corrected_braking_ == 0 ? acceleration() : std::min(corrected_braking_, acceleration());
+    return corrected_braking_ == 0 ? acceleration : std::min(corrected_braking_, acceleration);
+}
+
+/// With the position block, to what is `distance` away.
+void MacMotor::run_to(std::int64_t distance) {
+    const std::int32_t acceleration = this->acceleration();
+    const std::int32_t limit = std::abs(v_soll());
+    regulate(position_block(distance, v_old_, limit, acceleration, braking(distance, acceleration)));
 }
 
 void MacMotor::run_position() {
     const std::int64_t distance = distance_16();
     if (distance != distance_to_go_) corrected_braking_ = 0;  // a new target: what was learnt is not of it
-    regulate(position_block(distance, v_old_, std::abs(v_soll()), acceleration(), braking(distance)));
+    run_to(distance);
     distance_to_go_ = wrap32(distance - v_old_);
 }
 
@@ -108,8 +119,8 @@ void MacMotor::learn_braking(std::int32_t wanted, std::int32_t correction) {
 }
 
 void MacMotor::show_profile(std::int32_t fnc_out) {
-    set_error_bits(err::ACC_FLAG, fnc_out > v_old_);
-    set_error_bits(err::DEC_FLAG, fnc_out < v_old_);
+    const std::uint32_t flags = fnc_out > v_old_ ? err::ACC_FLAG : fnc_out < v_old_ ? err::DEC_FLAG : 0;
+    show_error_bits(err::ACC_FLAG | err::DEC_FLAG, flags);
     memory_.set(cell::FNC_OUT, is_mac800(model()) ? wrap32(std::int64_t{fnc_out} * 0x10000) : fnc_out);
 }
 

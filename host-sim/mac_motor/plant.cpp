@@ -2,16 +2,17 @@
 
 #include <algorithm>
 
+#include "sim/drive.h"
+
 namespace nplc::sim {
 namespace {
 
-constexpr double kFullTorque = 1023;
 constexpr double kFastest = 4096;  // counts/sample, 31,250 rpm on MAC50-141: keeps a wild load in range
 constexpr std::int64_t kFarthest = std::int64_t{1} << 42;  // counts
 
-/// Halves in an outer sample: the third and the 15th root of 1/2.
+/// Halves in an outer sample: the 15th root of 1/2.
 double thrown_in(int steps) {
-    return steps == 1 ? 0.5 : steps == 3 ? 0.7937 : 0.9548;
+    return steps == 1 ? 0.5 : 0.9548;
 }
 
 std::int64_t edge_of(const MechanicalStop& stop) {
@@ -20,11 +21,14 @@ std::int64_t edge_of(const MechanicalStop& stop) {
 
 }  // namespace
 
-Plant::Plant(double full_acceleration, int steps, const Load& load)
+Plant::Plant(double full_acceleration, int steps, const Load& load, double elsewhere)
     : acceleration_of_one_(full_acceleration / kFullTorque / steps / steps),
+      elsewhere_256_(256 * elsewhere),
       fastest_(kFastest / steps),
       thrown_(thrown_in(steps)),
-      load_(load) {}
+      load_(load) {
+    take_load();
+}
 
 void Plant::keep_within_stops(std::int64_t from) {
     if (const MechanicalStop* stop = stop_beyond()) press(*stop, from);

@@ -79,8 +79,8 @@ int run_all(int argc, char** argv) {
           std::tuple{"motor/MAC800 current loop", Model::mac800, Servo::Depth::current_loop},
           std::tuple{"motor/MAC800 outer loop", Model::mac800, Servo::Depth::outer_loop}}) {
         benchmark::RegisterBenchmark(name, samples, model, depth)
-            ->Arg(1)
-            ->Arg(8)
+            ->RangeMultiplier(2)
+            ->Range(1, 8)
             ->Unit(benchmark::kMicrosecond);
     }
     benchmark::RunSpecifiedBenchmarks();

@@ -297,8 +297,6 @@ TEST(Monitoring, ErrorsOfMac800) {
              m.supply().set_source(325);
              m.supply().settle();
          }},
-        {"encoder", 1 << 15, [](MacMotor& m) { m.surroundings().encoder_broken = true; },
-         [](MacMotor& m) { m.surroundings().encoder_broken = false; }},
         {"24 V", 1 << 17, [](MacMotor& m) { m.surroundings().logic_millivolts = 17'900; },
          [](MacMotor& m) { m.surroundings().logic_millivolts = 24'000; }},
     };
@@ -330,6 +328,40 @@ TEST(Monitoring, OverspeedOfMac800) {
     EXPECT_FALSE(MotorBench().reg(ERR_STAT) & 1 << 13);
 }
 
+// What a broken encoder does not count is lost; the windings brake, for INIT shorts them.
+TEST(Monitoring, ABrokenEncoderLosesCounts) {
+    MotorBench b = running(registers::Model::mac800);
+    b.samples(100);
+    b.motor.surroundings().encoder_broken = true;
+    const std::int32_t lost_at = b.motor.p_ist();
+    const std::int64_t shaft = b.motor.plant().counts();
+    b.samples(20);
+    EXPECT_EQ(b.motor.v_ist(), 0);
+    EXPECT_EQ(b.motor.p_ist(), lost_at);
+    EXPECT_NE(b.motor.plant().counts(), shaft);
+    b.samples(1000);
+    EXPECT_EQ(b.reg(MODE_REG), 0);
+    EXPECT_EQ(b.motor.p_ist(), lost_at);
+    EXPECT_NEAR(b.motor.plant().velocity(), 0, 0.01);
+}
+
+// 004, ERR_STAT bit 16: without KFF5 or KVFX6 no velocity gives a torque.
+TEST(Monitoring, OldFiltErrShowsFiltersThatCannotDrive) {
+    constexpr int kKff5 = 121, kKvfx6 = 127;
+    for (const int reg : {kKff5, kKvfx6}) {
+        MotorBench b = running(registers::Model::mac800);
+        const std::int32_t right = b.reg(reg);
+        EXPECT_EQ(b.reg(ERR_STAT) & 1 << 16, 0);
+        b.set(reg, 0);
+        b.samples(2);
+        EXPECT_NE(b.reg(ERR_STAT) & 1 << 16, 0);
+        EXPECT_EQ(b.reg(MODE_REG), 1) << "shown, and nothing more";
+        b.set(reg, right);
+        b.samples(2);
+        EXPECT_EQ(b.reg(ERR_STAT) & 1 << 16, 0);
+    }
+}
+
 // 001 §3.2.35 bit 11: shown, and nothing more; an offset of -400 puts the converter at its end.
 TEST(Monitoring, IxErrStopsNothing) {
     MotorBench b = running();
@@ -342,6 +374,7 @@ TEST(Monitoring, IxErrStopsNothing) {
 // 004 bit 12, the same provoked: there it is an error.
 TEST(Monitoring, IpeakErrOfMac800) {
     MotorBench b = running(registers::Model::mac800);
+    b.motor.plant().load().inertia_256 = 100 * 256;  // or the wrong current would stop it before STOP does
     const std::int32_t offset = b.reg(186);
     b.set(186, 2047);
     b.samples(1);

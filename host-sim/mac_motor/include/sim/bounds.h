@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 namespace nplc::sim {
 
 /// `value` cut to [low, high], as std::clamp. For what hardly ever is outside: the bounds are tested, not
@@ -12,6 +14,14 @@ inline double within(double value, double low, double high) {
 }
 inline double within(double value, double limit) {
     return within(value, -limit, limit);
+}
+
+/// 1.5 x 2^52: beyond it a double has no digits after the point.
+inline constexpr double kNoFraction = 6755399441055744;
+
+/// To the nearest integer, halves to the even one: a cast alone would take a little of each torque away.
+inline std::int32_t nearest(double value) {
+    return static_cast<std::int32_t>((value + kNoFraction) - kNoFraction);
 }
 
 }  // namespace nplc::sim

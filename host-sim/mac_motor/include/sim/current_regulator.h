@@ -1,11 +1,12 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
+#include <cmath>
 #include <cstdint>
 
 #include "sim/bounds.h"
 #include "sim/motor_memory.h"
+#include "sim/phases.h"
 #include "sim/sine_table.h"
 
 namespace nplc::sim {
@@ -16,11 +17,11 @@ namespace nplc::sim {
 class CurrentRegulator {
   public:
     struct Settings {
-        double kifx2 = 0, kifx1 = 0, kify1 = 0, kify0 = 0, kib1 = 0, kib0 = 0;
+        Phases kifx2, kifx1, kify1, kify0, kib1, kib0;  ///< each the same three times
         double amplitude = 0;
-        double phase_comp = 0;
-        PerPhase<double> gain{1, 1, 1};  ///< KIA, KIB, KIC
-        PerPhase<std::int32_t> offset{};
+        std::int64_t phase_comp_256 = 0;
+        Phases gain{1, 1, 1};  ///< KIA, KIB, KIC
+        Phases offset;
         bool third_is_rest = false;  ///< MAC800 measures two currents
     };
     static constexpr std::int32_t kRange = 1023;
@@ -29,17 +30,23 @@ class CurrentRegulator {
     void use(const Settings& settings) { s_ = settings; }
     void reset();
 
-    /// Currents as the converters give them, without offset.
-    void measure(const PerPhase<std::int32_t>& converted) {
-        for (std::size_t p = 0; p < kPhases; ++p) {
-            measured_[p] = limited((converted[p] + s_.offset[p]) * s_.gain[p], kRange);
+    /// Currents as the converters give them, whole, without offset.
+    void measure(Phases converted) {
+        const Phases scaled = (converted + s_.offset) * s_.gain;
+        const bool inside = scaled.inside(kRange - 1);
+        measured_ = (inside ? scaled : scaled.clamped(-kRange, kRange)).nearest();
+        if (s_.third_is_rest) {
+            const double rest = within(-measured_.a() - measured_.b(), kRange);
+            measured_ = {measured_.a(), measured_.b(), rest};
+        } else if (inside) {
+            return;
         }
-        if (s_.third_is_rest) measured_[2] = std::clamp(-measured_[0] - measured_[1], -kRange, kRange);
-        for (const std::int32_t current : measured_) at_the_end_ |= current == kRange || current == -kRange;
+        at_the_end_ |= !measured_.inside(kRange - 1);
     }
     /// A field of `torque` (with its sign) across the rotor at `eldeg`, which goes on by `v_eldeg` a sample.
     void commutate(std::int32_t torque, std::int32_t eldeg, std::int32_t v_eldeg) {
-        const std::int32_t lead = limited(v_eldeg * s_.phase_comp, kLargest);  // 001 §3.2.126
+        const std::int64_t ahead = (v_eldeg * s_.phase_comp_256 + 128) >> 8;  // 001 §3.2.126
+        const auto lead = static_cast<std::int32_t>(std::clamp(ahead, -kLargest, kLargest));
         const std::int32_t half_turn = torque < 0 ? kTurn / 2 : 0;
         aim(torque < 0 ? -torque : torque, eldeg + lead + half_turn);
     }
@@ -48,29 +55,27 @@ class CurrentRegulator {
         i_nom_ = i_nom;
         phi_ = angle & (kTurn - 1);
         const double amplitude = i_nom * s_.amplitude;
-        const PerPhase<double> sines = kSine.phases(phi_);
-        for (std::size_t p = 0; p < kPhases; ++p) wanted_[p] = limited(amplitude * sines[p], kLargest);
+        wanted_ = kSine.phases(phi_, amplitude);
+        if (std::abs(amplitude) > kLargest) wanted_ = wanted_.within(kLargest);
+        wanted_ = wanted_.nearest();
     }
     /// Regulates what was measured to what was asked for; the answer is in `voltage`.
     void regulate() {
-        for (std::size_t p = 0; p < kPhases; ++p) {
-            const double measured = measured_[p];
-            const double error = wanted_[p] - (s_.kib1 * measured + s_.kib0 * measured_before_[p]);
-            const double output = s_.kifx2 * error + s_.kifx1 * error_before_[p] + s_.kify1 * output_[p] +
-                                  s_.kify0 * output_before_[p];
-            measured_before_[p] = measured;
-            error_before_[p] = error;
-            output_before_[p] = output_[p];
-            output_[p] = std::clamp<double>(output, -kRange, kRange);  // so that it cannot wind up
-            voltage_[p] = static_cast<std::int32_t>(output_[p]);
-        }
+        const Phases error = wanted_ - (measured_ * s_.kib1 + measured_before_ * s_.kib0);
+        const Phases kept = error_before_ * s_.kifx1 + output_ * s_.kify1 + output_before_ * s_.kify0;
+        const Phases output = (error * s_.kifx2 + kept).within(kRange);  // so that it cannot wind up
+        measured_before_ = measured_;
+        error_before_ = error;
+        output_before_ = output_;
+        output_ = output;
+        voltage_ = output.nearest();
     }
     /// No regulation: these voltages, and filters that have forgotten.
     void apply(const PerPhase<std::int32_t>& voltage);
 
-    const PerPhase<std::int32_t>& wanted() const { return wanted_; }      ///< IA_SOLL ...
-    const PerPhase<std::int32_t>& measured() const { return measured_; }  ///< IA_IST ...
-    const PerPhase<std::int32_t>& voltage() const { return voltage_; }    ///< UA_VAL ...
+    Phases wanted() const { return wanted_; }      ///< IA_SOLL ..., whole
+    Phases measured() const { return measured_; }  ///< IA_IST ...
+    Phases voltage() const { return voltage_; }    ///< UA_VAL ...
     std::int32_t i_nom() const { return i_nom_; }
     std::int32_t phi_soll() const { return phi_; }
     /// A current was at the end of its measuring range since this was cleared.
@@ -78,20 +83,16 @@ class CurrentRegulator {
     void clear_at_the_end() { at_the_end_ = false; }
 
   private:
-    static constexpr double kLargest = 32767;
-
-    static std::int32_t limited(double value, double limit) {
-        return static_cast<std::int32_t>(within(value, limit));
-    }
+    static constexpr std::int64_t kLargest = 32767;
 
     Settings s_;
-    PerPhase<std::int32_t> wanted_{};
-    PerPhase<std::int32_t> measured_{};
-    PerPhase<std::int32_t> voltage_{};
-    PerPhase<double> measured_before_{};
-    PerPhase<double> error_before_{};
-    PerPhase<double> output_{};
-    PerPhase<double> output_before_{};
+    Phases wanted_;
+    Phases measured_;
+    Phases voltage_;
+    Phases measured_before_;
+    Phases error_before_;
+    Phases output_;
+    Phases output_before_;
     std::int32_t i_nom_ = 0;
     std::int32_t phi_ = 0;
     bool at_the_end_ = false;

@@ -4,6 +4,9 @@
 
 namespace nplc::sim {
 
+/// VF_OUT's and T_SOLL's most: the motor's full torque.
+inline constexpr std::int32_t kFullTorque = 1023;
+
 /// What a mode asks of everything below the profile for one sample of the outer loop (001 §4.4: which
 /// regulators are active).
 struct Drive {

@@ -16,7 +16,7 @@ inline constexpr std::uint32_t I2T_ERR = 1U << 0, FLW_ERR = 1U << 1, FNC_ERR = 1
 /// ERR_STAT bits that only MAC800 has (004).
 namespace err800 {
 inline constexpr std::uint32_t DEGC_ERR = 1U << 8, OV_ERR = 1U << 11, SPEED_ERR = 1U << 13,
-                               INDEX_ERR = 1U << 15, U24V_ERR = 1U << 17;
+                               INDEX_ERR = 1U << 15, OLD_FILT_ERR = 1U << 16, U24V_ERR = 1U << 17;
 }  // namespace err800
 
 /// Bits that the families put in different places. A mask of 0: the family has no such bit.

@@ -16,11 +16,12 @@ class InnerLoop {
     struct HallSettings {
         std::int32_t eldegp_offset = 0;  ///< MAC800: ELDEG_OFFSET
         std::int32_t eldegn_offset = 0;
-        bool always = false;  ///< HALL_INT: at every mark, not only at the first after power-up
     };
 
     explicit InnerLoop(registers::Model model);
 
+    /// HALL_INT: the mark counts every time, not only the first after power-up.
+    void use_every_mark(bool every) { every_mark_ = every; }
     void use(const CurrentRegulator::Settings& settings, const HallSettings& hall);
     /// As after power-up: no currents. R: the rotor's angle is known at once.
     void power_up(std::int64_t counts);
@@ -30,9 +31,7 @@ class InnerLoop {
         v_eldeg_ = static_cast<std::int32_t>(std::clamp<std::int64_t>(counts - counts_, -0x7FFF, 0x7FFF));
         counts_ = counts;
         turn(v_eldeg_);
-        PerPhase<std::int32_t> raw;
-        for (std::size_t p = 0; p < kPhases; ++p) raw[p] = converted(winding_.currents()[p], kMiddle[p]);
-        regulator_.measure(raw);
+        regulator_.measure(converted(winding_.currents()));
     }
     void drive_torque(std::int32_t torque) {
         regulator_.commutate(torque, eldeg(), v_eldeg_);
@@ -61,10 +60,8 @@ class InnerLoop {
     std::int32_t v_eldeg() const { return v_eldeg_; }  ///< V_ELDEG
     std::uint32_t hall_bits() const;                   ///< the three hall elements, bit 0 to 2
     PerPhase<std::int32_t> emf() const;                ///< EMK_A ..., voltage units
-    std::int32_t squares() const {                     ///< IA_IST^2 + IB_IST^2 + IC_IST^2
-        std::int32_t sum = 0;
-        for (const std::int32_t current : regulator_.measured()) sum += current * current;
-        return sum;
+    double squares() const {                           ///< IA_IST^2 + IB_IST^2 + IC_IST^2
+        return (regulator_.measured() * regulator_.measured()).sum();
     }
     double regenerated() const;  ///< Preg of 001 §3.2.18, watts, 0 at the least
 
@@ -76,20 +73,19 @@ class InnerLoop {
     static constexpr std::int32_t kBigField = 2000;  // MAC800's counts_a_field
 
     /// A converter's half that the motor uses: 0 down to -2047.
-    static std::int32_t converted(double current, std::int32_t middle) {
-        constexpr std::int32_t kSpan = 2047, kFar = 100'000;
-        const double bounded = within(current + kFar, 0, 2 * kFar) + 0.5;  // a cast rounds down
-        return std::clamp(static_cast<std::int32_t>(bounded) - kFar - middle, -kSpan, 0);
+    static Phases converted(Phases current) {
+        constexpr double kSpan = 2047, kInside = 1000;
+        const Phases raw = current.nearest() - Phases(kMiddle);
+        return current.inside(kInside) ? raw : raw.clamped(-kSpan, 0);
     }
-    // 001 §3.2.124, §3.2.125, §3.2.36: at the mark the motor takes the register for its angle.
     void turn(std::int32_t by) {
-        const std::int32_t whole = constants_.counts_a_field;
-        const std::int32_t behind = angle_ >= whole - kMarkWidth ? angle_ - whole : angle_;
-        const bool forwards = angle_ + by >= whole;
-        if (forwards || behind + by < -kMarkWidth) pass_mark(forwards);
-        angle_ += by;
-        if (angle_ >= whole || angle_ < 0) angle_ = ((angle_ % whole) + whole) % whole;
+        const std::int32_t angle = angle_ + by;
+        const bool at_the_mark = angle_ >= constants_.counts_a_field - kMarkWidth || angle < 0 ||
+                                 angle >= constants_.counts_a_field;
+        if (at_the_mark) return turn_at_the_mark(by);
+        angle_ = angle;
     }
+    void turn_at_the_mark(std::int32_t by);
     void pass_mark(bool forwards);
     std::int32_t table_angle(std::int32_t angle) const {
         const std::int32_t whole = constants_.counts_a_field;
@@ -109,6 +105,7 @@ class InnerLoop {
     std::int32_t angle_ = 0;  // of the rotor in its field, encoder counts
     std::int32_t shift_ = 0;  // from it to ELDEG_IST
     std::int32_t v_eldeg_ = 0;
+    bool every_mark_ = false;
     bool at_mark_ = false;  // has been at the hall elements' mark
 };
 

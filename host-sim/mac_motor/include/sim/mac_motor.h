@@ -53,7 +53,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     std::chrono::nanoseconds sample_period() const;
 
     /// One outer sample: shaft, encoder, profile, regulator, flags, monitoring (001 §4).
-    void sample();
+    [[gnu::flatten]] void sample();
 
     /// The user interface, see FastMacSlave. Dead if CNTRL_BITS chose another use of the pins at power-up.
     void receive(std::uint8_t byte, bool framing_error, base::Instant now);
@@ -89,8 +89,8 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     std::string_view note() const { return note_; }
     /// As if I2T had been above its limit for a moment: I2T_ERR and all that follows from it.
     void overload() { fail(err::I2T_ERR); }
-    /// The output for a holding brake (004, MAN_NO_BRAKE): on while the motor is passive. R: no brake is
-    /// built in; it holds nothing.
+    /// The output for a holding brake (004, MAN_NO_BRAKE): on while the motor is passive. A brake that
+    /// is built in (Load::brake_torque) then holds the shaft.
     bool brake_output() const;
 
     /// 001 §4.4.16: only over MacTalk, so not over the user interface. False: refused (not in INIT, not in
@@ -163,21 +163,24 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     void request_home();
     void request_init();
     void enter(std::uint16_t mode);
-    void set_mode(std::uint16_t mode) { memory_.set(cell::MODE_REG, mode); }
+    void set_mode(std::uint16_t mode) {
+        memory_.set(cell::MODE_REG, mode);
+        facts_ = facts_of(mode);
+    }
     void leave_for(std::uint16_t mode);
     void go_passive(bool emergency);
     void begin_stop(std::uint16_t then, bool emergency);
     void begin_at_measured_speed();
     void end_mode_by_itself();
     bool error_keeps_mode() const;
-    const ModeFacts& facts() const { return *facts_of(mode()); }
+    const ModeFacts& facts() const { return *facts_; }
     bool is_driven() const { return facts().driven(); }
     bool below_300_rpm() const;
     void begin_correction();
     std::string_view why_it_stands(std::uint16_t mode) const;
 
     // Monitoring: monitoring.cpp
-    void monitor();
+    [[gnu::flatten]] void monitor();
     void fail(std::uint32_t error);
     void watch_limits();
     void watch_supply();
@@ -206,13 +209,14 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
 
     // One sample: mac_motor.cpp
     void measure();
+    void show_v_ist_16(std::int32_t v_ist);
     void read_inputs();
     void resynchronise();
     bool resynchronises_by_itself() const;
     void stay_passive();
 
     // Profile and regulator: motor_profile.cpp
-    void run_profile();
+    [[gnu::flatten]] void run_profile();
     void run_position();
     void run_gear();
     void run_coil();
@@ -221,25 +225,31 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     std::int32_t analogue_v_soll() const;
     void set_target_by_voltage();
     void set_target_by_level();
-    std::int32_t braking(std::int64_t distance);
+    void run_to(std::int64_t distance);
+    std::int32_t braking(std::int64_t distance, std::int32_t acceleration);
     void learn_braking(std::int32_t wanted, std::int32_t correction);
     void regulate(std::int32_t fnc_out);
     void show_profile(std::int32_t fnc_out);
-    void judge_in_position();
+    [[gnu::flatten]] void judge_in_position();
     bool within_window() const;
     std::int64_t distance_16() const;
     std::int32_t acceleration() const;
     std::int32_t torque_limit() const;
     std::int32_t v_soll() const;
-    void set_error_bits(std::uint32_t mask, bool on) {
+    void set_error_bits(std::uint32_t mask, bool on) { show_error_bits(mask, on ? mask : 0); }
+    /// Those of `mask` become those of `on`.
+    void show_error_bits(std::uint32_t mask, std::uint32_t on) {
         const std::uint32_t status = error_status();
-        memory_.set(cell::ERR_STAT, static_cast<std::int32_t>(on ? status | mask : status & ~mask));
+        const std::uint32_t wanted = (status & ~mask) | on;
+        if (wanted != status) memory_.set(cell::ERR_STAT, static_cast<std::int32_t>(wanted));
     }
-    const FamilyBits& bits() const { return family_bits(model()); }
+    const FamilyBits& bits() const { return *bits_; }
 
     MacMotorOptions options_;
     MotorMemory memory_;
     MotorMemory stored_;
+    const FamilyBits* bits_;
+    const ModeFacts* facts_ = facts_of(0);  // of MODE_REG
     Servo servo_;
     Terminals terminals_;
     Surroundings surroundings_;

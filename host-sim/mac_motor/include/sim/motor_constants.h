@@ -8,8 +8,9 @@ namespace nplc::sim {
 /// The iron and copper of a family, ours; the folder's README says from what. MAC50, 95, 140 and 141 share
 /// one.
 struct MotorConstants {
-    double outer_period;          ///< s
-    double full_acceleration;     ///< of the bare motor at full torque, counts/sample^2 of the outer loop
+    double outer_period;       ///< s
+    double full_acceleration;  ///< of the bare motor at full torque, counts/sample^2 of the outer loop
+    double emf_inertia;        ///< of the motor's, what a rising EMF makes of it with the box's current loop
     std::int32_t counts_a_field;  ///< encoder counts in a turn of the field
     double full_current;          ///< peak phase current at full torque, register units
     double resistance;            ///< voltage units a current unit

@@ -104,9 +104,10 @@ class MotorMemory {
     }
     /// Cut to the cell's width.
     void set(Cell cell, std::int32_t value) {
-        if (const std::uint8_t number = number_of(cell); number != 0) {
-            write(number, static_cast<std::uint32_t>(value), is_wide(cell));
-        }
+        const std::uint8_t number = number_of(cell);
+        if (number == 0) return;
+        store(place_of(number), static_cast<std::uint32_t>(value), is_wide(cell));
+        if (is_setting(cell)) settings_written_.yes = true;
     }
     /// For what the motor shows: a value beyond the cell's range stands at its end.
     void show(Cell cell, std::int32_t value) {
@@ -122,10 +123,8 @@ class MotorMemory {
         return longword ? this->longword(place) : words_[place];
     }
     void write(std::uint8_t reg, std::uint32_t value, bool longword) {
-        const std::size_t place = place_of(reg);
-        words_[place] = static_cast<std::uint16_t>(value);
-        if (longword) words_[place + 1] = static_cast<std::uint16_t>(value >> 16);
-        const bool setting = is_setting(model_, reg) || (longword && is_setting(model_, next(reg)));
+        store(place_of(reg), value, longword);
+        const bool setting = sim::is_setting(model_, reg) || (longword && sim::is_setting(model_, next(reg)));
         if (setting) settings_written_.yes = true;
     }
 
@@ -145,6 +144,15 @@ class MotorMemory {
         }
     };
 
+    /// In either family, which is known when compiled; the other's is taken for one too, at no harm.
+    static constexpr bool is_setting(Cell cell) {
+        return sim::is_setting(registers::Model::mac140, cell.small) ||
+               sim::is_setting(registers::Model::mac800, cell.big);
+    }
+    void store(std::size_t place, std::uint32_t value, bool longword) {
+        words_[place] = static_cast<std::uint16_t>(value);
+        if (longword) words_[place + 1] = static_cast<std::uint16_t>(value >> 16);
+    }
     std::uint8_t number_of(Cell cell) const { return is_mac800(model_) ? cell.big : cell.small; }
     bool is_wide(Cell cell) const { return is_mac800(model_) || cell.kind == Cell::Kind::long_int; }
     std::size_t place_of(std::uint8_t reg) const { return is_mac800(model_) ? 2U * reg : reg; }

@@ -20,6 +20,7 @@ struct MechanicalStop {
 struct Load {
     std::int32_t inertia_256 = 256;  ///< motor and load over the motor's own inertia, x 256 (KVOUT's meaning)
     std::int32_t friction_torque = 5;           ///< Coulomb friction
+    std::int32_t brake_torque = 0;              ///< of a holding brake (MAC800's output); 0: none is built in
     std::int32_t torque = 0;                    ///< constant pull, positive turns the shaft forward
     std::optional<MechanicalStop> low_stop{};   ///< below which the shaft is held
     std::optional<MechanicalStop> high_stop{};  ///< above which it is
@@ -30,24 +31,29 @@ struct Load {
 class Plant {
   public:
     /// `full_acceleration`: what full torque gives the bare motor, counts/sample^2 of the outer loop;
-    /// `steps`: in an outer sample.
-    Plant(double full_acceleration, int steps, const Load& load);
+    /// `steps`: in an outer sample; `elsewhere`: of the bare motor's inertia, what the current loop shows of
+    /// it already.
+    Plant(double full_acceleration, int steps, const Load& load, double elsewhere = 0);
 
-    /// One step with the motor's `torque`, and `brake` of torque against each count/step of velocity.
-    void step(double torque, double brake = 0) {
-        const double of_one = this->of_one();
-        const double push = within(torque + load_.torque, kTorqueBound) * of_one;
-        const double pushed = brake == 0 ? velocity_ + push : (velocity_ + push) / (1 + brake * of_one);
-        const double before = velocity_;
-        velocity_ = rubbed(pushed, std::max(load_.friction_torque, 0) * of_one);
-        velocity_ = within(velocity_, fastest_);
-        const std::int64_t from = position_;
-        position_ += static_cast<std::int64_t>((before + velocity_) * (kCount / 2));
-        if (load_.low_stop || load_.high_stop) keep_within_stops(from);
+    /// Before the steps of a sample: the load as it is now.
+    void take_load() {
+        if (load_.inertia_256 != inertia_256_) {
+            inertia_256_ = load_.inertia_256;
+            of_one_ = acceleration_of_one_ * 256 / std::max(inertia_256_ - elsewhere_256_, 1.0);
+        }
+        friction_ = std::max(load_.friction_torque + holding_, 0) * of_one_;
+        pull_ = load_.torque;
+        has_stops_ = load_.low_stop || load_.high_stop;
     }
+    /// One step with the motor's `torque`.
+    void step(double torque) { move(velocity_ + push(torque)); }
+    /// The same with `brake` of torque against each count/step of velocity.
+    void step(double torque, double brake) { move((velocity_ + push(torque)) / (1 + brake * of_one_)); }
 
     /// Encoder counts since the motor was built.
     std::int64_t counts() const { return (position_ + kCount / 2) >> kFractionBits; }
+    /// The holding brake is on or off: a friction more.
+    void hold(bool on) { holding_ = on ? std::clamp(load_.brake_torque, 0, kStrongestBrake) : 0; }
     /// Counts a step.
     double velocity() const { return velocity_; }
 
@@ -59,6 +65,7 @@ class Plant {
     static constexpr int kFractionBits = 20;
     static constexpr std::int64_t kCount = std::int64_t{1} << kFractionBits;
     static constexpr double kTorqueBound = 1'000'000;
+    static constexpr std::int32_t kStrongestBrake = 1'000'000;
 
     /// Friction works against motion, holds what is slower than it brakes in a step, and never turns a shaft
     /// round.
@@ -67,24 +74,30 @@ class Plant {
         if (velocity < -friction) return velocity + friction;
         return 0;
     }
-    /// What torque 1 gives motor and load, counts/step^2.
-    double of_one() {
-        if (load_.inertia_256 != inertia_256_) {
-            inertia_256_ = load_.inertia_256;
-            of_one_ = acceleration_of_one_ * 256 / std::max(inertia_256_, 1);
-        }
-        return of_one_;
+    double push(double torque) const { return within(torque + pull_, kTorqueBound) * of_one_; }
+    /// On to the velocity that this would be without friction.
+    void move(double pushed) {
+        const double before = velocity_;
+        velocity_ = within(rubbed(pushed, friction_), fastest_);
+        const std::int64_t from = position_;
+        position_ += static_cast<std::int64_t>((before + velocity_) * (kCount / 2));
+        if (has_stops_) keep_within_stops(from);
     }
     void keep_within_stops(std::int64_t from);
     const MechanicalStop* stop_beyond() const;
     void press(const MechanicalStop& stop, std::int64_t from);
 
     double acceleration_of_one_;  // of torque 1 on the bare motor, counts/step^2
+    double elsewhere_256_;
     double fastest_;
     double thrown_;  // of the velocity with which a spring throws, what is left after a step
     Load load_;
+    std::int32_t holding_ = 0;       // of the brake
     std::int32_t inertia_256_ = -1;  // that of_one_ is for
-    double of_one_ = 0;
+    double of_one_ = 0;              // of torque 1 on motor and load, counts/step^2
+    double friction_ = 0;            // counts/step^2
+    double pull_ = 0;                // torque
+    bool has_stops_ = false;
     std::int64_t position_ = 0;  // 1/kCount counts
     double velocity_ = 0;        // counts/step
 };

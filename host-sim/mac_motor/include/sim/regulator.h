@@ -16,7 +16,8 @@ namespace nplc::sim {
 /// limit to be kept ("correction"). The filters go on from the corrected velocity, so nothing winds up.
 class Regulator {
   public:
-    static constexpr std::size_t kOrder = 6;  // MAC800's; the others use four
+    static constexpr std::size_t kOrder = 6;       // MAC800's
+    static constexpr std::size_t kSmallOrder = 4;  // the others'
     using Taps = std::array<double, kOrder>;
 
     /// By age, the newest sample first; what a family has not is 0.
@@ -25,6 +26,7 @@ class Regulator {
         Taps vb{};
         Taps vfx{};
         Taps vfy{};
+        std::size_t taps = kOrder;  ///< or kSmallOrder: only so many are computed
     };
     struct Input {
         std::int32_t fnc_out;       ///< wanted velocity, 1/16 counts/sample
@@ -35,7 +37,7 @@ class Regulator {
     struct Output {
         std::int32_t torque = 0;      ///< VF_OUT, within the limit
         std::int32_t correction = 0;  ///< to be added to FNC_OUT, 1/16 counts/sample; 0 within the limit
-        double ff_out = 0;            ///< 1/16 counts/sample, as FNC_OUT
+        double ff_out = 0;            ///< in the unit that the coefficients give it
         double vb_out = 0;
     };
 
@@ -46,6 +48,8 @@ class Regulator {
     /// Profile and shaft are at the same place and run at `velocity`, 1/16 counts/sample, in the next step.
     void restart(std::int32_t velocity);
 
+    /// Some FNC_OUT gives each torque.
+    bool answers() const { return c_.ff[0] * c_.vfx[0] > 0; }
     /// How far the shaft is behind the profile, corrections taken off, 1/16 counts.
     std::int64_t lag_16() const { return lag_16_; }
 
@@ -57,6 +61,8 @@ class Regulator {
         double error = 0;
         double torque = 0;
     };
+    template <std::size_t kTaps>
+    Output filter(const Input& input);
     std::int32_t correct(double excess, double kvout, Newest& newest) const;
 
     Coefficients c_;

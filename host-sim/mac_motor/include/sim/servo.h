@@ -6,6 +6,7 @@
 #include "sim/inner_loop.h"
 #include "sim/motor_memory.h"
 #include "sim/plant.h"
+#include "sim/quick_loop.h"
 #include "sim/regulator.h"
 #include "sim/supply.h"
 #include "sim/terminals.h"
@@ -39,10 +40,11 @@ class Servo {
 
     /// One outer sample with what was asked for last. Answers the encoder counts of that sample (V_IST).
     /// `watcher`, if any, is called in every inner sample when currents are measured and voltages set.
-    std::int32_t advance(MotorMemory& memory, const Terminals& terminals, InnerWatcher* watcher = nullptr);
+    [[gnu::flatten]] std::int32_t advance(MotorMemory& memory, const Terminals& terminals,
+                                          InnerWatcher* watcher = nullptr);
     /// What the next sample is to do. Writes VF_OUT, FF_OUT, VB_OUT. Unless the Drive is `velocity` the speed
     /// regulator forgets what it was at.
-    Result carry_out(const Drive& drive, MotorMemory& memory);
+    [[gnu::flatten]] Result carry_out(const Drive& drive, MotorMemory& memory);
 
     /// As after power-up: windings shorted, IA_OFFSET ... found. The shaft stays where it is.
     void power_up(MotorMemory& memory);
@@ -60,6 +62,11 @@ class Servo {
     /// Samples of the inner loop since a Drive `voltage` began, kTestSamples at the most.
     int test_samples() const { return test_samples_; }
 
+    /// The speed regulator's filters can drive the motor.
+    bool filters_answer() const { return regulator_.answers(); }
+    /// A broken encoder counts nothing: V_IST is 0, whatever the shaft does. R: commutation has its own eye.
+    void break_encoder(bool broken) { encoder_broken_ = broken; }
+
     Plant& plant() { return plant_; }
     const Plant& plant() const { return plant_; }
     /// The supply voltage can be changed at any time; the registers follow.
@@ -67,12 +74,14 @@ class Servo {
     const Supply& supply() const { return supply_; }
 
   private:
-    void take_settings(MotorMemory& memory);
-    void use_settings(const MotorMemory& memory);
-    void run_inner(MotorMemory& memory, const Terminals& terminals, InnerWatcher* watcher);
-    void set_voltages(const MotorMemory& memory, const Terminals& terminals);
-    void run_outer(const MotorMemory& memory, const Terminals& terminals);
-    double reachable(double torque) const;
+    [[gnu::noinline]] void use_settings(const MotorMemory& memory);
+    [[gnu::flatten, gnu::noinline]] void run_inner(MotorMemory& memory, const Terminals& terminals,
+                                                   InnerWatcher* watcher);
+    [[gnu::cold]] void show_inner_sample(MotorMemory& memory, InnerWatcher& watcher) const;
+    [[gnu::noinline]] void set_voltages(const MotorMemory& memory, const Terminals& terminals);
+    Regulator::Input regulator_input(const Drive& drive, const MotorMemory& memory) const;
+    std::int32_t unregulated_torque(const Drive& drive, const MotorMemory& memory);
+    [[gnu::noinline]] void run_outer(const MotorMemory& memory, const Terminals& terminals);
     std::int32_t analogue_torque(const MotorMemory& memory, const Terminals& terminals) const;
     void follow_offsets(MotorMemory& memory) const;
     void show_currents(MotorMemory& memory) const;
@@ -87,26 +96,24 @@ class Servo {
     Supply supply_;
     Regulator regulator_;
     InnerLoop inner_;
-    double emf_;        // voltage units a count/step of the shaft, outer_loop only
-    double reactance_;  // and for each current unit
-    double current_of_torque_;
-    double nominal_squares_;
-    double copper_share_;  // of I2T's way to where it would end, in a sample
-    double dump_share_;    // and of UIT's
+    QuickLoop quick_;        // outer_loop only
+    double heat_of_square_;  // I2T that a sum of squares of the currents ends at
+    double dumped_of_watt_;  // UIT that a watt in the dump ends at
+    double copper_share_;    // of I2T's way to where it would end, in a sample
+    double dump_share_;      // and of UIT's
     Drive drive_;
     std::int32_t man_i_nom_ = 0;
     std::int32_t man_alpha_ = 0;
     std::int32_t umeas_ = 0;
     int test_samples_ = 0;
     std::int32_t torque_ = 0;
-    double torque_before_ = 0;  // of the sample before, outer_loop only
     double i2t_ = 0;
     double uit_ = 0;
     std::int32_t i2t_shown_ = 0;
     std::int32_t uit_shown_ = 0;
     std::int64_t last_counts_ = 0;
     std::int32_t v_ist_ = 0;
-    bool hall_int_ = false;
+    bool encoder_broken_ = false;
 };
 
 }  // namespace nplc::sim

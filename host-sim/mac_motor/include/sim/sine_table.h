@@ -4,12 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace nplc::sim {
+#include "sim/phases.h"
 
-inline constexpr std::size_t kPhases = 3;
-/// Phases A, B and C.
-template <class T>
-using PerPhase = std::array<T, kPhases>;
+namespace nplc::sim {
 
 /// A turn of the field in the registers' 2048 steps. Computed when compiled, by additions and
 /// multiplications: the same on every machine.
@@ -34,12 +31,13 @@ class SineTable {
         for (std::int32_t i = 0; i <= kQuarter; ++i) at(kTurn + i) = at(i);
     }
 
-    /// The sines of `step`, 0 to 2047, and of 120 and 240 degrees more.
-    constexpr PerPhase<double> phases(std::int32_t step) const {
+    /// `amplitude` times the sines of `step`, 0 to 2047, and of 120 and 240 degrees more.
+    Phases phases(std::int32_t step, double amplitude = 1) const {
         constexpr double kSine120 = 0.86602540378443864676;
         const double sine = values_[static_cast<std::size_t>(step)];
-        const double cosine = kSine120 * values_[static_cast<std::size_t>(step + kQuarter)];
-        return {sine, cosine - 0.5 * sine, -cosine - 0.5 * sine};
+        const double half = sine * (0.5 * amplitude);
+        const double third = values_[static_cast<std::size_t>(step + kQuarter)] * (kSine120 * amplitude);
+        return {sine * amplitude, third - half, -third - half};
     }
 
   private:

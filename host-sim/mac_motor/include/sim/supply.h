@@ -19,14 +19,17 @@ class Supply {
     };
     static constexpr double kLeast = 1;  // V, what keeps a division alive
     static constexpr double kMost = 1000;
-    static constexpr double kHold = 1.004;  ///< times dump_volts: what the dump keeps the bus at
+    static constexpr double kBleedSeconds = 0.5;  ///< time constant with which the bus falls to its source
+    static constexpr double kHold = 1.004;        ///< times dump_volts: what the dump keeps the bus at
 
     /// `seconds`: of a step.
     Supply(const Constants& constants, double seconds)
         : constants_(constants),
           volts_of_ampere_(seconds / constants.farads),
           charged_(volts_of_ampere_ / (volts_of_ampere_ + constants.source_ohms)),
+          bled_(seconds / (seconds + kBleedSeconds)),
           dumped_(volts_of_ampere_ / (volts_of_ampere_ + constants.dump_ohms)),
+          held_(constants.dump_volts * kHold),
           volts_(constants.source_volts) {}
 
     /// What the source gives without load; may be changed at any time.
@@ -40,8 +43,8 @@ class Supply {
     /// which no step is too long for.
     void step(double watts) {
         double volts = volts_ - watts / volts_ * volts_of_ampere_;
-        const double held = constants_.dump_volts * kHold;
-        if (volts > held) volts = std::max(volts - volts * dumped_, held);
+        if (volts > held_) volts = std::max(volts - volts * dumped_, held_);
+        if (volts > constants_.source_volts) volts = std::max(volts - volts * bled_, constants_.source_volts);
         if (volts < constants_.source_volts) volts += (constants_.source_volts - volts) * charged_;
         volts_ = within(volts, kLeast, kMost);
     }
@@ -52,7 +55,9 @@ class Supply {
     Constants constants_;
     double volts_of_ampere_;
     double charged_;  // of what is missing, in a step
+    double bled_;
     double dumped_;
+    double held_;  // what the dump keeps the bus at
     double volts_;
 };
 

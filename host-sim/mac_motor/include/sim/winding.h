@@ -1,9 +1,8 @@
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 
-#include "sim/bounds.h"
-#include "sim/current_regulator.h"
+#include "sim/phases.h"
 #include "sim/sine_table.h"
 
 namespace nplc::sim {
@@ -24,37 +23,34 @@ class Winding {
     };
 
     explicit Winding(const Constants& constants)
-        : c_(constants), conductance_((1 - constants.decay) / constants.resistance) {}
+
+        : decay_(constants.decay),
+          conductance_((1 - constants.decay) / constants.resistance),
+          emf_(constants.emf),
+          torque_(constants.torque / 3.0) {}
 
     /// `voltage` at the terminals, times `supply` (1: nominal); rotor at `angle`, 0 to 2047, at `velocity`
     /// counts/step. The torque is that of the currents' mean.
-    Step step(const PerPhase<std::int32_t>& voltage, double supply, std::int32_t angle, double velocity) {
-        const double middle = (voltage[0] + voltage[1] + voltage[2]) * (1 / 3.0);
-        const PerPhase<double> shapes = kSine.phases(angle);
-        const double field = c_.emf * velocity;
-        Step done{0, 0};
-        for (std::size_t p = 0; p < kPhases; ++p) {
-            const double across = (voltage[p] - middle) * supply;
-            const double shape = shapes[p];
-            const double before = current_[p];
-            current_[p] = within(before * c_.decay + (across - field * shape) * conductance_, kMost);
-            const double mean = (before + current_[p]) / 2;
-            done.torque += mean * shape;
-            done.power += mean * across;
-        }
-        done.torque *= c_.torque * (2.0 / 3.0);
-        return done;
+    Step step(Phases voltage, double supply, std::int32_t angle, double velocity) {
+        const double middle = voltage.sum() * (1 / 3.0);
+        const Phases shapes = kSine.phases(angle);
+        const Phases across = (voltage - middle) * supply;
+        const Phases before = current_;
+        const Phases kept = before * decay_ - shapes * (emf_ * velocity * conductance_);
+        current_ = kept + (voltage - middle) * (supply * conductance_);
+        const Phases twice = before + current_;
+        return {.torque = (twice * shapes).sum() * torque_, .power = (twice * across).sum() * 0.5};
     }
 
-    const PerPhase<double>& currents() const { return current_; }
+    Phases currents() const { return current_; }
     void rest() { current_ = {}; }
 
   private:
-    static constexpr double kMost = 1e6;
-
-    Constants c_;
+    Phases decay_;
     double conductance_;
-    PerPhase<double> current_{};
+    double emf_;
+    double torque_;  // of the sum of the currents before and after a step
+    Phases current_;
 };
 
 }  // namespace nplc::sim
