@@ -7,6 +7,7 @@ usage: macreg_view_test.py MACREG MACSIM
 import csv
 import json
 import os
+import pty
 import signal
 import socket
 import struct
@@ -117,14 +118,17 @@ class Recordings(Case):
     def test_an_interrupted_recording_leaves_no_file_and_the_motor_as_it_was(self):
         self.motor()
         before = self.good("get", "SAMPLE1", "SAMPLE2", "SAMPLE3", "CNTRL_BITS")
+        ours, its = pty.openpty()
         process = subprocess.Popen([MACREG, "--port", self.path("m"), "record", "P_IST,V_IST", "--when", "V_IST>1000",
-                                    "-o", self.path("a.csv")], stderr=subprocess.PIPE, text=True)
+                                    "-o", self.path("a.csv")], stderr=its)
         self.running.append(process)
-        busy = True
-        while busy:  # until it has the port
-            busy = process.poll() is None and self.call("get", "P_IST").returncode == 0
+        shown = b""
+        while b"waiting" not in shown:
+            shown += os.read(ours, 1000)
         process.send_signal(signal.SIGTERM)
         self.assertEqual(process.wait(LONG), 130)
+        os.close(its)
+        os.close(ours)
         self.assertFalse(os.path.exists(self.path("a.csv")))
         self.assertEqual(self.good("get", "SAMPLE1", "SAMPLE2", "SAMPLE3", "CNTRL_BITS"), before)
 
