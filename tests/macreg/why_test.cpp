@@ -93,7 +93,7 @@ const std::vector<Case>& cases() {
         error("error_speed_err", 13, Model::mac800),
         {"error_index_err", [](Bench& b) { b.sim.surroundings().encoder_broken = true; }, Severity::stops,
          300ms, Model::mac800},
-        error("error_old_filt_err", 16, Model::mac800),
+        {"error_old_filt_err", [](Bench& b) { b.put("KVFX6", 0); }, Severity::stops, 300ms, Model::mac800},
         {"error_u24v_err", [](Bench& b) { b.sim.surroundings().logic_millivolts = 12'000; }, Severity::stops,
          300ms, Model::mac800},
         {"undervoltage", [](Bench& b) { b.put("U_MIN_SUP", 5000); }},

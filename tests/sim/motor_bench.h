@@ -50,7 +50,8 @@ class MotorBench {
         ADD_FAILURE() << "not in position after " << limit << " samples: P_IST " << motor.p_ist();
         return limit;
     }
-    /// Samples without a deadline in the motion's favour: long enough for the last count, which friction holds.
+    /// Samples without a deadline in the motion's favour: long enough for the last count, which friction
+    /// holds.
     void settle() { samples(3000); }
 
     std::uint8_t status() {
