@@ -46,18 +46,22 @@ MODULES = [
     Module("host-sim/board", "sim", ANY, os=True, clock=True),
     Module("host-sim/macsim", None, ("base", "ports", "protocol", "registers", "hal_linux", "sim"), os=True),
     Module("host-sim/nanoplc_sim", None, ANY, os=True, clock=True),
+    Module("tools/whole_files", "whole_files", (), os=True),
     Module("tools/mactalk_client", "mactalk_client", ("base", "protocol", "hal_linux")),
     Module("tools/command_line", "command_line", ("base", "mactalk_client")),
     Module(
         "tools/nanoctl",
         "nanoctl",
-        ("base", "sequencer", "protocol", "registers", "store", "seqc", "mactalk_client", "command_line"),
+        ("base", "sequencer", "protocol", "registers", "store", "seqc", "mactalk_client", "command_line", "whole_files"),
         os=True,
     ),
     Module("tools/registers_reference", "registers_reference", ("base", "registers"), os=True),
-    Module("tools/seqc", "seqc", ("base", "sequencer", "protocol", "registers"), os=True),
+    Module("tools/seqc", "seqc", ("base", "sequencer", "protocol", "registers", "whole_files"), os=True),
     Module(
-        "tools/macreg", "macreg", ("base", "protocol", "registers", "seqc", "mactalk_client", "command_line"), os=True
+        "tools/macreg",
+        "macreg",
+        ("base", "protocol", "registers", "mactalk_client", "command_line", "whole_files"),
+        os=True,
     ),
     Module("tests", None, ANY, os=True),
 ]

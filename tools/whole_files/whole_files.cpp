@@ -1,4 +1,4 @@
-#include "seqc/files.h"
+#include "whole_files/whole_files.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -11,7 +11,7 @@
 #include <iostream>
 #include <iterator>
 
-namespace nplc::seqc {
+namespace nplc::whole_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -112,4 +112,4 @@ std::string write_files(const std::vector<OutputFile>& named) {
     return problem;
 }
 
-}  // namespace nplc::seqc
+}  // namespace nplc::whole_files

@@ -9,7 +9,7 @@
 #include "cli/subcommands.h"
 #include "macreg/words.h"
 #include "registers/gateway.h"
-#include "seqc/files.h"
+#include "whole_files/whole_files.h"
 
 namespace nplc::macreg::cli {
 namespace {
@@ -109,7 +109,8 @@ void replay(const Common& common, const Options& options) {
     const auto monitor = make(common, options);
     const Side side = side_of(options);
     const bool standard = options.replay == "-";
-    const seqc::FileText file = standard ? seqc::read_standard_input() : seqc::read_file(options.replay);
+    const whole_files::FileText file =
+        standard ? whole_files::read_standard_input() : whole_files::read_file(options.replay);
     if (!file.error.empty()) throw UserError(file.error);
     // A character takes ten bits; a file holds no times.
     const base::Microseconds character{10'000'000 / common.baud};

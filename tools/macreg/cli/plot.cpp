@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "cli/subcommands.h"
-#include "seqc/files.h"
+#include "whole_files/whole_files.h"
 
 namespace nplc::macreg::cli {
 namespace {
@@ -32,8 +32,8 @@ void plot_file(const Common& common, const Options& options) {
     const bool png = ends_with(options.output, ".png");
     if (!png && !ends_with(options.output, ".svg"))
         throw UserError(fmt::format("-o {}: the name must end with .svg or .png", options.output));
-    const seqc::FileText file =
-        options.recording == "-" ? seqc::read_standard_input() : seqc::read_file(options.recording);
+    const whole_files::FileText file = options.recording == "-" ? whole_files::read_standard_input()
+                                                                : whole_files::read_file(options.recording);
     if (!file.error.empty()) throw UserError(file.error);
     const RecordingReading reading =
         from_csv(file.text, options.recording == "-" ? "standard input" : options.recording);
@@ -43,7 +43,7 @@ void plot_file(const Common& common, const Options& options) {
     const Plotted plotted = plot(reading.recording, how);
     if (!plotted.error.empty()) throw UserError(fmt::format("{}: {}", options.recording, plotted.error));
     const std::string problem =
-        seqc::write_files({{options.output, png ? to_png(plotted.picture) : to_svg(plotted.picture)}});
+        whole_files::write_files({{options.output, png ? to_png(plotted.picture) : to_svg(plotted.picture)}});
     if (!problem.empty()) throw UserError(problem);
     command_line::tell(common,
                        fmt::format("{}: {} samples, {} by {} pixels", options.output,

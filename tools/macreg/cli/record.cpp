@@ -7,7 +7,7 @@
 #include "macreg/recorder.h"
 #include "macreg/values.h"
 #include "macreg/words.h"
-#include "seqc/files.h"
+#include "whole_files/whole_files.h"
 
 namespace nplc::macreg::cli {
 namespace {
@@ -68,7 +68,7 @@ std::string phase_words(const RecordProgress& progress) {
 }
 
 void write_file(const std::string& path, const std::string& content) {
-    if (const std::string problem = seqc::write_files({{path, content}}); !problem.empty())
+    if (const std::string problem = whole_files::write_files({{path, content}}); !problem.empty())
         throw UserError(problem);
 }
 

@@ -4,9 +4,9 @@
 
 #include "cli/session.h"
 #include "command_line/files.h"
-#include "seqc/files.h"
 #include "seqc/intel_hex.h"
 #include "sequencer/table.h"
+#include "whole_files/whole_files.h"
 
 namespace nplc::nanoctl::cli {
 
@@ -36,7 +36,7 @@ std::vector<std::uint8_t> read_table(const std::string& path) {
 void write_table(const std::string& path, std::span<const std::uint8_t> table) {
     const std::string content =
         seqc::has_hex_extension(path) ? seqc::to_intel_hex(table) : std::string(table.begin(), table.end());
-    if (const std::string problem = seqc::write_files({{path, content}}); !problem.empty())
+    if (const std::string problem = whole_files::write_files({{path, content}}); !problem.empty())
         throw UserError(problem);
 }
 

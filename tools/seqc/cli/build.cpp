@@ -9,7 +9,7 @@
 #include "cli/common.h"
 #include "cli/json.h"
 #include "cli/subcommands.h"
-#include "seqc/files.h"
+#include "whole_files/whole_files.h"
 
 namespace nplc::seqc::cli {
 namespace {
@@ -22,7 +22,7 @@ std::string written(const Options& options, const BuildTargets& targets, const C
                     const std::string& source) {
     if (!has_room(targets, compilation.table.size()))
         return fmt::format("--base-address {}: the table would end beyond 4 GiB", options.base_address);
-    return write_files(files_of(targets, options, compilation, source));
+    return whole_files::write_files(files_of(targets, options, compilation, source));
 }
 
 int problem(const Options& options, const std::string& message) {
@@ -40,7 +40,7 @@ int report(const Options& options, const Compilation& compilation, const std::st
 int build(const Options& options) {
     const BuildTargets targets = targets_of(options);
     if (!targets.problem.empty()) return problem(options, targets.problem);
-    const auto source = read_file(options.source);
+    const auto source = whole_files::read_file(options.source);
     if (!source.error.empty()) return problem(options, source.error);
     const Compilation compilation = compile(source.text);
     const std::string unwritten =
@@ -55,7 +55,7 @@ int build(const Options& options) {
 }
 
 int check(const Options& options) {
-    const auto source = read_file(options.source);
+    const auto source = whole_files::read_file(options.source);
     if (!source.error.empty()) return problem(options, source.error);
     return report(options, compile(source.text), source.text);
 }

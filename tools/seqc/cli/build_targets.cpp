@@ -31,7 +31,7 @@ std::optional<std::uint32_t> address_of(std::string_view text) {
 
 /// A pipe or a device takes the table and has no place beside it.
 bool is_device(const std::string& path) {
-    return is_special(path) || fs::path(path).lexically_normal().string().starts_with("/dev/");
+    return whole_files::is_special(path) || fs::path(path).lexically_normal().string().starts_with("/dev/");
 }
 
 std::string overlap(const BuildTargets& targets, const BuildOptions& options) {
@@ -62,7 +62,7 @@ std::string overlap(const BuildTargets& targets, const BuildOptions& options) {
 std::string foreign(const std::string& symbols) {
     std::error_code error;
     if (symbols.empty() || !fs::is_regular_file(symbols, error)) return {};
-    if (read_file(symbols).text.find(kSymbolsFormat) != std::string::npos) return {};
+    if (whole_files::read_file(symbols).text.find(kSymbolsFormat) != std::string::npos) return {};
     return fmt::format("'{}' is there and was not written by seqc: use --symbols FILE or --no-symbols",
                        symbols);
 }
@@ -111,11 +111,12 @@ BuildTargets targets_of(const BuildOptions& options) {
     return targets;
 }
 
-std::vector<OutputFile> files_of(const BuildTargets& targets, const BuildOptions& options,
-                                 const Compilation& compilation, const std::string& source) {
+std::vector<whole_files::OutputFile> files_of(const BuildTargets& targets, const BuildOptions& options,
+                                              const Compilation& compilation, const std::string& source) {
     const std::vector<std::uint8_t>& table = compilation.table;
-    std::vector<OutputFile> files = {{targets.table, targets.hex ? to_intel_hex(table, targets.base_address)
-                                                                 : std::string(table.begin(), table.end())}};
+    std::vector<whole_files::OutputFile> files = {
+        {targets.table,
+         targets.hex ? to_intel_hex(table, targets.base_address) : std::string(table.begin(), table.end())}};
     if (!targets.listing.empty())
         files.push_back({targets.listing, listing(compilation, source, options.source)});
     if (!targets.symbols.empty())

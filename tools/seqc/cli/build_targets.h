@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "seqc/files.h"
 #include "seqc/seqc.h"
+#include "whole_files/whole_files.h"
 
 namespace nplc::seqc::cli {
 
@@ -35,8 +35,8 @@ struct BuildTargets {
 BuildTargets targets_of(const BuildOptions& options);
 
 /// Everything that is written together. The compilation must be good.
-std::vector<OutputFile> files_of(const BuildTargets& targets, const BuildOptions& options,
-                                 const Compilation& compilation, const std::string& source);
+std::vector<whole_files::OutputFile> files_of(const BuildTargets& targets, const BuildOptions& options,
+                                              const Compilation& compilation, const std::string& source);
 
 /// Whether the table ends within 32 bits of address.
 bool has_room(const BuildTargets& targets, std::size_t bytes);

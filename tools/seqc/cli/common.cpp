@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "seqc/files.h"
+#include "whole_files/whole_files.h"
 
 namespace nplc::seqc::cli {
 
@@ -52,7 +52,7 @@ int print_or_write(const std::string& text, const std::string& output) {
         fmt::print("{}", text);
         return std::fflush(stdout) == 0 ? kOk : file_problem("cannot write to standard output");
     }
-    const std::string error = write_files({{output, text}});
+    const std::string error = whole_files::write_files({{output, text}});
     return error.empty() ? kOk : file_problem(error);
 }
 

@@ -7,8 +7,8 @@
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
-#include "seqc/files.h"
 #include "seqc/format.h"
+#include "whole_files/whole_files.h"
 
 namespace nplc::seqc::cli {
 namespace {
@@ -34,7 +34,8 @@ bool is_standard_input(const std::string& file) {
 Program read_and_format(const std::string& file) {
     Program program;
     program.name = is_standard_input(file) ? "<stdin>" : file;
-    FileText text = is_standard_input(file) ? read_standard_input() : read_file(file);
+    whole_files::FileText text =
+        is_standard_input(file) ? whole_files::read_standard_input() : whole_files::read_file(file);
     if (!text.error.empty()) {
         program.exit_code = file_problem(text.error);
         return program;

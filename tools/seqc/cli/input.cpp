@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <span>
 
-#include "seqc/files.h"
 #include "seqc/intel_hex.h"
 #include "seqc/symbol_file.h"
 #include "sequencer/term.h"
+#include "whole_files/whole_files.h"
 
 namespace nplc::seqc::cli {
 namespace {
@@ -76,7 +76,7 @@ void read_symbols_into(Input& input, const std::string& asked_for) {
     const std::string file = asked_for.empty() ? symbol_file_beside(input.file) : asked_for;
     std::error_code ignored;
     if (asked_for.empty() && !std::filesystem::is_regular_file(file, ignored)) return;
-    const FileText text = read_file(file);
+    const whole_files::FileText text = whole_files::read_file(file);
     const SymbolReading reading = text.error.empty() ? read_symbols(text.text, input.table) : SymbolReading{};
     const std::string error = reading.error.empty() ? text.error : fmt::format("{}: {}", file, reading.error);
     if (error.empty()) {
@@ -94,7 +94,7 @@ void read_symbols_into(Input& input, const std::string& asked_for) {
 Input read_input(const InputFile& named) {
     Input input;
     input.file = named.file;
-    const FileText text = read_file(named.file);
+    const whole_files::FileText text = whole_files::read_file(named.file);
     if (!text.error.empty()) {
         input.exit_code = file_problem(text.error);
     } else if (is_program(named.file)) {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace nplc::seqc {
+namespace nplc::whole_files {
 
 struct FileText {
     std::string text;
@@ -25,4 +25,4 @@ struct OutputFile {
 /// half file is ever seen. A target that exists keeps its permissions. Answers what went wrong, or nothing.
 std::string write_files(const std::vector<OutputFile>& files);
 
-}  // namespace nplc::seqc
+}  // namespace nplc::whole_files
