@@ -38,7 +38,7 @@ void MacMotor::power_cycle() {
     samples_.clear();
     v_history_.fill(0);
     v_sum_ = 0;
-    v_old_ = samples_within_ = corrected_braking_ = 0;
+    v_old_ = v_from_ = samples_within_ = corrected_braking_ = 0;
     follow_error_16_ = 0;
     emergency_ = false;
     mode_after_stop_ = 0;
@@ -184,7 +184,7 @@ void MacMotor::stay_passive() {
     follow_error_16_ = 0;
     memory_.set(cell::FLWERR, 0);
     memory_.set(cell::FNCERR, 0);
-    v_old_ = 0;
+    go_on_from(0, false);
     servo_.carry_out(test_drive(), memory_);
     show_profile(0);
     clear_in_position();

@@ -15,7 +15,7 @@ void MacMotor::run_gear() {
         gear_.scale(memory_.get(cell::V_EXT), memory_.get(cell::GEARF1), memory_.get(cell::GEARF2), factor));
     if (is_mode(MotorMode::analogue_velocity_gear)) gear_.take(analogue_trim(model(), aninp));
     if (is_mode(MotorMode::gear_follow)) {
-        regulate(gear_follow_block(gear_.g_fnc(), v_old_, std::abs(v_soll()), acceleration()));
+        regulate(gear_follow_block(gear_.g_fnc(), v_from_, std::abs(v_soll()), acceleration()));
     } else {
         run_to(-gear_.g_fnc());
     }

@@ -30,7 +30,7 @@ void MacMotor::end_homing() {
     memory_.set(cell::P_SOLL, 0);
     corrected_braking_ = 0;
     coil_.forget();
-    v_old_ = 16 * v_ist();
+    go_on_from(16 * v_ist(), false);
     follow_error_16_ = v_old_;  // as the regulator's, for this sample's V_IST is counted in P_IST already
     servo_.restart(v_old_);
     set_home_done(true);

@@ -117,7 +117,8 @@ void MacMotor::begin_stop(std::uint16_t then, bool emergency) {
 /// Out of a mode without speed regulator: the profile begins where the shaft is and as fast as it is, a
 /// sample ahead as always.
 void MacMotor::begin_at_measured_speed() {
-    v_old_ = 16 * std::clamp(v_ist(), -kMostCounts, kMostCounts);  // a user may have written V_IST
+    // A user may have written V_IST.
+    go_on_from(16 * std::clamp(v_ist(), -kMostCounts, kMostCounts), false);
     follow_error_16_ = v_old_;
     memory_.set(cell::P_FNC, wrap32(std::int64_t{memory_.get(cell::P_FNC)} + v_old_));
     servo_.restart(v_old_);

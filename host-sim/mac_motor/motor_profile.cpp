@@ -47,7 +47,7 @@ std::int32_t MacMotor::torque_limit() const {
 
 void MacMotor::run_profile() {
     const auto towards = [&](std::int32_t velocity) {
-        regulate(velocity_block(velocity, v_old_, acceleration()));
+        regulate(velocity_block(velocity, v_from_, acceleration()));
     };
     switch (facts().block) {
         case ModeFacts::Block::velocity:
@@ -71,7 +71,7 @@ void MacMotor::run_profile() {
 
 /// What the end of a move may count on.
 std::int32_t MacMotor::braking(std::int64_t distance, std::int32_t acceleration) {
-    if (v_old_ == 0 && distance == 0) corrected_braking_ = 0;
+    if (v_from_ == 0 && distance == 0) corrected_braking_ = 0;
     return corrected_braking_ == 0 ? acceleration : std::min(corrected_braking_, acceleration);
 }
 
@@ -79,7 +79,7 @@ std::int32_t MacMotor::braking(std::int64_t distance, std::int32_t acceleration)
 void MacMotor::run_to(std::int64_t distance) {
     const std::int32_t acceleration = this->acceleration();
     const std::int32_t limit = std::abs(v_soll());
-    regulate(position_block(distance, v_old_, limit, acceleration, braking(distance, acceleration)));
+    regulate(position_block(distance, v_from_, limit, acceleration, braking(distance, acceleration)));
 }
 
 void MacMotor::run_position() {
@@ -92,9 +92,12 @@ void MacMotor::run_position() {
 void MacMotor::regulate(std::int32_t fnc_out) {
     const Servo::Result out = servo_.carry_out(
         {.kind = Drive::Kind::velocity, .fnc_out = fnc_out, .torque_limit = torque_limit()}, memory_);
+    bool thrown_back = false;
     if (facts().corrected) {
-        learn_braking(fnc_out, out.correction);
-        fnc_out = std::clamp(fnc_out + out.correction, -kBound, kBound);
+        const std::int32_t wanted = fnc_out;
+        learn_braking(wanted, out.correction);
+        fnc_out = std::clamp(wanted + out.correction, -kBound, kBound);
+        thrown_back = out.correction != 0 && std::int64_t{wanted} * fnc_out < 0;
     }
     const std::int64_t corrected = facts().corrected ? std::int64_t{memory_.get(cell::FNCERR)} : 0;
     memory_.set(cell::FNCERR, facts().corrected ? wrap32(corrected + out.correction) : 0);
@@ -102,7 +105,14 @@ void MacMotor::regulate(std::int32_t fnc_out) {
     memory_.set(cell::FLWERR, is_mode(MotorMode::stop) ? 0 : wrap32(follow_error_16_ / 16));
     memory_.set(cell::P_FNC, wrap32(std::int64_t{memory_.get(cell::P_FNC)} + fnc_out));
     show_profile(fnc_out);
+    go_on_from(fnc_out, thrown_back);
+}
+
+// R: a profile that the torque limit has turned round, as at a hard stop, is not held to A_SOLL on its way
+// back: it would leave the stop and come again.
+void MacMotor::go_on_from(std::int32_t fnc_out, bool thrown_back) {
     v_old_ = fnc_out;
+    v_from_ = thrown_back ? 0 : fnc_out;
 }
 
 // R: a move whose braking had to be corrected is planned with less of it to its end, or it would swing about
@@ -113,7 +123,7 @@ void MacMotor::learn_braking(std::int32_t wanted, std::int32_t correction) {
         corrected_braking_ += corrected_braking_ / 64 + 1;
         if (corrected_braking_ >= acceleration()) corrected_braking_ = 0;
     }
-    if (correction == 0 || std::abs(wanted) >= std::abs(v_old_)) return;
+    if (correction == 0 || std::abs(wanted) >= std::abs(v_from_)) return;
     const std::int32_t before = corrected_braking_ == 0 ? acceleration() : corrected_braking_;
     corrected_braking_ = std::max(before - before / 16 - 1, 1);
 }

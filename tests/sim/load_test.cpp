@@ -81,6 +81,37 @@ TEST(Load, BlockedMotorAccumulatesFunctionError) {
     EXPECT_EQ(b.motor.p_ist(), 5000);
 }
 
+// A press: what it may push with, it pushes with, from half a second after it meets the work on, however
+// gently it came.
+TEST(Load, AgainstAHardStopTheTorqueStandsAtItsLimit) {
+    for (const std::int32_t acceleration : {5, 20, 40, 160, 640}) {
+        for (const std::int32_t kvout : {256, 448, 1024}) {
+            for (const std::int32_t torque : {100, 307, 818, 1023}) {
+                MotorBench b;
+                b.motor.plant().load().high_stop = MechanicalStop{20'000};
+                b.motor.plant().load().inertia_256 = kvout;
+                b.set(KVOUT, kvout);
+                b.set(A_SOLL, acceleration);
+                b.set(T_SOLL, torque);
+                b.set(P_SOLL, 1'000'000);
+                b.set(MODE_REG, 2);
+                int waited = 0;
+                while (b.motor.p_ist() < 20'000 && waited < 5000) {
+                    b.samples(1);
+                    ++waited;
+                }
+                b.samples(260);
+                for (int i = 0; i < 500; ++i) {
+                    b.samples(1);
+                    ASSERT_EQ(b.reg(VF_OUT), torque)
+                        << "A_SOLL " << acceleration << ", KVOUT " << kvout << ", sample " << i;
+                    ASSERT_EQ(b.motor.p_ist(), 20'000);
+                }
+            }
+        }
+    }
+}
+
 // What a blocked move learnt of braking does not slow the next one: 20,000 counts at 1600 / 16 = 100 counts a
 // sample take 200 samples and 10 to start.
 TEST(Load, AMoveAwayFromAnObstacleIsAsFastAsAny) {

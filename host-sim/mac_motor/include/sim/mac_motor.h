@@ -227,6 +227,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     void set_target_by_level();
     void run_to(std::int64_t distance);
     std::int32_t braking(std::int64_t distance, std::int32_t acceleration);
+    void go_on_from(std::int32_t fnc_out, bool thrown_back);
     void learn_braking(std::int32_t wanted, std::int32_t correction);
     void regulate(std::int32_t fnc_out);
     void show_profile(std::int32_t fnc_out);
@@ -266,6 +267,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     std::uint32_t flash_writes_ = 0;
     bool link_on_ = true;
     std::int32_t v_old_ = 0;              // V_OLD, 1/16 counts/sample
+    std::int32_t v_from_ = 0;             // what the next profile begins with: V_OLD, 0 if it was thrown back
     std::int64_t follow_error_16_ = 0;    // FLWERR, 1/16 counts
     std::int32_t corrected_braking_ = 0;  // what brakes in torque limit, 1/16 counts/sample^2; 0: A_SOLL does
     std::int64_t distance_to_go_ = 0;     // as the last sample of position mode left it, 1/16 counts
