@@ -168,9 +168,10 @@ std::uint8_t FastMacSlave::next_byte(const LinkTarget& motor) {
 
 std::uint8_t FastMacSlave::status_byte(const LinkTarget& motor) const {
     const std::uint32_t errors = motor.error_status();
+    const std::uint32_t changes = errors & 0x60;  // both at once only where somebody wrote them: then neither
     return fastmac::encode_status({.toggle = receiver_.toggle(),
-                                   .decelerating = (errors & 0x40) != 0,
-                                   .accelerating = (errors & 0x20) != 0,
+                                   .decelerating = changes == 0x40,
+                                   .accelerating = changes == 0x20,
                                    .in_position = (errors & 0x10) != 0,
                                    .flexmac = flexmac_,
                                    .framing_error = framing_error_,

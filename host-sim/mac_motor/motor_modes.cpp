@@ -70,6 +70,8 @@ void MacMotor::enter(std::uint16_t mode) {
     if (mode != this->mode()) {
         corrected_braking_ = 0;
         coasting_ = false;
+        v_from_ = v_old_;
+        clear_in_position();
         if (next.corrected) begin_correction();
         if (next.geared()) gear_.reset();
     }
@@ -111,6 +113,7 @@ void MacMotor::request_home() {
 void MacMotor::begin_stop(std::uint16_t then, bool emergency) {
     mode_after_stop_ = then;
     emergency_ = emergency;
+    v_from_ = v_old_;
     set_mode(number(MotorMode::stop));
 }
 

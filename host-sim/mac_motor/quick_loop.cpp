@@ -27,10 +27,12 @@ QuickLoop::QuickLoop(const MotorConstants& constants)
 
 QuickLoop::Step QuickLoop::brake(Plant& plant) {
     rest();
-    const double conductance = emf_ / resistance_;
-    const double current = conductance * plant.velocity();
+    const double emf = emf_ * plant.velocity();
+    const double reactance = reactance_ * plant.velocity();
+    const double square = resistance_ * resistance_ + reactance * reactance;
+    const double conductance = emf_ * resistance_ / square;
     plant.step(0, conductance / current_of_torque_);
-    return {.squares = 1.5 * current * current, .watts = 0};
+    return {.squares = 1.5 * emf * emf / square, .watts = 0};
 }
 
 /// Through resistance and inductance, against the EMF.

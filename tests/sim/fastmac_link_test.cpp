@@ -22,6 +22,8 @@ TEST(FastMacLink, StatusShowsTheFlags) {
     EXPECT_EQ(b.motor.transmit(b.at()), 0xA0);
     b.set(ERR_STAT, 0x40);
     EXPECT_EQ(b.motor.transmit(b.at()), 0xC0);
+    b.set(ERR_STAT, 0x60);  // 001 §5.2.2: never both
+    EXPECT_EQ(b.motor.transmit(b.at()), 0x80);
     for (const int bit : {0, 1, 2, 3}) {
         b.set(ERR_STAT, 1 << bit);
         EXPECT_EQ(b.motor.transmit(b.at()), 0x81);

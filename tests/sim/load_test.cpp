@@ -1,4 +1,6 @@
+#include <array>
 #include <random>
+#include <utility>
 
 #include "motor_bench.h"
 
@@ -6,6 +8,7 @@ namespace nplc::sim {
 namespace {
 
 using enum registers::Number;
+using registers::Model;
 
 // 001 §4.2.1: a move that asks for more than T_SOLL is corrected, and still ends on its target.
 TEST(Load, FunctionCorrectionKeepsTheTorque) {
@@ -110,6 +113,53 @@ TEST(Load, AgainstAHardStopTheTorqueStandsAtItsLimit) {
             }
         }
     }
+}
+
+// A passive motor's windings brake what pulls it, less so the faster it turns.
+TEST(Load, BothDepthsLetAPassiveMotorTurnEquallyFast) {
+    for (const auto& [model, pull] :
+         {std::pair{Model::mac140, 500}, {Model::mac140, 900}, {Model::mac800, 500}}) {
+        std::array<double, 2> speeds{};
+        for (const auto depth : {Servo::Depth::current_loop, Servo::Depth::outer_loop}) {
+            MotorBench b(model, {.depth = depth});
+            b.motor.plant().load().torque = pull;
+            b.samples(2000);
+            speeds[static_cast<std::size_t>(depth)] = b.motor.v_ist();
+        }
+        EXPECT_NEAR(speeds[1], speeds[0], speeds[0] / 50) << pull;
+    }
+}
+
+// 001 §4.1.8: STOP decelerates by A_SOLL, also a profile that a load has turned round.
+TEST(Load, AnOverhauledMotorStopsByASoll) {
+    MotorBench b;
+    b.motor.plant().load().torque = -400;
+    b.set(T_SOLL, 200);
+    b.set(P_SOLL, 1'000'000);
+    b.set(MODE_REG, 2);
+    b.samples(30);
+    const std::int32_t before = b.reg(FNC_OUT);
+    ASSERT_LT(before, -100) << "the load pulls it back";
+    b.set(A_SOLL, 5);
+    b.set(MODE_REG, 0);
+    b.samples(1);
+    EXPECT_EQ(b.reg(MODE_REG), 11);
+    EXPECT_NEAR(b.reg(FNC_OUT), before, 5);
+}
+
+// 001 §3.2.34: the samples of another mode do not count.
+TEST(Load, InPositionIsCountedAnewInEachMode) {
+    MotorBench b;
+    b.set(INPOSCNT, 50);
+    b.set(V_SOLL, 0);
+    b.set(MODE_REG, 1);
+    b.samples(60);
+    ASSERT_TRUE(b.motor.in_position());
+    b.set(MODE_REG, 2);
+    b.samples(48);
+    EXPECT_FALSE(b.motor.in_position());
+    b.samples(4);
+    EXPECT_TRUE(b.motor.in_position());
 }
 
 // What a blocked move learnt of braking does not slow the next one: 20,000 counts at 1600 / 16 = 100 counts a

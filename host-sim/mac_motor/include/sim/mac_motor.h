@@ -34,7 +34,7 @@ struct MacMotorOptions {
     /// The register codes of the example in 001 §5.2.1.5 in place of §5.2.1.4's list.
     bool old_register_codes = false;
     std::size_t order_limit = 100'000;
-    /// How much of the motor is computed. `outer_loop` is some seven times as fast, and close in position and
+    /// How much of the motor is computed. `outer_loop` is some ten times as fast, and close in position and
     /// velocity.
     Servo::Depth depth = Servo::Depth::current_loop;
     Load load{};
