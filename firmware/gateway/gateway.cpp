@@ -7,6 +7,16 @@
 
 namespace nplc::gateway {
 
+namespace {
+
+/// The safe state is there within 10 ms of the loss of the enable input.
+base::Microseconds quick(base::Microseconds debounce) {
+    constexpr base::Microseconds kMost{9'000};
+    return std::min(debounce, kMost);
+}
+
+}  // namespace
+
 motor::Order Gateway::to_motor(const sequencer::MotorOrder& order) {
     return {.is_register_write = order.is_flex,
             .command = order.command,
@@ -23,10 +33,12 @@ Gateway::Gateway(const Ports& ports, const Settings& settings, StartCause cause)
     : ports_(ports),
       settings_(settings),
       debouncer_(settings.debounce),
+      quick_debouncer_(quick(settings.debounce)),
       starting_up_(cause == StartCause::power_up) {
     show_outputs();
     if (cause == StartCause::watchdog) {
         safe_reason_ = SafeReason::watchdog;
+        log_.add({0, static_cast<std::uint8_t>(safe_reason_), 0, 0});
         ports_.motor.stop();
     }
 }
@@ -49,7 +61,7 @@ sequencer::Table::LoadResult Gateway::load(std::span<const std::uint8_t> bytes, 
 
 /// The pin itself, since nothing was debounced yet. Without it nothing stays armed.
 void Gateway::start_by_itself(base::Instant now) {
-    debouncer_.update(ports_.inputs.read(), now);
+    read_inputs(now);
     const base::Status started = run();
     if (!started && started.error() == base::Error::not_enabled)
         set_safe_reason(SafeReason::enable_lost, now);
@@ -64,10 +76,16 @@ sequencer::Table::LoadResult Gateway::checked_for_motor(const sequencer::Table::
     return loaded;
 }
 
+void Gateway::read_inputs(base::Instant now) {
+    const std::uint8_t levels = ports_.inputs.read();
+    debouncer_.update(levels, now);
+    quick_debouncer_.update(levels, now);
+}
+
 void Gateway::poll(base::Instant now) {
     ports_.motor.poll(now);
     uptime_.advance(now);
-    debouncer_.update(ports_.inputs.read(), now);
+    read_inputs(now);
     expire_forces(now);
     serve_sequence(now);
     show_outputs();
@@ -98,7 +116,8 @@ void Gateway::serve_sequence(base::Instant now) {
 bool Gateway::enabled() const {
     if (!settings_.enable_input) return true;
     const unsigned input = *settings_.enable_input;
-    return input < 6 && ((unsigned{debouncer_.levels()} >> input) & 1U) != 0;
+    const unsigned both = unsigned{debouncer_.levels()} & quick_debouncer_.levels();
+    return input < 6 && ((both >> input) & 1U) != 0;
 }
 
 void Gateway::start_when_ready(base::Instant now) {
@@ -244,6 +263,7 @@ base::Status Gateway::change(const Settings& settings) {
     if (run_state_ != RunState::stopped) return base::Error::not_stopped;
     settings_ = settings;
     debouncer_.set_steady(settings.debounce);
+    quick_debouncer_.set_steady(quick(settings.debounce));
     show_outputs();
     return {};
 }

@@ -30,7 +30,7 @@ void OwnRegisters::begin_write(std::uint8_t reg, std::span<const std::uint8_t> b
 }
 
 void OwnRegisters::drop_write() {
-    if (waiting_ == Waiting::activation) tables_.drop_activation();
+    if (waiting_ == Waiting::activation || waiting_ == Waiting::reset) tables_.drop_activation();
     waiting_ = Waiting::nothing;
 }
 
@@ -51,6 +51,11 @@ Progress OwnRegisters::continue_write(std::span<const std::uint8_t> bytes, base:
             return write_table(bytes);
         case Waiting::activation:
             return tables_.poll_activation(now);
+        case Waiting::reset: {
+            const Progress active = tables_.poll_activation(now);
+            reset_asked_ = active && active->result == Result::done;
+            return active;
+        }
         case Waiting::keeping:
             if (const Progress kept = settings_.poll_keeping()) return kept;
             if (late) return Outcome{Result::busy};
@@ -150,8 +155,7 @@ Progress OwnRegisters::command(std::uint32_t value, base::Instant now) {
             gateway_.clear_log();
             return Outcome{};
         case Command::reset:
-            reset_asked_ = gateway_.run_state() == gateway::RunState::stopped;
-            return Outcome{reset_asked_ ? Result::done : Result::not_stopped};
+            return reset(now);
         case Command::keep_settings:
             if (gateway_.run_state() != gateway::RunState::stopped) return Outcome{Result::not_stopped};
             settings_.begin_keeping();
@@ -164,6 +168,18 @@ Progress OwnRegisters::command(std::uint32_t value, base::Instant now) {
             return table_command(command, now);
     }
     return Outcome{Result::bad_value};
+}
+
+/// After it the stored table is the active one, which it becomes only while the motor stands still.
+Progress OwnRegisters::reset(base::Instant now) {
+    if (gateway_.run_state() != gateway::RunState::stopped) return Outcome{Result::not_stopped};
+    if (tables_.stored().length != 0 && !tables_.stored_is_active()) {
+        tables_.begin_activation(now);
+        waiting_ = Waiting::reset;
+        return std::nullopt;
+    }
+    reset_asked_ = true;
+    return Outcome{};
 }
 
 Progress OwnRegisters::table_command(Command command, base::Instant now) {

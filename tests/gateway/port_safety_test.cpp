@@ -69,6 +69,17 @@ TEST_F(PortSafety, ATableBecomesActiveOnlyWhileTheMotorStandsStill) {
     EXPECT_TRUE(command(Command::activate));
 }
 
+TEST_F(PortSafety, AResetMakesNoNewTableActiveWhileTheMotorMoves) {
+    ASSERT_TRUE(upload(kTable));
+    board.motor_registers[kVIst] = 1;
+    EXPECT_FALSE(command(Command::reset));
+    EXPECT_EQ(result(), result_of(Result::moving, reg::COMMAND));
+    EXPECT_FALSE(own->reset_asked());
+    board.motor_registers[kVIst] = 0;
+    static_cast<void>(command(Command::reset));
+    EXPECT_TRUE(own->reset_asked());
+}
+
 TEST_F(PortSafety, AnOlderTableThatStandsInForADamagedOneDoesNotStartByItself) {
     const Bytes newer{{0xC0, 0, 0, 0x3E, 0x80, 0x0F, 0, 0}};
     ASSERT_TRUE(upload(kTable));

@@ -66,6 +66,7 @@ TEST_F(Safety, AfterAWatchdogResetTheSequenceDoesNotStartByItself) {
     ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
     board.run(gateway, 1s);
     expect_safe(gateway, SafeReason::watchdog);
+    ASSERT_EQ(gateway.log().count(), 1U);
     EXPECT_EQ(gateway.scans(), 0U);
     ASSERT_TRUE(gateway.run().ok());
     board.run(gateway, 1ms);
@@ -127,6 +128,26 @@ TEST_F(Safety, LosingTheEnableInputStops) {
     ASSERT_TRUE(gateway.run().ok());
     board.run(gateway, 1ms);
     EXPECT_EQ(board.out, 0x0F);
+}
+
+TEST_F(Safety, ALongDebounceDoesNotDelayTheLossOfTheEnableInput) {
+    Gateway gateway(board.ports(), {.safe_outputs = 0x02, .enable_input = 5, .debounce = 50ms},
+                    StartCause::power_up);
+    board.in = 0x20;
+    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
+    board.run(gateway, 100ms);
+    EXPECT_EQ(board.out, 0x0F);
+    board.in = 0;
+    const auto lost = board.now;
+    board.run(gateway, 8ms);
+    EXPECT_EQ(board.out, 0x0F) << "a short drop is none";
+    board.run(gateway, 2ms);
+    expect_safe(gateway, SafeReason::enable_lost);
+    EXPECT_LE(board.out_since - lost, 10ms);
+    board.in = 0x20;
+    board.run(gateway, 20ms);
+    expect_safe(gateway, SafeReason::enable_lost);
+    EXPECT_TRUE(gateway.run().ok());
 }
 
 TEST_F(Safety, TheEnableInputItselfStartsNothing) {

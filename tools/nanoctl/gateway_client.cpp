@@ -129,8 +129,10 @@ void GatewayClient::activate() {
     }
 }
 
-/// The gateway answers nothing to a reset; RESULT, which named a register before, is 0 afterwards.
+/// The gateway answers nothing to a reset; RESULT, which named a register before, is 0 afterwards. A stored table
+/// that would become active by it does so before, with the answers that tell why not.
 void GatewayClient::reset() {
+    if ((read(gw::STATUS) & gw::kStoredDiffers) != 0) activate();
     const std::uint32_t bytes = read(gw::UPLOAD_BYTES);
     const std::uint8_t before = address_;
     const auto after = static_cast<std::uint8_t>(read(setting_register(store::Setting::gateway_address)));

@@ -30,8 +30,8 @@ struct Settings {
     bool autostart = true;  ///< run() is not needed after a power-up with a good table
     std::optional<std::uint8_t>
         enable_input{};  ///< input 0..5 that must be 1 to start and to run; losing it is a safe state
-    /// An input counts once it has been steady for this long. Over 9 ms the safe state takes more than 10 ms
-    /// from the loss of the enable input.
+    /// An input counts once it has been steady for this long; the loss of the enable input after 9 ms at the
+    /// most.
     base::Microseconds debounce{3'000};
     base::Microseconds longest_wait{1'000'000};   ///< of a scan for the motor to take or finish its orders
     bool virtual_motor = false;                   ///< holding the sequence does not stop the motor
@@ -147,6 +147,7 @@ class Gateway {
     void hold_when_settled(base::Instant now);
     void hold_if_due(bool entered_step, base::Instant now);
     bool breaks_at(std::uint8_t step) const { return ((breakpoints_ >> step) & 1U) != 0; }
+    void read_inputs(base::Instant now);
     void serve_sequence(base::Instant now);
     void expire_forces(base::Instant now);
     void show_outputs();
@@ -170,6 +171,7 @@ class Gateway {
     sequencer::Table table_;
     sequencer::Engine engine_{table_};
     Debouncer debouncer_;
+    Debouncer quick_debouncer_;  ///< for the enable input's loss
     Observer* observer_ = nullptr;
 
     RunState run_state_ = RunState::stopped;

@@ -38,7 +38,7 @@ class OwnRegisters {
 
   private:
     /// What poll_write() still has to wait for.
-    enum class Waiting : std::uint8_t { nothing, room, activation, keeping };
+    enum class Waiting : std::uint8_t { nothing, room, activation, reset, keeping };
 
     std::uint32_t value(std::uint8_t reg, base::Instant now) const;
     std::uint32_t live_value(std::uint8_t reg, base::Instant now) const;
@@ -54,6 +54,7 @@ class OwnRegisters {
     Progress write_value(std::uint8_t reg, std::uint32_t value, base::Instant now);
     Result force(std::uint8_t reg, std::uint32_t value, base::Instant now);
     Progress command(std::uint32_t value, base::Instant now);
+    Progress reset(base::Instant now);
     Progress table_command(registers::gateway::Command command, base::Instant now);
     Progress write_table(std::span<const std::uint8_t> bytes);
     Progress continue_write(std::span<const std::uint8_t> bytes, base::Instant now);
