@@ -203,6 +203,15 @@ class Files(Case):
         self.reg("dump", "-o", self.path("again.txt"))
         self.assertEqual(self.call("diff", self.path("good.txt"), self.path("again.txt"), port="none").returncode, 0)
 
+    def test_what_acts_on_the_flash_is_no_mode(self):
+        self.motor()
+        self.reg("set", "GEARF1", "77")
+        self.reg("--yes", "safe", "enter")
+        for value in ("LOAD_DEFAULTS", "256", "257", "258", "99"):
+            self.refused(2, "MODE_REG: ", "set", "MODE_REG", value)
+        self.refused(2, "STARTMODE: 99 is no mode", "set", "STARTMODE", "99")
+        self.assertEqual(self.value("GEARF1"), 77)
+
     def test_a_bad_file_writes_nothing(self):
         self.motor()
         head = "model = MAC50-141\nV_SOLL = 7\n"
@@ -212,7 +221,8 @@ class Files(Case):
                            ("holds no register", "model = MAC140\n"), ("--skip-dangerous", head + "KFF3 = 1\n"),
                            ("type 99", head + "motor_type = 99\n")):
             with self.subTest(part):
-                self.refused(2, part, "load", self.write("bad.txt", text))
+                self.refused(2, part, "load", self.write("bad.txt", text + ("" if "incomplete" in text else "end = 2\n")))
+        self.refused(2, "may be cut short", "load", self.write("bad.txt", head + "A_SOLL = 397"))
         self.refused(2, "cannot be read", "load", self.path("none.txt"))
         self.refused(2, "folder", "load", self.folder.name)
         self.assertEqual(self.value("V_SOLL"), 1600)
@@ -220,7 +230,7 @@ class Files(Case):
     def test_a_motor_that_runs_is_not_changed_under_way(self):
         self.motor()
         self.reg("set", "V_SOLL", "100rpm", "MODE_REG", "V_MODE")
-        file = self.write("file.txt", "model = MAC140\nV_SOLL = 7\n")
+        file = self.write("file.txt", "model = MAC140\nV_SOLL = 7\nend = 1\n")
         self.refused(1, "V_MODE", "load", file)
         self.reg("load", "--stop", file)
         self.assertEqual((self.value("V_SOLL"), self.value("MODE_REG")), (7, 0))
@@ -242,7 +252,7 @@ class Files(Case):
     def test_a_line_that_breaks_in_a_load_says_what_was_written(self):
         self.motor("--speed", "10")
         names = [f"{letter}{number}" for letter, most in (("P", 8), ("V", 8), ("A", 4)) for number in range(1, most + 1)]
-        file = self.write("file.txt", "model = MAC140\n" + "".join(f"{name} = raw:77\n" for name in names))
+        file = self.write("file.txt", "model = MAC140\n" + "".join(f"{name} = raw:77\n" for name in names) + "end = 20\n")
         # Of 9 + 19 bytes a read, some 140 a block: far behind the first write, before the last.
         proxy = NoisyProxy(self.path("breaking"), self.path("port"), 0, 1, breaks_after=2200)
         self.addCleanup(proxy.close)

@@ -37,7 +37,10 @@ TEST_F(ChangeTest, ModeInSafeMode) {
     expect_refused(set("MODE_REG", 2), "macreg safe exit");
     bench.sim.leave_safe_mode();
     expect_refused(set("MODE_REG", 15), "macreg safe enter");
-    expect_refused(set("MODE_REG", 257), "SAFE_MODE only");
+    bench.sim.enter_safe_mode();
+    bench.put("GEARF1", 77);
+    expect_refused(set("MODE_REG", 256), "macreg flash defaults");
+    EXPECT_EQ(bench.motor.read(bench.reg("GEARF1")), 77) << "it was not sent";
 }
 
 TEST_F(ChangeTest, ModeWithAnErrorIsRefusedWithTheError) {

@@ -87,6 +87,8 @@ TEST(Parameters, AnIncompleteFileSaysSo) {
         parse_parameters("model = MAC140\nV_SOLL = 5\n" + incomplete_text("the motor # vanished"));
     EXPECT_TRUE(file.problems.empty());
     EXPECT_EQ(file.set.incomplete, "the motor   vanished");
+    EXPECT_FALSE(parse_parameters("model = MAC140\nA_SOLL = 397").set.incomplete.empty()) << "cut short";
+    EXPECT_TRUE(parse_parameters("model = MAC140\nA_SOLL = 397\n" + end_text(1)).set.incomplete.empty());
 }
 
 TEST(Parameters, AMotorThatVanishesLosesNothingAlreadyRead) {

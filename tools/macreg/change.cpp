@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::int64_t kStopMode = 11;
 constexpr std::int64_t kSafeMode = 15;
+constexpr std::int64_t kLastMode = 24;
 constexpr std::int64_t kDefaults = 256;
 
 /// Bits that the motor clears when it has done what they ask for, or sets by itself (001 §3.2.36, 004).
@@ -42,8 +43,6 @@ std::string why_mode(Motor& motor, std::int64_t wanted, std::int64_t now) {
     if (now == kSafeMode && wanted != kSafeMode)
         return "the motor is in SAFE_MODE and leaves it by `macreg safe exit` only (001 §4.4.16)";
     if (wanted == kSafeMode) return "SAFE_MODE is entered by `macreg safe enter` only (001 §4.4.16)";
-    if (wanted >= kDefaults)
-        return "256 to 258 act in SAFE_MODE only; use `macreg flash defaults` or `macreg flash reload`";
     const std::string errors = errors_text(motor.model(), motor.read(registers::ERR_STAT));
     if (!errors.empty())
         return fmt::format(
@@ -87,6 +86,18 @@ void add_remark(Outcome& outcome, const Motor& motor, const Register& reg, std::
 
 }  // namespace
 
+std::string no_mode(Model model, const Register& reg, std::int64_t raw) {
+    const bool is_mode =
+        reg.number == registers::MODE_REG || (reg.name == "STARTMODE" && model != Model::mac800);
+    if (!is_mode || (raw >= 0 && raw <= kLastMode)) return {};
+    if (reg.number == registers::MODE_REG && raw >= kDefaults)
+        return "MODE_REG: 256 to 258 rewrite flash and registers; `macreg flash save`, `macreg flash "
+               "defaults` and "
+               "`macreg flash reload` do that, and ask first";
+    return fmt::format("{}: {} is no mode; modes are 0 to {} (`macreg list {}`)", reg.name, raw, kLastMode,
+                       reg.name);
+}
+
 std::uint32_t error_bits(Model model) {
     return model == Model::mac800 ? 0x2BB8F : 0x108F;
 }
@@ -115,6 +126,8 @@ std::string gateway_refusal(Motor& motor) {
 
 Outcome change(Motor& motor, const Register& reg, std::int64_t raw) {
     Outcome outcome{.before = motor.read(reg)};
+    if (std::string none = no_mode(motor.model(), reg, raw); !none.empty())
+        return {.before = outcome.before, .after = outcome.before, .taken = false, .why = std::move(none)};
     try {
         motor.write(reg, raw);
     } catch (const LineError& error) {

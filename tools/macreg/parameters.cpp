@@ -6,6 +6,7 @@
 #include <charconv>
 #include <set>
 
+#include "macreg/change.h"
 #include "macreg/values.h"
 
 namespace nplc::macreg {
@@ -95,12 +96,14 @@ std::optional<std::int64_t> found_in_motor(const Register& reg, std::string_view
 struct Parser {
     ParsedFile file{};
     unsigned line = 0;
+    bool ended = false;
 
     void problem(std::string text) { file.problems.push_back({line, std::move(text)}); }
 
     void header(const std::string& key, const std::string& value) {
         if (file.set.header.count(key) != 0) return problem(fmt::format("'{}' stands here twice", key));
         file.set.header[key] = value;
+        if (key == "end") ended = true;
         if (key == "incomplete") file.set.incomplete = value;
         if (key != "model") return;
         if (!file.set.values.empty()) return problem("the model must be named before the first register");
@@ -124,6 +127,9 @@ struct Parser {
         const TypedValue typed = typed_value(*named.reg, file.set.model, text);
         const auto found = found_in_motor(*named.reg, text);
         if (!typed.error.empty() && !found) return problem(typed.error);
+        if (const std::string none = no_mode(file.set.model, *named.reg, typed.raw);
+            typed.error.empty() && !none.empty())
+            return problem(none);
         file.set.values[named.reg->number] = typed.error.empty() ? typed.raw : *found;
     }
 
@@ -185,6 +191,10 @@ std::string value_line(Model model, const Register& reg, std::int64_t raw) {
                        reg.dangerous && parameter ? " (dangerous)" : "");
 }
 
+std::string end_text(std::size_t registers) {
+    return fmt::format("\nend = {} registers\n", registers);
+}
+
 std::string incomplete_text(std::string_view why) {
     std::string line(why.substr(0, why.find('\n')));
     std::replace(line.begin(), line.end(), '#', ' ');
@@ -200,6 +210,8 @@ ParsedFile parse_parameters(std::string_view text) {
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     parser.line = 0;
+    if (!parser.ended && parser.file.set.incomplete.empty())
+        parser.file.set.incomplete = "no line says 'end = ...', so it may be cut short";
     if (parser.file.set.header.count("model") == 0)
         parser.problem("no line says 'model = ...'; this is no file of macreg dump");
     if (parser.file.set.values.empty()) parser.problem("holds no register");

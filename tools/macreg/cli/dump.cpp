@@ -100,6 +100,7 @@ void dump(Session& session, const Options& options) {
     } catch (const Interrupted& error) {
         give_up(session, target, error.what(), command_line::kInterrupted, done, all);
     }
+    if (as_text) target.add(end_text(done));
     target.finish();
     session.progress("");
     if (session.json()) {

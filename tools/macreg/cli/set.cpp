@@ -73,6 +73,8 @@ std::vector<Assignment> assignments(Model model, const std::vector<std::string>&
 void look_for_danger(Session& session, const std::vector<Assignment>& all, bool force) {
     std::string dangerous;
     for (const Assignment& one : all) {
+        if (const std::string problem = no_mode(session.motor().model(), *one.reg, one.raw); !problem.empty())
+            throw UserError(problem);
         if (one.reg->access == registers::Access::read_only && !force)
             throw UserError(
                 fmt::format("{} is read only: the motor overwrites it, or it only tells something; --force "

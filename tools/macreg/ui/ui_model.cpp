@@ -5,6 +5,7 @@
 #include <cctype>
 #include <utility>
 
+#include "macreg/change.h"
 #include "macreg/values.h"
 #include "macreg/words.h"
 #include "registers/convert.h"
@@ -247,6 +248,10 @@ Wish UiModel::finish_write() {
         }
         wish.raw = typed.raw;
         if (!typed.rounding.empty()) tell(typed.rounding);
+    }
+    if (const std::string problem = no_mode(model_, reg, wish.raw); !problem.empty()) {
+        tell(problem, true);
+        return {};
     }
     prompt_ = {};
     const bool overwritten = reg.access == registers::Access::read_only;

@@ -21,6 +21,10 @@ struct Outcome {
 /// LineError.
 Outcome change(Motor& motor, const registers::Register& reg, std::int64_t raw);
 
+/// Why this value is no mode that `change` may give MODE_REG or STARTMODE, with what to do instead; empty: it
+/// is one. 256 to 258 would act on a motor in SAFE_MODE, on its flash (001 §4.4.16).
+std::string no_mode(registers::Model model, const registers::Register& reg, std::int64_t raw);
+
 /// "ERR_STAT has FLW_ERR"; empty if none of the errors that keep the motor in INIT_MODE is set.
 std::string errors_text(registers::Model model, std::int64_t err_stat);
 
