@@ -129,8 +129,8 @@ void GatewayClient::activate() {
     }
 }
 
-/// The gateway answers nothing to a reset; RESULT, which named a register before, is 0 afterwards. A stored table
-/// that would become active by it does so before, with the answers that tell why not.
+/// The gateway answers nothing to a reset; RESULT, which named a register before, is 0 afterwards. A stored
+/// table that would become active by it does so before, with the answers that tell why not.
 void GatewayClient::reset() {
     if ((read(gw::STATUS) & gw::kStoredDiffers) != 0) activate();
     const std::uint32_t bytes = read(gw::UPLOAD_BYTES);
