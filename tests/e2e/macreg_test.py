@@ -12,10 +12,10 @@ import subprocess
 import sys
 import tempfile
 import termios
-import threading
 import time
 import unittest
 
+import simulator
 from noisy_proxy import NoisyProxy
 
 MACREG = MACSIM = SIM = SEQC = SHUTTLE = ""
@@ -39,16 +39,9 @@ class Case(unittest.TestCase):
 
     def launch(self, *command):
         """A simulator, when it is ready; its lines until then."""
-        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   text=True)
+        process, lines = simulator.start(*command)
         self.running.append(process)
-        lines = []
-        for line in process.stdout:
-            if line == "ready\n":
-                threading.Thread(target=process.stdout.read, daemon=True).start()
-                return process, lines
-            lines.append(line)
-        self.fail(f"ended before it was ready: {process.communicate()}")
+        return process, lines
 
     def motor(self, *arguments, endpoint=None, model="MAC140"):
         self.endpoint = endpoint or self.endpoint

@@ -10,9 +10,10 @@ import signal
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 import unittest
+
+import simulator
 
 MACREG = MACSIM = ""
 LONG = 60  # seconds until something that must come is given up
@@ -36,15 +37,8 @@ class Case(unittest.TestCase):
         return os.path.join(self.folder.name, name)
 
     def start_motor(self):
-        motor = subprocess.Popen([MACSIM, "--model", "MAC140", "--address", "8", "--speed", "10", "--fastmac",
-                                  "pty:" + self.path("f"), "--mactalk", "pty:" + self.path("m")],
-                                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.motors.append(motor)
-        for line in motor.stdout:
-            if line == "ready\n":
-                threading.Thread(target=motor.stdout.read, daemon=True).start()
-                return
-        self.fail(f"ended before it was ready: {motor.communicate()}")
+        self.motors.append(simulator.start(MACSIM, "--model", "MAC140", "--address", "8", "--speed", "10", "--fastmac",
+                                           "pty:" + self.path("f"), "--mactalk", "pty:" + self.path("m"))[0])
 
     def stop_motor(self):
         motor = self.motors[-1]

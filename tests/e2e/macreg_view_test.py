@@ -14,8 +14,10 @@ import struct
 import subprocess
 import sys
 import tempfile
-import threading
 import unittest
+
+import simulator
+
 from xml.etree import ElementTree
 
 MACREG = MACSIM = ""
@@ -40,15 +42,8 @@ class Case(unittest.TestCase):
         return os.path.join(self.folder.name, name)
 
     def motor(self):
-        process = subprocess.Popen([MACSIM, "--model", "MAC140", "--address", "8", "--speed", "10", "--fastmac",
-                                    "pty:" + self.path("f"), "--mactalk", "pty:" + self.path("m")],
-                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.running.append(process)
-        for line in process.stdout:
-            if line == "ready\n":
-                threading.Thread(target=process.stdout.read, daemon=True).start()
-                return
-        self.fail(f"ended before it was ready: {process.communicate()}")
+        self.running.append(simulator.start(MACSIM, "--model", "MAC140", "--address", "8", "--speed", "10", "--fastmac",
+                                            "pty:" + self.path("f"), "--mactalk", "pty:" + self.path("m"))[0])
 
     def call(self, *arguments, **options):
         return subprocess.run([MACREG, "--port", self.path("m"), "--patience", "500", *arguments],

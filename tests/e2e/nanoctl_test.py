@@ -12,11 +12,11 @@ import stat
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 import unittest
 import zlib
 
+import simulator
 import zsh
 from noisy_proxy import NoisyProxy
 
@@ -45,15 +45,10 @@ class Case(unittest.TestCase):
     def start(self, *arguments, endpoint=None):
         """The gateway, when it is ready."""
         self.endpoint = endpoint or self.endpoint
-        process = subprocess.Popen(
-            [SIM, "run", *arguments, "--flash", self.path("flash"), "--realtime", "--mactalk", self.endpoint],
-            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process, _ = simulator.start(SIM, "run", *arguments, "--flash", self.path("flash"), "--realtime", "--mactalk",
+                                     self.endpoint)
         self.running.append(process)
-        for line in process.stdout:
-            if line == "ready\n":
-                threading.Thread(target=process.stdout.read, daemon=True).start()
-                return process
-        self.fail(f"ended before it was ready: {process.communicate()}")
+        return process
 
     def end(self, process):
         process.send_signal(signal.SIGTERM)

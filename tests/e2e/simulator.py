@@ -1,0 +1,16 @@
+"""A simulator as a test needs it: started, and ready."""
+
+import subprocess
+import threading
+
+
+def start(*command):
+    """The process, and its lines until it was ready; its standard output is read on."""
+    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    lines = []
+    for line in process.stdout:
+        if line == "ready\n":
+            threading.Thread(target=process.stdout.read, daemon=True).start()
+            return process, lines
+        lines.append(line)
+    raise AssertionError(f"ended before it was ready: {process.communicate()}")
