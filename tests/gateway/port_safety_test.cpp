@@ -146,6 +146,33 @@ TEST_F(PortSafety, WhileItRunsEveryRegisterIsReadAndTheMotorIsNotWritten) {
     EXPECT_TRUE(write(5, 1, 2, kMotor));
 }
 
+TEST_F(PortSafety, WhileItWaitsForTheMotorOrIsAboutToHoldTheMotorIsNotWritten) {
+    wired = true;
+    start({.autostart = false});
+    const auto expect_refused = [&](reg::RunState wanted) {
+        ASSERT_EQ(state(), wanted);
+        board.accesses.clear();
+        motor_line.sent.clear();
+        using mactalk::Kind;
+        for (const auto kind : {Kind::write, Kind::safe_mode, Kind::write_flash, Kind::reset}) {
+            ask({.kind = kind, .address = kMotor, .reg = 5, .length = 2, .value = 1});
+            EXPECT_TRUE(heard(10ms).empty());
+        }
+        EXPECT_TRUE(board.accesses.empty());
+        EXPECT_TRUE(motor_line.sent.empty());
+        EXPECT_EQ(state(), wanted);
+    };
+    ASSERT_TRUE(upload_and_activate(kTable));
+    board.is_settled = false;
+    ASSERT_TRUE(command(Command::run));
+    expect_refused(reg::RunState::waiting);
+    board.is_settled = true;
+    run(10ms);
+    ASSERT_TRUE(command(Command::hold));
+    board.is_settled = false;
+    expect_refused(reg::RunState::holding);
+}
+
 TEST_F(PortSafety, ASettingAllowsMotorWritesWhileItRuns) {
     ASSERT_TRUE(set(store::Setting::motor_writes, 1));
     start_table();
@@ -195,6 +222,16 @@ TEST_F(PortSafety, ForcedSignalsAreShownAndEndWhenTheirClientIsSilent) {
     EXPECT_EQ(status() & (reg::kForcedInputs | reg::kForcedOutputs), 0U);
     EXPECT_EQ(board.out, 0x05);
     EXPECT_EQ(read(reg::FORCE_LEFT), 0U);
+}
+
+TEST_F(PortSafety, HowLongASilentClientsForcedSignalsLastIsASetting) {
+    ASSERT_TRUE(set(store::Setting::force_timeout, 300));
+    start_table();
+    ASSERT_TRUE(write(reg::FORCE_OUT, 0x0A0A));
+    run(295ms);
+    EXPECT_EQ(board.out, 0x0A);
+    run(10ms);
+    EXPECT_EQ(board.out, 0x00);
 }
 
 TEST_F(PortSafety, ForcedSignalsEndAtAReset) {
@@ -260,9 +297,33 @@ TEST_F(PortSafety, ABreakpointLeavesAVirtualMotorAlone) {
     EXPECT_EQ(board.stops, 0);
 }
 
+TEST_F(PortSafety, AHoldWithTheLinkDownHasTheMotorStoppedAsSoonAsItIsBack) {
+    start_table();
+    board.link_state = motor::Link::down;
+    run(10ms);
+    ASSERT_TRUE(command(Command::hold));
+    run(10ms);
+    EXPECT_EQ(state(), reg::RunState::held);
+    EXPECT_EQ(board.out, 0x02) << "the safe state of a lost link";
+    board.stops = 0;
+    board.link_state = motor::Link::unacknowledged;
+    run(250us);
+    EXPECT_EQ(board.stops, 1);
+    run(1s);
+    EXPECT_EQ(board.stops, 1);
+    EXPECT_EQ(state(), reg::RunState::held);
+    EXPECT_TRUE(board.sent.empty());
+}
+
 TEST_F(PortSafety, SingleScansAndSteps) {
     ASSERT_TRUE(upload_and_activate(kTable));
+    board.stops = 0;
+    board.is_settled = false;  // the stop is still to be taken
     ASSERT_TRUE(command(Command::scan));
+    run(10ms);
+    EXPECT_EQ(board.stops, 1);
+    EXPECT_EQ(read(reg::SCANS), 0U);
+    board.is_settled = true;
     run(10ms);
     EXPECT_EQ(state(), reg::RunState::held);
     EXPECT_EQ(read(reg::SCANS), 1U);

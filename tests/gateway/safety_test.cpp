@@ -222,6 +222,7 @@ TEST_F(Safety, ABadTableIsTheSafeStateAndNothingRuns) {
     EXPECT_EQ(result.fault.error, base::Error::bad_next_step);
     EXPECT_EQ(result.fault.term, 0);
     expect_safe(gateway, SafeReason::bad_table);
+    EXPECT_EQ(board.stops, 1);
     EXPECT_EQ(gateway.run().error(), base::Error::no_table);
     ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
     board.run(gateway, 100ms);
@@ -264,8 +265,10 @@ TEST_F(Safety, EveryWaitForTheMotorEnds) {
     board.is_settled = false;
     board.run(gateway, 990ms);
     EXPECT_EQ(gateway.run_state(), RunState::running);
+    board.stops = 0;
     board.run(gateway, 20ms);
     expect_safe(gateway, SafeReason::motor_stuck);
+    EXPECT_EQ(board.stops, 1);
     EXPECT_EQ(gateway.run_state(), RunState::stopped);
 }
 
@@ -274,8 +277,15 @@ TEST_F(Safety, AHaltedScanEndsToo) {
     Gateway gateway(board.ports(), settings, StartCause::power_up);
     board.room = 0;
     ASSERT_TRUE(gateway.load(sends, board.now).ok);
-    board.run(gateway, 1100ms);
+    board.run(gateway, 10ms);
+    ASSERT_EQ(gateway.run_state(), RunState::running);
+    board.feeds = board.stops = 0;
+    board.run(gateway, 900ms);
+    EXPECT_EQ(board.feeds, 0);
+    EXPECT_EQ(gateway.run_state(), RunState::running);
+    board.run(gateway, 200ms);
     expect_safe(gateway, SafeReason::motor_stuck);
+    EXPECT_EQ(board.stops, 1);
     EXPECT_TRUE(board.sent.empty());
 }
 

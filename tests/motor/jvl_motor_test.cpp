@@ -390,6 +390,35 @@ TEST_F(LostLink, OrdersThatWaitedWhenItWasLostAreGone) {
     EXPECT_EQ(driver.counters().discarded, 2U);
 }
 
+TEST_F(LostLink, APersonsWriteThatWaitedWhenItWasLostIsGone) {
+    start();
+    driver.send(command(0x45));
+    ASSERT_TRUE(driver.begin_access({.is_write = true, .reg = 5, .value = 1}));
+    for (int i = 0; i < 45; ++i) motor.silence();
+    EXPECT_EQ(driver.access_state(), AccessState::failed);
+    line.take();
+    line.in_transmitter = 0;
+    restart();
+    motor.hear_times(10, 0x10);
+    EXPECT_TRUE(line.sent.empty());
+}
+
+TEST_F(LostLink, APersonsWriteUnderWayWhenItWasLostIsNotFinishedLater) {
+    start();
+    ASSERT_TRUE(driver.begin_access({.is_write = true, .reg = 5, .value = 1}));
+    exchange({0x7F, 0x7F}, 0x80, 0x08);
+    for (int i = 0; i < 20 && line.sent.size() < 5; ++i) motor.hear(0x08);
+    EXPECT_EQ(driver.access_state(), AccessState::under_way);
+    for (int i = 0; i < 60; ++i) motor.silence();
+    EXPECT_EQ(driver.link(), Link::down);
+    EXPECT_EQ(driver.access_state(), AccessState::failed);
+    line.take();
+    line.in_transmitter = 0;
+    restart();
+    motor.hear_times(10, 0x10);
+    EXPECT_TRUE(line.sent.empty());
+}
+
 TEST_F(LostLink, ErrorStaysUntilResetErrorIsExecuted) {
     lose();
     restart();
