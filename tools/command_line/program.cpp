@@ -29,18 +29,11 @@ std::string port_variable(const Common& common) {
     return name;
 }
 
-std::string without_breaks(std::string text) {
-    while (!text.empty() && text.back() == '\n') text.pop_back();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
-
 /// The library says of an unknown command only that there is none.
-std::string wrong_usage(const CLI::App& app, const CLI::ParseError& error) {
-    const std::string text = without_breaks(error.what());
-    const auto rest = app.remaining(true);
-    if (text.find("subcommand is required") == std::string::npos || rest.empty()) return text;
-    return fmt::format("'{}' is no command", rest.front());
+std::string wrong_usage(const arguments::Outcome& outcome) {
+    if (outcome.error.find("subcommand is required") == std::string::npos || outcome.rest.empty())
+        return outcome.error;
+    return fmt::format("'{}' is no command", outcome.rest.front());
 }
 
 void try_to(Common& common, const std::function<void()>& what) {
@@ -58,7 +51,7 @@ void try_to(Common& common, const std::function<void()>& what) {
 
 }  // namespace
 
-void add_line_options(CLI::App& app, Common& common, const std::string& of_whom) {
+void add_line_options(arguments::App& app, Common& common, const std::string& of_whom) {
     app.fallthrough();
     app.add_option("--port", common.port, fmt::format("Where {} is", of_whom))
         ->envname(port_variable(common));
@@ -66,25 +59,23 @@ void add_line_options(CLI::App& app, Common& common, const std::string& of_whom)
     app.add_option("--patience", common.patience_ms,
                    "Milliseconds beyond the line's time to wait for an answer")
         ->capture_default_str()
-        ->check(CLI::Range(1, 60'000));
+        ->in_range(1, 60'000);
     app.add_flag("--json", common.json, "Print JSON documents, one a line");
 }
 
-CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& text) {
-    CLI::App& command = *app.add_subcommand(name, text);
+arguments::App& add_command(arguments::App& app, const std::string& name, const std::string& text) {
+    arguments::App& command = *app.add_subcommand(name, text);
     command.fallthrough();
     return command;
 }
 
-int run(CLI::App& app, Common& common, int argc, char** argv) {
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);
+int run(arguments::App& app, Common& common, int argc, char** argv) {
+    const arguments::Outcome outcome = app.parse(argc, argv);
+    if (outcome.kind == arguments::Outcome::Kind::told) return outcome.exit_code;
+    if (outcome.kind == arguments::Outcome::Kind::wrong) {
         // What stands behind the mistake may not have been read.
         common.json = std::find(argv, argv + argc, std::string_view("--json")) != argv + argc;
-        fail(common, kUsageOrFile,
-             fmt::format("{} (see {} --help)", wrong_usage(app, error), common.program));
+        fail(common, kUsageOrFile, fmt::format("{} (see {} --help)", wrong_usage(outcome), common.program));
     }
     return common.exit_code;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -8,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "arguments/arguments.h"
 #include "mactalk_client/wire.h"
 
 /// What the programs that talk over a MacTalk line have in common: options, exit codes, signals, how results
@@ -56,13 +56,13 @@ struct Common {
 };
 
 /// --port (or the environment's PROGRAM_PORT), --baud, --patience, --json. `of_whom` is "the gateway".
-void add_line_options(CLI::App& app, Common& common, const std::string& of_whom);
+void add_line_options(arguments::App& app, Common& common, const std::string& of_whom);
 
 /// A subcommand that has the common options too.
-CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& text);
+arguments::App& add_command(arguments::App& app, const std::string& name, const std::string& text);
 
 /// Reads the command line and carries it out; the program's exit code.
-int run(CLI::App& app, Common& common, int argc, char** argv);
+int run(arguments::App& app, Common& common, int argc, char** argv);
 
 /// Throws UserError without a port, LineError if it cannot be opened.
 std::unique_ptr<mactalk_client::Wire> open_port(const Common& common);
