@@ -210,16 +210,13 @@ TEST(Arguments, PagesAreWrittenFromItsDescription) {
     ASSERT_EQ(options.size(), 4U);
     EXPECT_EQ(options[0].names, "-h,--help");
     EXPECT_EQ(options[0].long_names, Words{"help"});
-    EXPECT_FALSE(options[0].has_value);
     EXPECT_EQ(options[1].positional, "file");
     EXPECT_EQ(options[1].names, "file");
     EXPECT_EQ(options[1].description, "to read");
     EXPECT_TRUE(options[1].long_names.empty());
     EXPECT_EQ(options[2].names, "-o,--output");
     EXPECT_TRUE(options[2].positional.empty());
-    EXPECT_TRUE(options[2].has_value);
     EXPECT_EQ(options[3].long_names, (Words{"quiet", "silent"}));
-    EXPECT_FALSE(options[3].has_value);
 }
 
 }  // namespace

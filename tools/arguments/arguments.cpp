@@ -21,8 +21,7 @@ OptionText text_of(const CLI::Option& option) {
     return {.long_names = option.get_lnames(),
             .names = option.get_name(option.get_positional(), true),
             .positional = option.get_positional() ? option.get_name(true) : std::string(),
-            .description = option.get_description(),
-            .has_value = option.get_type_size() != 0};
+            .description = option.get_description()};
 }
 
 }  // namespace
