@@ -6,6 +6,7 @@
 #include <cctype>
 #include <csignal>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <system_error>
 
@@ -36,6 +37,17 @@ std::string wrong_usage(const arguments::Outcome& outcome) {
     return fmt::format("'{}' is no command", outcome.rest.front());
 }
 
+/// Tells what went wrong, with --json as a document too.
+void fail(Common& common, int exit_code, const std::string& text, const Json& details = Json::object()) {
+    common.exit_code = exit_code;
+    if (common.json) {
+        Json whole{{"ok", false}, {"error", text}};
+        whole.update(details);
+        fmt::print("{}\n", one_line(whole));
+    }
+    fmt::print(stderr, "{}: {}\n", common.program, text);
+}
+
 void try_to(Common& common, const std::function<void()>& what) {
     try {
         what();
@@ -50,6 +62,11 @@ void try_to(Common& common, const std::function<void()>& what) {
 }
 
 }  // namespace
+
+Failure::Failure(int exit_code, const std::string& what) : Failure(exit_code, what, Json::object()) {}
+
+Failure::Failure(int exit_code, const std::string& what, const Json& details)
+    : std::runtime_error(what), exit_code_(exit_code), details_(std::make_shared<const Json>(details)) {}
 
 void add_line_options(arguments::App& app, Common& common, const std::string& of_whom) {
     app.fallthrough();
@@ -109,16 +126,6 @@ void tell(const Common& common, const std::string& text, const Json& document) {
         fmt::print("{}\n", text);
     }
     std::fflush(stdout);
-}
-
-void fail(Common& common, int exit_code, const std::string& text, const Json& details) {
-    common.exit_code = exit_code;
-    if (common.json) {
-        Json whole{{"ok", false}, {"error", text}};
-        whole.update(details);
-        fmt::print("{}\n", one_line(whole));
-    }
-    fmt::print(stderr, "{}: {}\n", common.program, text);
 }
 
 bool goes_on() {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/subcommands.h"
 #include "macreg/words.h"

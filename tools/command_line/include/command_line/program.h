@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <stdexcept>
 #include <string>
 
@@ -24,17 +24,18 @@ enum Exit : int {
 
 using Json = nlohmann::ordered_json;
 
-/// One line for a person and the program's exit code. `details` go into the document of --json.
+/// One line for a person and the program's exit code. `details` go into the document of --json. Who throws
+/// one with details, or tells something, includes <nlohmann/json.hpp>.
 class Failure : public std::runtime_error {
   public:
-    Failure(int exit_code, const std::string& what, Json details = Json::object())
-        : std::runtime_error(what), exit_code_(exit_code), details_(std::move(details)) {}
+    Failure(int exit_code, const std::string& what);
+    Failure(int exit_code, const std::string& what, const Json& details);
     int exit_code() const { return exit_code_; }
-    const Json& details() const { return details_; }
+    const Json& details() const { return *details_; }
 
   private:
     int exit_code_;
-    Json details_;
+    std::shared_ptr<const Json> details_;
 };
 
 /// Wrong usage or a file.
@@ -72,9 +73,6 @@ void guard(Common& common, const std::function<void()>& what);
 
 /// A line for a person, or the same as a JSON document on one line, with "ok".
 void tell(const Common& common, const std::string& text, const Json& document);
-
-/// Tells what went wrong, with --json as a document too.
-void fail(Common& common, int exit_code, const std::string& text, const Json& details = Json::object());
 
 /// Until SIGINT or SIGTERM came. A second one ends the program at once.
 bool goes_on();
