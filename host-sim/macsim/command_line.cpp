@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <set>
 #include <stdexcept>
 
+#include "arguments/arguments.h"
 #include "sim/text.h"
 
 namespace nplc::sim {
@@ -65,7 +64,7 @@ void check(const MacsimOptions& options) {
 }  // namespace
 
 MacsimCommandLine parse_macsim(int argc, const char* const* argv) {
-    CLI::App app("Virtual MAC motors in real time, for any program that talks to real ones", "macsim");
+    arguments::App app("Virtual MAC motors in real time, for any program that talks to real ones", "macsim");
     MacsimOptions options;
     UnitOptions& first = options.rack.units.front();
     app.set_version_flag("--version", std::string("macsim ") + NPLC_VERSION);
@@ -80,8 +79,7 @@ MacsimCommandLine parse_macsim(int argc, const char* const* argv) {
     app.add_option("--mactalk", options.mactalk, "where MacTalk is spoken")->type_name("EP");
     app.add_option("--unit", "a further motor on the same MacTalk line; may be repeated")
         ->type_name("MODEL:ADDRESS")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->repeatable()
         ->each([&](const std::string& text) { options.rack.units.push_back(unit(text)); });
     app.add_option("--flash", options.flash,
                    "keep the parameter flash in this file (a further unit's: FILE.ADDRESS)")
@@ -96,16 +94,11 @@ MacsimCommandLine parse_macsim(int argc, const char* const* argv) {
     });
     app.add_flag("--old-codes", options.rack.old_register_codes, "the older FastMAC register codes");
     try {
-        app.parse(argc, argv);
+        const arguments::Outcome outcome = app.parse(argc, argv);
+        if (outcome.kind == arguments::Outcome::Kind::told) return {};
+        if (outcome.kind == arguments::Outcome::Kind::wrong)
+            return {std::nullopt, outcome.error + " (see macsim --help)"};
         check(options);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) {
-            app.exit(error);
-            return {};
-        }
-        std::string message = error.what();
-        std::replace(message.begin(), message.end(), '\n', ' ');
-        return {std::nullopt, message + " (see macsim --help)"};
     } catch (const std::invalid_argument& error) {
         return {std::nullopt, error.what()};
     }

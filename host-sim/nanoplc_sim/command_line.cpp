@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <limits>
 
+#include "arguments/arguments.h"
 #include "input_file.h"
 #include "store/settings.h"
 
@@ -18,9 +18,9 @@ constexpr const char* kExitCodes =
 constexpr const char* kUnits = "Times are written 500ms, 5s, 2min; shares 1%, 0.5%.";
 
 /// An option whose text is read by `read`, which answers false if it is not as wanted.
-void add_read(CLI::App& app, const std::string& name, const std::string& type, const std::string& help,
+void add_read(arguments::App& app, const std::string& name, const std::string& type, const std::string& help,
               const std::string& wanted, std::function<bool(const std::string&)> read) {
-    app.add_option_function<std::string>(
+    app.add_option_function(
            name,
            [name, wanted, read = std::move(read)](const std::string& text) {
                if (read(text)) return;
@@ -58,7 +58,7 @@ bool parse_delay(const std::string& text, LineFaults& faults) {
     return longest.has_value();
 }
 
-void add_line_options(CLI::App& app, RunOptions& options) {
+void add_line_options(arguments::App& app, RunOptions& options) {
     const std::string share = "a share, such as 1%";
     add_read(app, "--baud", "RATE", "rate of the line to the motor (19200)",
              "a standard rate, 1200 to 921600",
@@ -81,8 +81,8 @@ void add_line_options(CLI::App& app, RunOptions& options) {
              [&options](const std::string& text) { return parse_delay(text, options.faults); });
 }
 
-void add_run(CLI::App& parent, RunOptions& options) {
-    CLI::App& app = *parent.add_subcommand(
+void add_run(arguments::App& parent, RunOptions& options) {
+    arguments::App& app = *parent.add_subcommand(
         "run", "Run a sequence on the simulated gateway with a virtual motor; prints a timeline");
     app.add_option("program", options.program,
                    "F.seq (compiled on the way), or a table: F.bin or F.hex; "
@@ -123,8 +123,8 @@ void add_run(CLI::App& parent, RunOptions& options) {
     app.footer(fmt::format("{}\n{}", kUnits, kExitCodes));
 }
 
-void add_scan(CLI::App& parent, ScanOptions& options) {
-    CLI::App& app =
+void add_scan(arguments::App& parent, ScanOptions& options) {
+    arguments::App& app =
         *parent.add_subcommand("scan", "Run the sequence engine alone, one scan a row; prints CSV");
     app.add_option("table", options.table,
                    "F.bin or F.hex: terms of 8 bytes, ended by one whose STATE is 3Fh")
@@ -149,18 +149,11 @@ void check_run(const RunOptions& run) {
         throw InputError("nanoplc-sim: --symbols without a table; name the table that they are for");
 }
 
-std::string one_line(std::string text) {
-    for (char& c : text) {
-        if (c == '\n' || c == '\r') c = ' ';
-    }
-    return text;
-}
-
 }  // namespace
 
 CommandLine parse_command_line(int argc, const char* const* argv) {
-    CLI::App app("The NanoPLC gateway's firmware on a simulated board, and its sequence engine alone",
-                 "nanoplc-sim");
+    arguments::App app("The NanoPLC gateway's firmware on a simulated board, and its sequence engine alone",
+                       "nanoplc-sim");
     app.require_subcommand(1);
     app.set_version_flag("--version", std::string("nanoplc-sim ") + NPLC_VERSION);
     app.footer(kExitCodes);
@@ -168,15 +161,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     ScanOptions scan;
     add_run(app, run);
     add_scan(app, scan);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) {
-            app.exit(error);
-            return NothingToDo{};
-        }
-        throw InputError(fmt::format("nanoplc-sim: {}; see nanoplc-sim --help", one_line(error.what())));
-    }
+    const arguments::Outcome outcome = app.parse(argc, argv);
+    if (outcome.kind == arguments::Outcome::Kind::told) return NothingToDo{};
+    if (outcome.kind == arguments::Outcome::Kind::wrong)
+        throw InputError(fmt::format("nanoplc-sim: {}; see nanoplc-sim --help", outcome.error));
     if (app.got_subcommand("scan")) return scan;
     check_run(run);
     return run;

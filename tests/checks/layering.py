@@ -44,23 +44,25 @@ MODULES = [
     Module("firmware/boards", None, ANY, os=True, clock=True),
     Module("host-sim", "sim", ("base", "ports", "protocol", "registers"), os=True),
     Module("host-sim/board", "sim", ANY, os=True, clock=True),
-    Module("host-sim/macsim", None, ("base", "ports", "protocol", "registers", "hal_linux", "sim"), os=True),
+    Module("host-sim/macsim", None, ("arguments", "base", "ports", "protocol", "registers", "hal_linux", "sim"), os=True),
     Module("host-sim/nanoplc_sim", None, ANY, os=True, clock=True),
     Module("tools/whole_files", "whole_files", (), os=True),
+    Module("tools/arguments", "arguments", ()),
     Module("tools/mactalk_client", "mactalk_client", ("base", "protocol", "hal_linux")),
-    Module("tools/command_line", "command_line", ("base", "mactalk_client")),
+    Module("tools/command_line", "command_line", ("arguments", "base", "mactalk_client")),
     Module(
         "tools/nanoctl",
         "nanoctl",
-        ("base", "sequencer", "protocol", "registers", "store", "seqc", "mactalk_client", "command_line", "whole_files"),
+        ("arguments", "base", "sequencer", "protocol", "registers", "store", "seqc", "mactalk_client", "command_line",
+         "whole_files"),
         os=True,
     ),
     Module("tools/registers_reference", "registers_reference", ("base", "registers"), os=True),
-    Module("tools/seqc", "seqc", ("base", "sequencer", "protocol", "registers", "whole_files"), os=True),
+    Module("tools/seqc", "seqc", ("arguments", "base", "sequencer", "protocol", "registers", "whole_files"), os=True),
     Module(
         "tools/macreg",
         "macreg",
-        ("base", "protocol", "registers", "mactalk_client", "command_line", "whole_files"),
+        ("arguments", "base", "protocol", "registers", "mactalk_client", "command_line", "whole_files"),
         os=True,
     ),
     Module("tests", None, ANY, os=True),
@@ -86,6 +88,8 @@ HOSTED_STANDARD = set(
     source_location spanstream sstream stack stacktrace stdexcept stop_token streambuf string strstream syncstream
     system_error thread typeindex typeinfo unordered_map unordered_set valarray vector""".split()
 )
+# Headers that take seconds to compile: one folder hides them from all others.
+HIDDEN = {"CLI/": "tools/arguments"}
 LIBRARIES = ("gtest/", "gmock/", "benchmark/", "fmt/", "CLI/", "nlohmann/")
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
@@ -157,6 +161,10 @@ class Checker:
     def check_foreign(self, path, module, line, header):
         if header in CORE_STANDARD:
             return
+        for hidden, folder in HIDDEN.items():
+            if header.startswith(hidden) and module.folder != folder:
+                self.find(path, line, "hidden library", f"<{header}>: only {folder} may include it; include ours")
+                return
         if header in HOSTED_STANDARD or header.startswith(LIBRARIES):
             if module.core:
                 self.find(path, line, "heap or I/O", f"<{header}>: {module.folder} is core, which has no heap, no I/O, "

@@ -51,6 +51,7 @@ class Layering(unittest.TestCase):
             ("tools/seqc/a.cpp", "ports/serial.h"),
             ("tools/seqc/main.cpp", "gateway/gateway.h"),
             ("tools/macreg/a.cpp", "seqc/compiler.h"),
+            ("tools/arguments/a.cpp", "base/result.h"),
         ]
         for path, header in forbidden:
             self.refused("layering", 2, path, f'\n#include "{header}"\n')
@@ -90,6 +91,11 @@ class Layering(unittest.TestCase):
         for path in ["hal/linux/a.cpp", "host-sim/a.cpp", "tools/seqc/a.cpp"]:
             self.accepted(path, "#include <vector>\n#include <fmt/core.h>\n")
         self.accepted("sequencer/a.cpp", "#include <array>\n#include <cstdint>\n#include <span>\n")
+
+    def test_a_library_that_one_folder_hides(self):
+        for path in ["tools/seqc/cli/main.cpp", "tools/command_line/a.h", "host-sim/macsim/a.cpp", "tests/seqc/a.cpp"]:
+            self.refused("hidden library", 1, path, "#include <CLI/CLI.hpp>\n")
+        self.accepted("tools/arguments/arguments.cpp", "#include <CLI/CLI.hpp>\n")
 
     def test_clock_reads(self):
         reads = [

@@ -5,20 +5,19 @@
 # The last installs program NAME with the manual page and the completions that it prints of itself (tools/command_line).
 include_guard(GLOBAL)
 include(GNUInstallDirs)
-find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 
 # Reading a command line need not be fast; the libraries' headers take twice as long to compile with -O2.
 set(NPLC_PROGRAM_OPTIONS $<$<CONFIG:Release>:-O1>)
 if(TARGET nplc_host_headers)
-  nplc_common_headers(program_headers LIBRARIES fmt::fmt CLI11::CLI11 nlohmann_json::nlohmann_json
+  nplc_common_headers(program_headers LIBRARIES fmt::fmt nlohmann_json::nlohmann_json
     OPTIONS ${NPLC_PROGRAM_OPTIONS}
-    HEADERS <CLI/CLI.hpp> <fmt/format.h> <nlohmann/json.hpp>)
+    HEADERS <fmt/format.h> <nlohmann/json.hpp>)
 endif()
 
 function(nplc_command_line_module name)
   nplc_host_module(${name} OWN_HEADERS ${ARGN})
-  target_link_libraries(nplc_${name} PUBLIC CLI11::CLI11 nlohmann_json::nlohmann_json fmt::fmt)
+  target_link_libraries(nplc_${name} PUBLIC nlohmann_json::nlohmann_json fmt::fmt)
   target_compile_options(nplc_${name} PRIVATE ${NPLC_PROGRAM_OPTIONS})
   target_compile_definitions(nplc_${name} PRIVATE NPLC_VERSION="${PROJECT_VERSION}")
   nplc_use_common_headers(nplc_${name} program_headers)
@@ -28,7 +27,7 @@ function(nplc_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE .)
-  target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} nplc_options CLI11::CLI11 nlohmann_json::nlohmann_json fmt::fmt)
+  target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} nplc_options nlohmann_json::nlohmann_json fmt::fmt)
   target_compile_options(${name} PRIVATE ${NPLC_PROGRAM_OPTIONS})
   target_compile_definitions(${name} PRIVATE NPLC_VERSION="${PROJECT_VERSION}")
   nplc_use_common_headers(${name} program_headers)

@@ -11,31 +11,27 @@
 namespace nplc::command_line {
 namespace {
 
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-    return app.get_subcommands([](const CLI::App* one) { return !one->get_group().empty(); });
-}
-
 std::string joined(const std::vector<std::string>& words) {
     return fmt::format("{}", fmt::join(words, " "));
 }
 
-std::vector<std::string> command_names(const CLI::App& app) {
+std::vector<std::string> command_names(const arguments::App& app) {
     std::vector<std::string> names;
-    for (const CLI::App* command : commands_of(app)) names.push_back(command->get_name());
+    for (const arguments::App* command : app.get_subcommands()) names.push_back(command->get_name());
     return names;
 }
 
-std::vector<std::string> flags_of(const CLI::App& app) {
+std::vector<std::string> flags_of(const arguments::App& app) {
     std::vector<std::string> flags;
-    for (const CLI::Option* option : app.get_options()) {
-        for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
+    for (const arguments::OptionText& option : app.get_options()) {
+        for (const std::string& name : option.long_names) flags.push_back("--" + name);
     }
     return flags;
 }
 
-std::string bash_completion(const CLI::App& app, const About& about) {
+std::string bash_completion(const arguments::App& app, const About& about) {
     std::string cases;
-    for (const CLI::App* command : commands_of(app)) {
+    for (const arguments::App* command : app.get_subcommands()) {
         std::vector<std::string> words = flags_of(*command);
         for (const std::string& name : command_names(*command)) words.push_back(name);
         if (const auto more = about.words.find(command->get_name()); more != about.words.end())
@@ -81,19 +77,18 @@ std::string zsh_text(const std::string& text) {
     return result;
 }
 
-std::string zsh_options(const CLI::App& app) {
+std::string zsh_options(const arguments::App& app) {
     std::string text;
-    for (const CLI::Option* option : app.get_options()) {
-        for (const std::string& name : option->get_lnames()) {
-            text +=
-                fmt::format(" \\\n                '--{}[{}]{}'", name, zsh_text(option->get_description()),
-                            option->get_type_size() == 0 ? "" : ":value:_files");
+    for (const arguments::OptionText& option : app.get_options()) {
+        for (const std::string& name : option.long_names) {
+            text += fmt::format(" \\\n                '--{}[{}]:value:_files'", name,
+                                zsh_text(option.description));
         }
     }
     return text;
 }
 
-std::string zsh_arguments(const CLI::App& command, const About& about) {
+std::string zsh_arguments(const arguments::App& command, const About& about) {
     const auto inner = command_names(command);
     if (!inner.empty()) return fmt::format(" '1:what:({})'", joined(inner));
     const auto words = about.words.find(command.get_name());
@@ -101,10 +96,10 @@ std::string zsh_arguments(const CLI::App& command, const About& about) {
     return fmt::format(" '*:argument:({})'", joined(words->second));
 }
 
-std::string zsh_completion(const CLI::App& app, const About& about) {
+std::string zsh_completion(const arguments::App& app, const About& about) {
     std::string names;
     std::string cases;
-    for (const CLI::App* command : commands_of(app)) {
+    for (const arguments::App* command : app.get_subcommands()) {
         names += fmt::format("        '{}:{}'\n", command->get_name(), zsh_text(command->get_description()));
         cases += fmt::format("        {})\n            _arguments{}{} ;;\n", command->get_name(),
                              zsh_options(*command), zsh_arguments(*command, about));
@@ -144,34 +139,31 @@ std::string roff(const std::string& text) {
     return result;
 }
 
-std::string man_options(const CLI::App& app) {
+std::string man_options(const arguments::App& app) {
     std::string text;
-    for (const CLI::Option* option : app.get_options()) {
-        if (option->get_name(false, true).empty()) continue;
-        text += fmt::format(".TP\n.B {}\n{}\n", roff(option->get_name(option->get_positional(), true)),
-                            roff(option->get_description()));
-    }
+    for (const arguments::OptionText& option : app.get_options())
+        text += fmt::format(".TP\n.B {}\n{}\n", roff(option.names), roff(option.description));
     return text;
 }
 
-std::string man_command(const CLI::App& command, const std::string& before) {
+std::string man_command(const arguments::App& command, const std::string& before) {
     std::string name = before + command.get_name();
-    for (const CLI::Option* option : command.get_options()) {
-        if (option->get_positional()) name += " " + option->get_name(true);
+    for (const arguments::OptionText& option : command.get_options()) {
+        if (!option.positional.empty()) name += " " + option.positional;
     }
     std::string text =
         fmt::format(".SS {}\n{}.\n{}", roff(name), roff(command.get_description()), man_options(command));
-    for (const CLI::App* inner : commands_of(command))
+    for (const arguments::App* inner : command.get_subcommands())
         text += man_command(*inner, before + command.get_name() + " ");
     return text;
 }
 
-std::string man_page(const CLI::App& app, const About& about) {
+std::string man_page(const arguments::App& app, const About& about) {
     std::string capitals = app.get_name();
     std::transform(capitals.begin(), capitals.end(), capitals.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     std::string commands;
-    for (const CLI::App* command : commands_of(app)) commands += man_command(*command, "");
+    for (const arguments::App* command : app.get_subcommands()) commands += man_command(*command, "");
     return fmt::format(
         ".TH {} 1 \"\" \"{} {}\" \"NanoPLC Gateway\"\n.SH NAME\n{} \\- {}\n"
         ".SH SYNOPSIS\n.B {}\n[options] command [arguments]\n.SH DESCRIPTION\n{}\n"
@@ -182,11 +174,11 @@ std::string man_page(const CLI::App& app, const About& about) {
 
 }  // namespace
 
-void add_generated(CLI::App& app, Common& common, About about) {
+void add_generated(arguments::App& app, Common& common, About about) {
     const auto known = std::make_shared<About>(std::move(about));
     const auto shell = std::make_shared<std::string>();
-    CLI::App& completion = add_command(app, "completion", "Print the completion for a shell");
-    completion.add_option("shell", *shell, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}));
+    arguments::App& completion = add_command(app, "completion", "Print the completion for a shell");
+    completion.add_option("shell", *shell, "bash or zsh")->required()->one_of({"bash", "zsh"});
     completion.callback([shell, known, &app, &common] {
         guard(common, [&] {
             fmt::print("{}", *shell == "bash" ? bash_completion(app, *known) : zsh_completion(app, *known));

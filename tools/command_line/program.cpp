@@ -6,6 +6,7 @@
 #include <cctype>
 #include <csignal>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <system_error>
 
@@ -29,18 +30,22 @@ std::string port_variable(const Common& common) {
     return name;
 }
 
-std::string without_breaks(std::string text) {
-    while (!text.empty() && text.back() == '\n') text.pop_back();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
+/// The library says of an unknown command only that there is none.
+std::string wrong_usage(const arguments::Outcome& outcome) {
+    if (outcome.error.find("subcommand is required") == std::string::npos || outcome.rest.empty())
+        return outcome.error;
+    return fmt::format("'{}' is no command", outcome.rest.front());
 }
 
-/// The library says of an unknown command only that there is none.
-std::string wrong_usage(const CLI::App& app, const CLI::ParseError& error) {
-    const std::string text = without_breaks(error.what());
-    const auto rest = app.remaining(true);
-    if (text.find("subcommand is required") == std::string::npos || rest.empty()) return text;
-    return fmt::format("'{}' is no command", rest.front());
+/// Tells what went wrong, with --json as a document too.
+void fail(Common& common, int exit_code, const std::string& text, const Json& details = Json::object()) {
+    common.exit_code = exit_code;
+    if (common.json) {
+        Json whole{{"ok", false}, {"error", text}};
+        whole.update(details);
+        fmt::print("{}\n", one_line(whole));
+    }
+    fmt::print(stderr, "{}: {}\n", common.program, text);
 }
 
 void try_to(Common& common, const std::function<void()>& what) {
@@ -58,7 +63,12 @@ void try_to(Common& common, const std::function<void()>& what) {
 
 }  // namespace
 
-void add_line_options(CLI::App& app, Common& common, const std::string& of_whom) {
+Failure::Failure(int exit_code, const std::string& what) : Failure(exit_code, what, Json::object()) {}
+
+Failure::Failure(int exit_code, const std::string& what, const Json& details)
+    : std::runtime_error(what), exit_code_(exit_code), details_(std::make_shared<const Json>(details)) {}
+
+void add_line_options(arguments::App& app, Common& common, const std::string& of_whom) {
     app.fallthrough();
     app.add_option("--port", common.port, fmt::format("Where {} is", of_whom))
         ->envname(port_variable(common));
@@ -66,25 +76,23 @@ void add_line_options(CLI::App& app, Common& common, const std::string& of_whom)
     app.add_option("--patience", common.patience_ms,
                    "Milliseconds beyond the line's time to wait for an answer")
         ->capture_default_str()
-        ->check(CLI::Range(1, 60'000));
+        ->in_range(1, 60'000);
     app.add_flag("--json", common.json, "Print JSON documents, one a line");
 }
 
-CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& text) {
-    CLI::App& command = *app.add_subcommand(name, text);
+arguments::App& add_command(arguments::App& app, const std::string& name, const std::string& text) {
+    arguments::App& command = *app.add_subcommand(name, text);
     command.fallthrough();
     return command;
 }
 
-int run(CLI::App& app, Common& common, int argc, char** argv) {
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);
+int run(arguments::App& app, Common& common, int argc, char** argv) {
+    const arguments::Outcome outcome = app.parse(argc, argv);
+    if (outcome.kind == arguments::Outcome::Kind::told) return outcome.exit_code;
+    if (outcome.kind == arguments::Outcome::Kind::wrong) {
         // What stands behind the mistake may not have been read.
         common.json = std::find(argv, argv + argc, std::string_view("--json")) != argv + argc;
-        fail(common, kUsageOrFile,
-             fmt::format("{} (see {} --help)", wrong_usage(app, error), common.program));
+        fail(common, kUsageOrFile, fmt::format("{} (see {} --help)", wrong_usage(outcome), common.program));
     }
     return common.exit_code;
 }
@@ -118,16 +126,6 @@ void tell(const Common& common, const std::string& text, const Json& document) {
         fmt::print("{}\n", text);
     }
     std::fflush(stdout);
-}
-
-void fail(Common& common, int exit_code, const std::string& text, const Json& details) {
-    common.exit_code = exit_code;
-    if (common.json) {
-        Json whole{{"ok", false}, {"error", text}};
-        whole.update(details);
-        fmt::print("{}\n", one_line(whole));
-    }
-    fmt::print(stderr, "{}: {}\n", common.program, text);
 }
 
 bool goes_on() {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/files.h"
 #include "cli/subcommands.h"
@@ -66,9 +67,9 @@ void diff(Common& common, const Options& options) {
 
 }  // namespace
 
-void add_diff(CLI::App& app, Common& common) {
+void add_diff(arguments::App& app, Common& common) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command =
+    arguments::App& command =
         add_command(app, "diff",
                     "Compare a file of `dump` with another one or with the motor; exit code 1 if "
                     "they differ");

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/subcommands.h"
 #include "macreg/parameters.h"
@@ -112,9 +113,9 @@ void dump(Session& session, const Options& options) {
 
 }  // namespace
 
-void add_dump(CLI::App& app, Common& common) {
+void add_dump(arguments::App& app, Common& common) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command =
+    arguments::App& command =
         add_command(app, "dump",
                     "Write the motor's parameters as text with units, for `load`, `diff` and version "
                     "control. What was read of a motor that vanishes stays in FILE.part");

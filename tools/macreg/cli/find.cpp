@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/subcommands.h"
 #include "macreg/finder.h"
@@ -117,12 +118,13 @@ class Search {
 
 }  // namespace
 
-void add_find(CLI::App& app, Common& common) {
+void add_find(arguments::App& app, Common& common) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = add_command(app, "find",
-                                    "Which motors are on the line, by address and speed. Only reads. All "
-                                    "speeds that a serial line has are "
-                                    "tried, the usual one first");
+    arguments::App& command =
+        add_command(app, "find",
+                    "Which motors are on the line, by address and speed. Only reads. All "
+                    "speeds that a serial line has are "
+                    "tried, the usual one first");
     command.add_flag("--every-address", options->every_address,
                      "Ask 1 to 254 one by one, also where one motor seems to be alone");
     command.add_flag("--every-speed", options->every_speed,

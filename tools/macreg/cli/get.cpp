@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/subcommands.h"
 #include "macreg/values.h"
@@ -35,9 +36,9 @@ void get(Session& session, const std::vector<std::string>& names) {
 
 }  // namespace
 
-void add_get(CLI::App& app, Common& common) {
+void add_get(arguments::App& app, Common& common) {
     const auto names = std::make_shared<std::vector<std::string>>();
-    CLI::App& command = add_command(app, "get", "Read registers and show them in their units");
+    arguments::App& command = add_command(app, "get", "Read registers and show them in their units");
     command.add_option("registers", *names, "Names or numbers")->required();
     command.callback([names, &common] { work(common, [&](Session& s) { get(s, *names); }); });
 }

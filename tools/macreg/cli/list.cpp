@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/subcommands.h"
 #include "macreg/values.h"
@@ -106,9 +107,9 @@ void list(Common& common, const Options& options) {
 
 }  // namespace
 
-void add_list(CLI::App& app, Common& common) {
+void add_list(arguments::App& app, Common& common) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = add_command(
+    arguments::App& command = add_command(
         app, "list",
         "The registers of a model; r: read only, !: dangerous. Of one register all there is to know. "
         "Needs no motor: without --port and --model it shows MAC50 to MAC141");

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/files.h"
 #include "cli/subcommands.h"
@@ -171,9 +172,9 @@ void load(Common& common, const Options& options) {
 
 }  // namespace
 
-void add_load(CLI::App& app, Common& common) {
+void add_load(arguments::App& app, Common& common) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command =
+    arguments::App& command =
         add_command(app, "load",
                     "Write a file of `dump` into the motor's memory. The whole file is checked first; only "
                     "what differs is written, and all of it is read back. The address stays");

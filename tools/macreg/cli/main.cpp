@@ -19,11 +19,11 @@ constexpr const char* kFooter =
     "With --json a failure is {\"ok\": false, \"error\": ...}.\n"
     "Example: macreg --port /dev/ttyUSB0 get P_IST V_IST MODE_REG";
 
-void add_common(CLI::App& app, nplc::macreg::cli::Common& common) {
+void add_common(nplc::arguments::App& app, nplc::macreg::cli::Common& common) {
     nplc::command_line::add_line_options(app, common, "the motor");
     app.add_option("--address", common.address,
                    "Address of the motor, 1 to 254; 255 is every motor on the line")
-        ->check(CLI::Range(1, 255));
+        ->in_range(1, 255);
     app.add_option("--model", common.model,
                    "MAC50, MAC95, MAC140, MAC141 or MAC800; found out by reading if not said");
     app.add_flag("--yes", common.yes, "Ask nothing: every question is answered with yes");
@@ -50,7 +50,7 @@ nplc::command_line::About about() {
 
 int main(int argc, char** argv) {
     using namespace nplc::macreg::cli;
-    CLI::App app(
+    nplc::arguments::App app(
         "The registers of a MAC motor from a terminal: read, set, watch, save, compare, and why it does not "
         "move.",
         "macreg");

@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/subcommands.h"
 #include "macreg/words.h"
@@ -163,9 +164,9 @@ void listen(const Common& common, const Options& options) {
 
 }  // namespace
 
-void add_monitor(CLI::App& app, Common& common) {
+void add_monitor(arguments::App& app, Common& common) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = add_command(
+    arguments::App& command = add_command(
         app, "monitor",
         "Tell what others say on a line, decoded; only listens, with an adapter of its own, until Ctrl-C");
     command.add_option("--protocol", options->protocol, "mactalk, or fastmac (which is FlexMAC too)")
@@ -181,7 +182,7 @@ void add_monitor(CLI::App& app, Common& common) {
         .add_option("--gateway", options->gateway,
                     "Address of a gateway, whose registers have other names; 0: none")
         ->capture_default_str()
-        ->check(CLI::Range(0, 254));
+        ->in_range(0, 254);
     command.add_flag("--older-code", options->old_code, "FastMAC register codes of the manual's example");
     command.add_flag("--bytes", options->bytes, "Show the bytes in hex too");
     command.callback([options, &common] {

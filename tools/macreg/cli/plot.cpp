@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/subcommands.h"
 #include "whole_files/whole_files.h"
@@ -56,19 +57,17 @@ void plot_file(const Common& common, const Options& options) {
 
 }  // namespace
 
-void add_plot(CLI::App& app, Common& common) {
+void add_plot(arguments::App& app, Common& common) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = add_command(app, "plot", "Draw a recording as an SVG or PNG picture");
+    arguments::App& command = add_command(app, "plot", "Draw a recording as an SVG or PNG picture");
     command.add_option("recording", options->recording, "CSV of `macreg record`; - is standard input")
         ->required();
     command.add_option("-o,--output", options->output, "The picture: F.svg or F.png")->required();
     command.add_option("--columns", options->how.columns, "At most four of its columns; all if not said")
         ->delimiter(',');
-    command.add_option("--width", options->how.width, "Pixels")
-        ->capture_default_str()
-        ->check(CLI::Range(320, 8000));
+    command.add_option("--width", options->how.width, "Pixels")->capture_default_str()->in_range(320, 8000);
     command.add_option("--height", options->how.height, "Pixels; 200 a panel and the rest if not said")
-        ->check(CLI::Range(240, 8000));
+        ->in_range(240, 8000);
     command.add_option("--title", options->how.title, "Instead of file, model and rate");
     command.callback([options, &common] { guard(common, [&] { plot_file(common, *options); }); });
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "cli/subcommands.h"
@@ -166,9 +167,9 @@ void record(Session& session, const Options& options) {
 
 }  // namespace
 
-void add_record(CLI::App& app, Common& common) {
+void add_record(arguments::App& app, Common& common) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = add_command(app, "record", "Record registers over time as CSV");
+    arguments::App& command = add_command(app, "record", "Record registers over time as CSV");
     command.add_option("registers", options->registers, "Names or numbers, P_IST,V_IST")
         ->required()
         ->delimiter(',');
@@ -178,10 +179,10 @@ void add_record(CLI::App& app, Common& common) {
                     "slow: a sample of the position loop, about 521 Hz; fast: of the current loop, 7812.5 Hz")
         ->capture_default_str();
     command.add_option("--samples", options->samples, "How many; 895, the whole buffer, if not said")
-        ->check(CLI::Range(1, 10'000'000));
+        ->in_range(1, 10'000'000);
     command.add_option("--when", options->when, "Begin when a register condition holds: 'V_IST>100 rpm'");
     command.add_option("--within", options->within, "Seconds to wait for it; without end if not said")
-        ->check(CLI::Range(0.001, 1e6));
+        ->in_range(0.001, 1e6);
     command.add_option(
         "--move", options->move,
         "As soon as it records, P_SOLL=VALUE, P_SOLL=+VALUE (so much more) or V_SOLL=VALUE; asks first");
@@ -190,7 +191,7 @@ void add_record(CLI::App& app, Common& common) {
         "Read the registers again and again instead of using the motor's buffer: slower, any register, "
         "through a gateway too");
     command.add_option("--for", options->lasts, "With --poll: seconds; until Ctrl-C if not said")
-        ->check(CLI::Range(0.001, 1e6));
+        ->in_range(0.001, 1e6);
     command.callback([options, &common] { work(common, [&](Session& s) { record(s, *options); }); });
 }
 

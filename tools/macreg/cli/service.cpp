@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/subcommands.h"
 #include "macreg/change.h"
@@ -126,9 +127,9 @@ void prepare(Session& session, const Options& options) {
     });
 }
 
-CLI::App& add(CLI::App& app, Common& common, const char* name, const char* text,
-              void (*what)(Session&, const Options&), const std::shared_ptr<Options>& options) {
-    CLI::App& command = add_command(app, name, text);
+arguments::App& add(arguments::App& app, Common& common, const char* name, const char* text,
+                    void (*what)(Session&, const Options&), const std::shared_ptr<Options>& options) {
+    arguments::App& command = add_command(app, name, text);
     command.add_flag("--stop", options->stop, "Stop the motor first if it is in a mode that moves it");
     command.callback([options, what, &common] {
         work(common, [&](Session& session) {
@@ -144,9 +145,9 @@ CLI::App& add(CLI::App& app, Common& common, const char* name, const char* text,
 
 }  // namespace
 
-void add_service(CLI::App& app, Common& common) {
+void add_service(arguments::App& app, Common& common) {
     const auto options = std::make_shared<Options>();
-    CLI::App& flash = add_command(app, "flash", "The parameters in the motor's flash; asks first");
+    arguments::App& flash = add_command(app, "flash", "The parameters in the motor's flash; asks first");
     flash.require_subcommand(1);
     add(flash, common, "save",
         "Write what the motor has in memory into its flash; it resets, and is compared afterwards", save,
@@ -154,7 +155,7 @@ void add_service(CLI::App& app, Common& common) {
     add(flash, common, "defaults", "The factory's parameters, in memory and flash", defaults, options)
         .add_flag("--unsaved", options->unsaved, "In memory only");
     add(flash, common, "reload", "The flash's parameters back into memory, without a reset", reload, options);
-    CLI::App& safe = add_command(app, "safe", "SAFE_MODE: passive, and deaf to FastMAC (001 4.4.16)");
+    arguments::App& safe = add_command(app, "safe", "SAFE_MODE: passive, and deaf to FastMAC (001 4.4.16)");
     safe.require_subcommand(1);
     add(
         safe, common, "enter", "From INIT_MODE into SAFE_MODE",

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "macreg/values.h"
 #include "registers/gateway.h"
@@ -65,8 +66,12 @@ std::unique_ptr<mactalk_client::Wire> open(const Common& common) {
 
 }  // namespace
 
-void refuse(const std::string& text, Json details) {
-    throw command_line::Failure(command_line::kRefused, text, std::move(details));
+void refuse(const std::string& text) {
+    throw command_line::Failure(command_line::kRefused, text);
+}
+
+void refuse(const std::string& text, const Json& details) {
+    throw command_line::Failure(command_line::kRefused, text, details);
 }
 
 std::optional<Model> model_option(const Common& common) {

@@ -25,7 +25,8 @@ struct Common : command_line::Common {
 };
 
 /// The motor said no, or is not in a state to do it.
-[[noreturn]] void refuse(const std::string& text, Json details = Json::object());
+[[noreturn]] void refuse(const std::string& text);
+[[noreturn]] void refuse(const std::string& text, const Json& details);
 
 /// The model of --model; throws UserError if there is none of that name.
 std::optional<registers::Model> model_option(const Common& common);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/subcommands.h"
 #include "macreg/change.h"
@@ -125,9 +126,9 @@ void set(Session& session, const Options& options) {
 
 }  // namespace
 
-void add_set(CLI::App& app, Common& common) {
+void add_set(arguments::App& app, Common& common) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command =
+    arguments::App& command =
         add_command(app, "set",
                     "Change registers and read them back. A value may have a unit (1500rpm), be raw steps "
                     "(1600, raw:1600, 0x640), "

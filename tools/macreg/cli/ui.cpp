@@ -35,8 +35,8 @@ void ui(Common& common) {
 
 }  // namespace
 
-void add_ui(CLI::App& app, Common& common) {
-    CLI::App& command =
+void add_ui(arguments::App& app, Common& common) {
+    arguments::App& command =
         add_command(app, "ui", "The full screen: parameters, bits, samples, the line's bytes");
     command.callback([&common] { guard(common, [&] { ui(common); }); });
 }

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/subcommands.h"
 #include "macreg/values.h"
@@ -97,9 +98,9 @@ void watch(Session& session, const Options& options) {
 
 }  // namespace
 
-void add_watch(CLI::App& app, Common& common) {
+void add_watch(arguments::App& app, Common& common) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = add_command(
+    arguments::App& command = add_command(
         app, "watch",
         "Registers as they change: a table on a terminal, else a line (or with --json a document) "
         "at every change. Ctrl-C ends it");
@@ -107,9 +108,8 @@ void add_watch(CLI::App& app, Common& common) {
                        "Names or numbers; else mode, positions, velocities, torque, errors");
     command.add_option("--interval", options->interval_ms, "Milliseconds between two looks")
         ->capture_default_str()
-        ->check(CLI::Range(0, 60'000));
-    command.add_option("--for", options->seconds, "End after so many seconds; 0: at Ctrl-C")
-        ->check(CLI::NonNegativeNumber);
+        ->in_range(0, 60'000);
+    command.add_option("--for", options->seconds, "End after so many seconds; 0: at Ctrl-C")->non_negative();
     command.add_flag("--all", options->all, "A line at every look, changed or not");
     command.callback([options, &common] { work(common, [&](Session& s) { watch(s, *options); }); });
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/subcommands.h"
 #include "macreg/values.h"
 
@@ -53,7 +55,7 @@ void why(Session& session) {
 
 }  // namespace
 
-void add_why(CLI::App& app, Common& common) {
+void add_why(arguments::App& app, Common& common) {
     add_command(
         app, "why",
         "Why does it not move? Sentences with the registers that make it so and what mends it, the first "

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/subcommands.h"
 #include "nanoctl/words.h"
 
@@ -32,8 +34,8 @@ void tell_restarted(Session& session, std::uint8_t address_before) {
                  {{"state", name_of(status.run_state)}, {"step", status.step}, {"address", address}});
 }
 
-void add_order(CLI::App& app, Common& common, gw::Command order, const char* text) {
-    CLI::App& command = add_command(app, std::string(name_of(order)), text);
+void add_order(arguments::App& app, Common& common, gw::Command order, const char* text) {
+    arguments::App& command = add_command(app, std::string(name_of(order)), text);
     command.callback([order, &common] {
         if (order == gw::Command::stop || order == gw::Command::safe) common.attempts = kStopAttempts;
         work(common, [&](Session& session) {
@@ -46,7 +48,7 @@ void add_order(CLI::App& app, Common& common, gw::Command order, const char* tex
 
 }  // namespace
 
-void add_controls(CLI::App& app, Common& common) {
+void add_controls(arguments::App& app, Common& common) {
     add_order(app, common, gw::Command::run,
               "Start the sequence from step 0, the motor stopped first; or let a held one go on");
     add_order(app, common, gw::Command::stop, "Stop sequence and motor; outputs take their safe values");

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "cli/subcommands.h"
@@ -168,10 +169,11 @@ void log(Session& session, bool clear) {
 
 }  // namespace
 
-void add_break(CLI::App& app, Common& common) {
-    CLI::App& command = add_command(app, "break",
-                                    "Breakpoints: the sequence is held when it enters such a step, the motor "
-                                    "stopped. Without more: list them");
+void add_break(arguments::App& app, Common& common) {
+    arguments::App& command =
+        add_command(app, "break",
+                    "Breakpoints: the sequence is held when it enters such a step, the motor "
+                    "stopped. Without more: list them");
     const auto steps = std::make_shared<std::vector<std::string>>();
     command.add_option("steps", *steps, "Steps to add, by number or name");
     const auto removed = std::make_shared<std::vector<std::string>>();
@@ -188,21 +190,22 @@ void add_break(CLI::App& app, Common& common) {
     });
 }
 
-void add_force(CLI::App& app, Common& common) {
-    CLI::App& command = add_command(app, "force",
-                                    "Force inputs and outputs. Forces end by themselves after 5 s (setting "
-                                    "force_timeout) unless kept. Without more: show them");
+void add_force(arguments::App& app, Common& common) {
+    arguments::App& command =
+        add_command(app, "force",
+                    "Force inputs and outputs. Forces end by themselves after 5 s (setting "
+                    "force_timeout) unless kept. Without more: show them");
     const auto options = std::make_shared<ForceOptions>();
     command.add_option("what", options->what, "IN2=1 OUT0=0 ..., or names of the program with --sym");
     command.add_flag("--off", options->off, "End all forces first");
     command.add_flag("--keep", options->keep, "Keep them until Ctrl-C, then end them");
     command.add_option("--for", options->seconds, "Keep them for so many seconds, then end them")
-        ->check(CLI::NonNegativeNumber);
+        ->non_negative();
     command.callback([options, &common] { work(common, [&](Session& s) { force(s, *options); }); });
 }
 
-void add_log(CLI::App& app, Common& common) {
-    CLI::App& command = add_command(app, "log", "The gateway's last 16 events, oldest first");
+void add_log(arguments::App& app, Common& common) {
+    arguments::App& command = add_command(app, "log", "The gateway's last 16 events, oldest first");
     const auto clear = std::make_shared<bool>(false);
     command.add_flag("--clear", *clear, "Empty it afterwards");
     command.callback([clear, &common] { work(common, [&](Session& s) { log(s, *clear); }); });

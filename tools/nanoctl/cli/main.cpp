@@ -14,11 +14,11 @@ constexpr const char* kFooter =
     "...}.\n"
     "Example: nanoctl --port /dev/ttyUSB0 upload shuttle.bin --run && nanoctl --port /dev/ttyUSB0 watch";
 
-void add_common(CLI::App& app, nplc::nanoctl::cli::Common& common) {
+void add_common(nplc::arguments::App& app, nplc::nanoctl::cli::Common& common) {
     nplc::command_line::add_line_options(app, common, "the gateway");
     app.add_option("--address", common.address, "Address of the gateway")
         ->capture_default_str()
-        ->check(CLI::Range(1, 254));
+        ->in_range(1, 254);
     app.add_option("--sym", common.symbols, "F.sym of seqc build: names instead of numbers");
 }
 
@@ -26,8 +26,8 @@ void add_common(CLI::App& app, nplc::nanoctl::cli::Common& common) {
 
 int main(int argc, char** argv) {
     using namespace nplc::nanoctl::cli;
-    CLI::App app("A NanoPLC gateway from a terminal: tables, running, looking on, stepping, settings.",
-                 "nanoctl");
+    nplc::arguments::App app(
+        "A NanoPLC gateway from a terminal: tables, running, looking on, stepping, settings.", "nanoctl");
     app.require_subcommand(1);
     app.set_version_flag("--version", std::string("nanoctl ") + NPLC_VERSION);
     app.footer(kFooter);

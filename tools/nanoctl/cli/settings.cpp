@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "cli/subcommands.h"
@@ -127,8 +128,8 @@ void set(Session& session, const std::vector<std::string>& texts, bool keep) {
 
 }  // namespace
 
-void add_settings(CLI::App& app, Common& common) {
-    CLI::App& command =
+void add_settings(arguments::App& app, Common& common) {
+    arguments::App& command =
         add_command(app, "settings", "The gateway's settings; changed only while the sequence is stopped");
     command.require_subcommand(1);
     add_command(command, "list", "All of them, with their ranges").callback([&common] {
@@ -136,13 +137,13 @@ void add_settings(CLI::App& app, Common& common) {
     });
 
     const auto names = std::make_shared<std::vector<std::string>>();
-    CLI::App& getter = add_command(command, "get", "Some of them");
+    arguments::App& getter = add_command(command, "get", "Some of them");
     getter.add_option("names", *names, "Names of settings")->required();
     getter.callback([names, &common] { work(common, [&](Session& s) { get(s, *names); }); });
 
     const auto texts = std::make_shared<std::vector<std::string>>();
     const auto keep = std::make_shared<bool>(false);
-    CLI::App& setter = add_command(command, "set", "Change some of them");
+    arguments::App& setter = add_command(command, "set", "Change some of them");
     setter.add_option("values", *texts, "NAME=VALUE ...")->required();
     setter.add_flag("--keep", *keep, "Store all settings, so that they outlive a power cut");
     setter.callback([texts, keep, &common] { work(common, [&](Session& s) { set(s, *texts, *keep); }); });

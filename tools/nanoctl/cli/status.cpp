@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/subcommands.h"
 #include "nanoctl/words.h"
@@ -130,18 +131,17 @@ void watch(Session& session, const WatchOptions& options) {
 
 }  // namespace
 
-void add_status(CLI::App& app, Common& common) {
+void add_status(arguments::App& app, Common& common) {
     add_command(app, "status", "What the gateway does, has and went through").callback([&common] {
         work(common, show_status);
     });
     const auto options = std::make_shared<WatchOptions>();
-    CLI::App& command =
+    arguments::App& command =
         add_command(app, "watch", "A line at every change, until Ctrl-C; with --json a document a line");
     command.add_option("--interval", options->interval_ms, "Milliseconds between two looks")
         ->capture_default_str()
-        ->check(CLI::Range(0, 60'000));
-    command.add_option("--for", options->seconds, "End after so many seconds; 0: at Ctrl-C")
-        ->check(CLI::NonNegativeNumber);
+        ->in_range(0, 60'000);
+    command.add_option("--for", options->seconds, "End after so many seconds; 0: at Ctrl-C")->non_negative();
     command.add_flag("--all", options->all, "A line at every look, changed or not");
     command.callback([options, &common] { work(common, [&](Session& s) { watch(s, *options); }); });
 }

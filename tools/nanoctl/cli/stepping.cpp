@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/subcommands.h"
 #include "nanoctl/words.h"
@@ -71,20 +72,20 @@ void go(Session& session, gw::Command order, const StepOptions& options) {
     }
 }
 
-void add(CLI::App& app, Common& common, gw::Command order, const char* text) {
+void add(arguments::App& app, Common& common, gw::Command order, const char* text) {
     const auto options = std::make_shared<StepOptions>();
-    CLI::App& command = add_command(app, std::string(name_of(order)), text);
-    command.add_option("times", options->times, "How often, 1 unless named")->check(CLI::Range(1, 10'000));
+    arguments::App& command = add_command(app, std::string(name_of(order)), text);
+    command.add_option("times", options->times, "How often, 1 unless named")->in_range(1, 10'000);
     command.add_option("--wait", options->seconds, "Seconds to wait for each")
         ->capture_default_str()
-        ->check(CLI::Range(1, 86'400));
+        ->in_range(1, 86'400);
     command.callback(
         [options, order, &common] { work(common, [&](Session& s) { go(s, order, *options); }); });
 }
 
 }  // namespace
 
-void add_stepping(CLI::App& app, Common& common) {
+void add_stepping(arguments::App& app, Common& common) {
     add(app, common, gw::Command::step,
         "Run until the step changes, then hold with the motor stopped; from stopped it starts");
     add(app, common, gw::Command::scan,

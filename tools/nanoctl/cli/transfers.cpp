@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "base/crc32.h"
 #include "cli/files.h"
@@ -139,9 +140,9 @@ void download_to(Session& session, const std::string& file) {
 
 }  // namespace
 
-void add_transfers(CLI::App& app, Common& common) {
+void add_transfers(arguments::App& app, Common& common) {
     const auto options = std::make_shared<UploadOptions>();
-    CLI::App& up =
+    arguments::App& up =
         add_command(app, "upload",
                     "Store a table in the gateway and make it the active one. The sequence must be "
                     "stopped for that, and the motor stand still (it is waited for 5 s)");
@@ -155,7 +156,7 @@ void add_transfers(CLI::App& app, Common& common) {
     up.callback([options, &common] { work(common, [&](Session& s) { upload_file(s, *options); }); });
 
     const auto verified = std::make_shared<std::pair<std::string, bool>>();
-    CLI::App& check = add_command(app, "verify", "Is this table the stored and the active one?");
+    arguments::App& check = add_command(app, "verify", "Is this table the stored and the active one?");
     check.add_option("table", verified->first, "The table, F.bin or F.hex")->required();
     check.add_flag("--bytes", verified->second, "Read every byte back, not only length and CRC");
     check.callback([verified, &common] {
@@ -163,7 +164,7 @@ void add_transfers(CLI::App& app, Common& common) {
     });
 
     const auto target = std::make_shared<std::string>();
-    CLI::App& down = add_command(app, "download", "Write the active table into a file");
+    arguments::App& down = add_command(app, "download", "Write the active table into a file");
     down.add_option("-o,--output", *target, "F.bin, or F.hex for Intel HEX")->required();
     down.callback([target, &common] { work(common, [&](Session& s) { download_to(s, *target); }); });
 }

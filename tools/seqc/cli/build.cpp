@@ -62,9 +62,9 @@ int check(const Options& options) {
 
 }  // namespace
 
-void add_build(CLI::App& app, int& exit_code) {
+void add_build(arguments::App& app, int& exit_code) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = *app.add_subcommand("build", "Compile a program into a table");
+    arguments::App& command = *app.add_subcommand("build", "Compile a program into a table");
     command.add_option("program", options->source, "The program, F.seq")->required();
     command.add_option("-o,--output", options->output,
                        "The table to write (default: F.bin beside the program); .hex or .ihx: Intel HEX");
@@ -81,9 +81,9 @@ void add_build(CLI::App& app, int& exit_code) {
     command.callback([options, &exit_code] { exit_code = build(*options); });
 }
 
-void add_check(CLI::App& app, int& exit_code) {
+void add_check(arguments::App& app, int& exit_code) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = *app.add_subcommand("check", "Report errors and warnings, write nothing");
+    arguments::App& command = *app.add_subcommand("check", "Report errors and warnings, write nothing");
     command.add_option("program", options->source, "The program, F.seq")->required();
     command.add_flag("--json", options->json, kJsonHelp);
     command.callback([options, &exit_code] { exit_code = check(*options); });

@@ -39,9 +39,9 @@ int decompile(const Options& options) {
 
 }  // namespace
 
-void add_decompile(CLI::App& app, int& exit_code) {
+void add_decompile(arguments::App& app, int& exit_code) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = *app.add_subcommand(
+    arguments::App& command = *app.add_subcommand(
         "decompile", "Turn a table into a readable program that compiles to the same bytes");
     command
         .add_option("table", options->table.file,

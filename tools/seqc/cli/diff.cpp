@@ -31,9 +31,9 @@ int diff(const Options& options) {
 
 }  // namespace
 
-void add_diff(CLI::App& app, int& exit_code) {
+void add_diff(arguments::App& app, int& exit_code) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = *app.add_subcommand(
+    arguments::App& command = *app.add_subcommand(
         "diff", "What B does otherwise than A, in words. Exit code 0: nothing, 1: something");
     command.add_option("A", options->before, "The older program or table")->required();
     command.add_option("B", options->now, "The newer one")->required();

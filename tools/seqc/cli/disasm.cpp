@@ -27,9 +27,9 @@ int disasm(const Options& options) {
 
 }  // namespace
 
-void add_disasm(CLI::App& app, int& exit_code) {
+void add_disasm(arguments::App& app, int& exit_code) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command =
+    arguments::App& command =
         *app.add_subcommand("disasm", "Print a table as a program of TERM lines, each explained");
     command
         .add_option("table", options->table.file,

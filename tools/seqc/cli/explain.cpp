@@ -109,9 +109,9 @@ int explain(const Options& options) {
 
 }  // namespace
 
-void add_explain(CLI::App& app, int& exit_code) {
+void add_explain(arguments::App& app, int& exit_code) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = *app.add_subcommand(
+    arguments::App& command = *app.add_subcommand(
         "explain", "Tell what an error or warning means, with a wrong and a right program");
     command.add_option("code", options->code, "Such as E012 or W004; without one all are listed");
     command.add_flag("--json", options->json, "Print it as JSON");

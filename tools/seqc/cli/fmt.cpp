@@ -99,16 +99,17 @@ int format_files(const Options& options) {
 
 }  // namespace
 
-void add_fmt(CLI::App& app, int& exit_code) {
+void add_fmt(arguments::App& app, int& exit_code) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = *app.add_subcommand("fmt", "Lay a program out in the one style, comments included");
+    arguments::App& command =
+        *app.add_subcommand("fmt", "Lay a program out in the one style, comments included");
     command.add_option("programs", options->programs, "The programs, F.seq; - is standard input")->required();
-    CLI::Option* output =
+    arguments::Option* output =
         command.add_option("-o,--output", options->output, "Write to a file instead of standard output (-)");
-    CLI::Option* in_place =
+    arguments::Option* in_place =
         command.add_flag("-i,--in-place", options->in_place,
                          "Rewrite the files that are not formatted, leave the others alone");
-    CLI::Option* check = command.add_flag(
+    arguments::Option* check = command.add_flag(
         "--check", options->check, "Write nothing; list the files that are not formatted, exit code 1");
     in_place->excludes(output)->excludes(check);
     check->excludes(output);

@@ -58,15 +58,15 @@ int graph(const Options& options) {
 
 }  // namespace
 
-void add_graph(CLI::App& app, int& exit_code) {
+void add_graph(arguments::App& app, int& exit_code) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = *app.add_subcommand("graph", "Draw a program or table, with Graphviz");
+    arguments::App& command = *app.add_subcommand("graph", "Draw a program or table, with Graphviz");
     command.add_option("file", options->table.file, "A program, F.seq, or a table")->required();
     add_symbols_option(command, options->table);
     command.add_option("-o,--output", options->output,
                        "F.svg, F.dot, F.pdf or F.png (default: SVG to standard output)");
     command.add_option("--format", options->format, "svg, dot, pdf or png, whatever the output is called")
-        ->check(CLI::IsMember(std::vector<std::string>(kFormats.begin(), kFormats.end())));
+        ->one_of(std::vector<std::string>(kFormats.begin(), kFormats.end()));
     command.callback([options, &exit_code] { exit_code = graph(*options); });
 }
 

@@ -111,7 +111,7 @@ Input read_input(const InputFile& named) {
     return input;
 }
 
-void add_symbols_option(CLI::App& command, InputFile& named) {
+void add_symbols_option(arguments::App& command, InputFile& named) {
     command
         .add_option("--symbols", named.symbols,
                     "Take a table's names from here (default: F.sym beside F.bin, if it fits)")

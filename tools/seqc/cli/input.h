@@ -1,11 +1,11 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "arguments/arguments.h"
 #include "cli/common.h"
 #include "seqc/seqc.h"
 
@@ -35,6 +35,6 @@ inline Input read_input(const std::string& file) {
 }
 
 /// `--symbols FILE`, the same in every subcommand that takes a table.
-void add_symbols_option(CLI::App& command, InputFile& named);
+void add_symbols_option(arguments::App& command, InputFile& named);
 
 }  // namespace nplc::seqc::cli

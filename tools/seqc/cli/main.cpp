@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -8,34 +7,29 @@
 #include <string>
 #include <system_error>
 
+#include "arguments/arguments.h"
 #include "cli/common.h"
 #include "cli/subcommands.h"
 
 namespace {
 
-std::string one_line(std::string text) {
-    while (!text.empty() && text.back() == '\n') text.pop_back();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
-
-void add_colour_option(CLI::App& app) {
+void add_colour_option(nplc::arguments::App& app) {
     using nplc::seqc::cli::ColourChoice;
     const std::map<std::string, ColourChoice> choices = {
         {"auto", ColourChoice::automatic}, {"always", ColourChoice::always}, {"never", ColourChoice::never}};
     app.fallthrough();  // it may stand behind the subcommand too
-    app.add_option_function<std::string>(
+    app.add_option_function(
            "--color",
            [choices](const std::string& text) { nplc::seqc::cli::colour_choice() = choices.at(text); },
            "Colours: auto (on a terminal, unless NO_COLOR is set), always or never")
-        ->check(CLI::IsMember({"auto", "always", "never"}));
+        ->one_of({"auto", "always", "never"});
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     using namespace nplc::seqc::cli;
-    CLI::App app(
+    nplc::arguments::App app(
         "Compiles sequence programs into tables for a NanoPLC gateway, and tables back into programs.");
     app.require_subcommand(1);
     app.set_version_flag("--version", std::string("seqc ") + NPLC_VERSION);
@@ -56,10 +50,11 @@ int main(int argc, char** argv) {
     add_graph(app, exit_code);
     add_report(app, exit_code);
     try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);
-        return file_problem(fmt::format("{} (see seqc --help)", one_line(error.what())));
+        using Kind = nplc::arguments::Outcome::Kind;
+        const auto outcome = app.parse(argc, argv);
+        if (outcome.kind == Kind::told) return outcome.exit_code;
+        if (outcome.kind == Kind::wrong)
+            return file_problem(fmt::format("{} (see seqc --help)", outcome.error));
     } catch (const std::filesystem::filesystem_error& error) {
         return file_problem(error.what());
     } catch (const std::system_error& error) {

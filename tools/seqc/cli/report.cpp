@@ -32,18 +32,18 @@ int report(const Options& options) {
 
 }  // namespace
 
-void add_report(CLI::App& app, int& exit_code) {
+void add_report(arguments::App& app, int& exit_code) {
     constexpr std::uint32_t kSlowest = 300;
     constexpr std::uint32_t kFastest = 4'000'000;
     const auto options = std::make_shared<Options>();
-    CLI::App& command = *app.add_subcommand(
+    arguments::App& command = *app.add_subcommand(
         "report", "What a program or table uses, and how long its switches keep the motor's line");
     command.add_option("file", options->table.file, "A program, F.seq, or a table")->required();
     add_symbols_option(command, options->table);
     command.add_option("-o,--output", options->output, "Write to a file instead of standard output (-)");
     command.add_flag("--json", options->json, "JSON for other programs");
     command.add_option("--baud", options->baud, "Of the motor's line (default 19200)")
-        ->check(CLI::Range(kSlowest, kFastest));
+        ->in_range(kSlowest, kFastest);
     command.add_flag("--rapid", options->rapid, "Rapid communication: each command once, not twice");
     command.callback([options, &exit_code] { exit_code = report(*options); });
 }

@@ -1,18 +1,18 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "arguments/arguments.h"
 
 /// Each adds one subcommand, whose callback does its work and leaves the exit code.
 namespace nplc::seqc::cli {
 
-void add_build(CLI::App& app, int& exit_code);
-void add_check(CLI::App& app, int& exit_code);
-void add_decompile(CLI::App& app, int& exit_code);
-void add_diff(CLI::App& app, int& exit_code);
-void add_disasm(CLI::App& app, int& exit_code);
-void add_explain(CLI::App& app, int& exit_code);
-void add_fmt(CLI::App& app, int& exit_code);
-void add_graph(CLI::App& app, int& exit_code);
-void add_report(CLI::App& app, int& exit_code);
+void add_build(arguments::App& app, int& exit_code);
+void add_check(arguments::App& app, int& exit_code);
+void add_decompile(arguments::App& app, int& exit_code);
+void add_diff(arguments::App& app, int& exit_code);
+void add_disasm(arguments::App& app, int& exit_code);
+void add_explain(arguments::App& app, int& exit_code);
+void add_fmt(arguments::App& app, int& exit_code);
+void add_graph(arguments::App& app, int& exit_code);
+void add_report(arguments::App& app, int& exit_code);
 
 }  // namespace nplc::seqc::cli

@@ -21,6 +21,6 @@ struct About {
 };
 
 /// Adds `completion` and `man`, written from the command line's own description.
-void add_generated(CLI::App& app, Common& common, About about);
+void add_generated(arguments::App& app, Common& common, About about);
 
 }  // namespace nplc::command_line

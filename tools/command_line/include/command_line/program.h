@@ -1,13 +1,13 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <stdexcept>
 #include <string>
 
+#include "arguments/arguments.h"
 #include "mactalk_client/wire.h"
 
 /// What the programs that talk over a MacTalk line have in common: options, exit codes, signals, how results
@@ -24,17 +24,18 @@ enum Exit : int {
 
 using Json = nlohmann::ordered_json;
 
-/// One line for a person and the program's exit code. `details` go into the document of --json.
+/// One line for a person and the program's exit code. `details` go into the document of --json. Who throws
+/// one with details, or tells something, includes <nlohmann/json.hpp>.
 class Failure : public std::runtime_error {
   public:
-    Failure(int exit_code, const std::string& what, Json details = Json::object())
-        : std::runtime_error(what), exit_code_(exit_code), details_(std::move(details)) {}
+    Failure(int exit_code, const std::string& what);
+    Failure(int exit_code, const std::string& what, const Json& details);
     int exit_code() const { return exit_code_; }
-    const Json& details() const { return details_; }
+    const Json& details() const { return *details_; }
 
   private:
     int exit_code_;
-    Json details_;
+    std::shared_ptr<const Json> details_;
 };
 
 /// Wrong usage or a file.
@@ -56,13 +57,13 @@ struct Common {
 };
 
 /// --port (or the environment's PROGRAM_PORT), --baud, --patience, --json. `of_whom` is "the gateway".
-void add_line_options(CLI::App& app, Common& common, const std::string& of_whom);
+void add_line_options(arguments::App& app, Common& common, const std::string& of_whom);
 
 /// A subcommand that has the common options too.
-CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& text);
+arguments::App& add_command(arguments::App& app, const std::string& name, const std::string& text);
 
 /// Reads the command line and carries it out; the program's exit code.
-int run(CLI::App& app, Common& common, int argc, char** argv);
+int run(arguments::App& app, Common& common, int argc, char** argv);
 
 /// Throws UserError without a port, LineError if it cannot be opened.
 std::unique_ptr<mactalk_client::Wire> open_port(const Common& common);
@@ -72,9 +73,6 @@ void guard(Common& common, const std::function<void()>& what);
 
 /// A line for a person, or the same as a JSON document on one line, with "ok".
 void tell(const Common& common, const std::string& text, const Json& document);
-
-/// Tells what went wrong, with --json as a document too.
-void fail(Common& common, int exit_code, const std::string& text, const Json& details = Json::object());
 
 /// Until SIGINT or SIGTERM came. A second one ends the program at once.
 bool goes_on();

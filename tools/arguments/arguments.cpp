@@ -1,0 +1,230 @@
+#include "arguments/arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+namespace nplc::arguments {
+namespace {
+
+CLI::Option& cli(void* option) {
+    return *static_cast<CLI::Option*>(option);
+}
+
+std::string one_line(std::string text) {
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return text;
+}
+
+OptionText text_of(const CLI::Option& option) {
+    return {.long_names = option.get_lnames(),
+            .names = option.get_name(option.get_positional(), true),
+            .positional = option.get_positional() ? option.get_name(true) : std::string(),
+            .description = option.get_description()};
+}
+
+}  // namespace
+
+Option* Option::required() {
+    cli(option_).required();
+    return this;
+}
+
+Option* Option::type_name(const std::string& name) {
+    cli(option_).type_name(name);
+    return this;
+}
+
+Option* Option::envname(const std::string& variable) {
+    cli(option_).envname(variable);
+    return this;
+}
+
+Option* Option::capture_default_str() {
+    cli(option_).capture_default_str();
+    return this;
+}
+
+Option* Option::delimiter(char between_values) {
+    cli(option_).delimiter(between_values);
+    return this;
+}
+
+Option* Option::repeatable() {
+    cli(option_).expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    return this;
+}
+
+Option* Option::each(const std::function<void(const std::string&)>& take) {
+    cli(option_).each(take);
+    return this;
+}
+
+Option* Option::in_range(int min, int max) {
+    cli(option_).check(CLI::Range(min, max));
+    return this;
+}
+
+Option* Option::in_range(std::uint32_t min, std::uint32_t max) {
+    cli(option_).check(CLI::Range(min, max));
+    return this;
+}
+
+Option* Option::in_range(double min, double max) {
+    cli(option_).check(CLI::Range(min, max));
+    return this;
+}
+
+Option* Option::non_negative() {
+    cli(option_).check(CLI::NonNegativeNumber);
+    return this;
+}
+
+Option* Option::one_of(const std::vector<std::string>& words) {
+    cli(option_).check(CLI::IsMember(words));
+    return this;
+}
+
+Option* Option::excludes(Option* other) {
+    cli(option_).excludes(&cli(other->option_));
+    return this;
+}
+
+Option* Option::excludes(const std::string& other) {
+    cli(option_).excludes(other);
+    return this;
+}
+
+struct App::Parts {
+    std::unique_ptr<CLI::App> own;  ///< of the program; a command's belongs to CLI11
+    CLI::App* app;
+    std::vector<std::unique_ptr<Option>> options{};
+    std::vector<std::unique_ptr<App>> commands{};
+};
+
+App::App(const std::string& description, const std::string& name) : parts_(std::make_unique<Parts>()) {
+    parts_->own = std::make_unique<CLI::App>(description, name);
+    parts_->app = parts_->own.get();
+}
+
+App::App(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+
+App::~App() = default;
+
+Option* App::kept(void* option) {
+    return parts_->options.emplace_back(new Option(option)).get();
+}
+
+Option* App::add_option(const std::string& name, std::string& variable, const std::string& description) {
+    return kept(parts_->app->add_option(name, variable, description));
+}
+
+Option* App::add_option(const std::string& name, std::optional<std::string>& variable,
+                        const std::string& description) {
+    return kept(parts_->app->add_option(name, variable, description));
+}
+
+Option* App::add_option(const std::string& name, std::vector<std::string>& variable,
+                        const std::string& description) {
+    return kept(parts_->app->add_option(name, variable, description));
+}
+
+Option* App::add_option(const std::string& name, int& variable, const std::string& description) {
+    return kept(parts_->app->add_option(name, variable, description));
+}
+
+Option* App::add_option(const std::string& name, std::uint32_t& variable, const std::string& description) {
+    return kept(parts_->app->add_option(name, variable, description));
+}
+
+Option* App::add_option(const std::string& name, std::uint64_t& variable, const std::string& description) {
+    return kept(parts_->app->add_option(name, variable, description));
+}
+
+Option* App::add_option(const std::string& name, double& variable, const std::string& description) {
+    return kept(parts_->app->add_option(name, variable, description));
+}
+
+Option* App::add_option(const std::string& name, const std::string& description) {
+    return kept(parts_->app->add_option(name, description));
+}
+
+Option* App::add_option_function(const std::string& name, const std::function<void(const std::string&)>& take,
+                                 const std::string& description) {
+    return kept(parts_->app->add_option_function<std::string>(name, take, description));
+}
+
+Option* App::add_flag(const std::string& name, bool& variable, const std::string& description) {
+    return kept(parts_->app->add_flag(name, variable, description));
+}
+
+void App::set_version_flag(const std::string& name, const std::string& text) {
+    parts_->app->set_version_flag(name, text);
+}
+
+App* App::add_subcommand(const std::string& name, const std::string& description) {
+    auto parts = std::make_unique<Parts>();
+    parts->app = parts_->app->add_subcommand(name, description);
+    return parts_->commands.emplace_back(new App(std::move(parts))).get();
+}
+
+void App::require_subcommand(unsigned count) {
+    parts_->app->require_subcommand(static_cast<int>(count));
+}
+
+void App::fallthrough() {
+    parts_->app->fallthrough();
+}
+
+void App::callback(const std::function<void()>& work) {
+    parts_->app->callback(work);
+}
+
+void App::footer(const std::string& text) {
+    parts_->app->footer(text);
+}
+
+Outcome App::parse(int argc, const char* const* argv) {
+    try {
+        parts_->app->parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0)
+            return {.kind = Outcome::Kind::told, .exit_code = parts_->app->exit(error)};
+        return {.kind = Outcome::Kind::wrong,
+                .error = one_line(error.what()),
+                .rest = parts_->app->remaining(true)};
+    }
+    return {};
+}
+
+bool App::got_subcommand(const std::string& name) const {
+    return parts_->app->got_subcommand(name);
+}
+
+std::string App::get_name() const {
+    return parts_->app->get_name();
+}
+
+std::string App::get_description() const {
+    return parts_->app->get_description();
+}
+
+std::string App::get_footer() const {
+    return parts_->app->get_footer();
+}
+
+std::vector<const App*> App::get_subcommands() const {
+    std::vector<const App*> all;
+    for (const auto& command : parts_->commands) all.push_back(command.get());
+    return all;
+}
+
+std::vector<OptionText> App::get_options() const {
+    std::vector<OptionText> all;
+    for (const CLI::Option* option : std::as_const(*parts_->app).get_options())
+        all.push_back(text_of(*option));
+    return all;
+}
+
+}  // namespace nplc::arguments

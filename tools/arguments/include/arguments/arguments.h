@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// A command line: options, flags and commands, their help, and what is wrong with one. Names and behaviour
+/// are CLI11's, whose headers take long to compile and are included in arguments.cpp alone.
+namespace nplc::arguments {
+
+/// One option, flag or argument while it is described; it belongs to its App. Each returns itself.
+class Option {
+  public:
+    Option* required();
+    Option* type_name(const std::string& name);
+    Option* envname(const std::string& variable);
+    /// The variable's present value stands in the help as the default.
+    Option* capture_default_str();
+    Option* delimiter(char between_values);
+    /// May stand several times, with one value each.
+    Option* repeatable();
+    /// Called with each value.
+    Option* each(const std::function<void(const std::string&)>& take);
+
+    /// Both limits included. The help names them with their type.
+    Option* in_range(int min, int max);
+    Option* in_range(std::uint32_t min, std::uint32_t max);
+    Option* in_range(double min, double max);
+    Option* non_negative();
+    Option* one_of(const std::vector<std::string>& words);
+
+    Option* excludes(Option* other);
+    /// One that is there already, with its dashes.
+    Option* excludes(const std::string& other);
+
+  private:
+    friend class App;
+    explicit Option(void* option) : option_(option) {}
+    void* option_;  ///< a CLI::Option
+};
+
+/// An option as it was described, for pages that are written from it.
+struct OptionText {
+    std::vector<std::string> long_names{};  ///< without dashes
+    std::string names;                      ///< all of them as in the help: -o,--output
+    std::string positional;                 ///< an argument's name; empty for an option
+    std::string description;
+};
+
+struct Outcome {
+    enum class Kind : std::uint8_t {
+        done,   ///< understood, and the callbacks were called
+        told,   ///< help or version has been printed
+        wrong,  ///< see `error`
+    };
+    Kind kind = Kind::done;
+    int exit_code = 0;                ///< when `told`
+    std::string error{};              ///< one line
+    std::vector<std::string> rest{};  ///< with `wrong`: words that nobody took
+};
+
+/// A program's command line, or one of its commands. Variables must live as long as it.
+class App {
+  public:
+    explicit App(const std::string& description, const std::string& name = {});
+    ~App();
+    App(const App&) = delete;
+    App& operator=(const App&) = delete;
+
+    Option* add_option(const std::string& name, std::string& variable, const std::string& description);
+    Option* add_option(const std::string& name, std::optional<std::string>& variable,
+                       const std::string& description);
+    Option* add_option(const std::string& name, std::vector<std::string>& variable,
+                       const std::string& description);
+    Option* add_option(const std::string& name, int& variable, const std::string& description);
+    Option* add_option(const std::string& name, std::uint32_t& variable, const std::string& description);
+    Option* add_option(const std::string& name, std::uint64_t& variable, const std::string& description);
+    Option* add_option(const std::string& name, double& variable, const std::string& description);
+    /// Its values go to `each`.
+    Option* add_option(const std::string& name, const std::string& description);
+    Option* add_option_function(const std::string& name, const std::function<void(const std::string&)>& take,
+                                const std::string& description);
+    Option* add_flag(const std::string& name, bool& variable, const std::string& description);
+    void set_version_flag(const std::string& name, const std::string& text);
+
+    App* add_subcommand(const std::string& name, const std::string& description);
+    void require_subcommand(unsigned count);
+    /// Options that a command does not know are looked for in the App above it.
+    void fallthrough();
+    void callback(const std::function<void()>& work);
+    void footer(const std::string& text);
+
+    /// Prints help or version when asked to. What a callback throws comes through.
+    Outcome parse(int argc, const char* const* argv);
+    bool got_subcommand(const std::string& name) const;
+
+    std::string get_name() const;
+    std::string get_description() const;
+    std::string get_footer() const;
+    std::vector<const App*> get_subcommands() const;
+    std::vector<OptionText> get_options() const;
+
+  private:
+    struct Parts;
+    explicit App(std::unique_ptr<Parts> parts);
+    Option* kept(void* option);
+
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace nplc::arguments
