@@ -190,6 +190,8 @@ TEST_F(UiTest, RecordsWhatIsNamedAndRemembersIt) {
 TEST_F(UiTest, HelpGoesWithAnyKey) {
     type("?");
     EXPECT_TRUE(model.shows_help());
+    key(Key::none);  // time passes
+    EXPECT_TRUE(model.shows_help());
     EXPECT_EQ(type("q").kind, Kind::none);
     EXPECT_FALSE(model.shows_help());
 }

@@ -58,7 +58,7 @@ UiModel::UiModel(registers::Model model) : model_(model) {
 
 Wish UiModel::press(KeyPress key) {
     if (help_) {
-        help_ = false;
+        help_ = key.key == Key::none;  // nobody pressed one
         return {};
     }
     if (prompt_.kind != Prompt::Kind::none) return answer_prompt(key);
