@@ -1,6 +1,8 @@
 #include "command_line/program.h"
 
 #include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -94,6 +96,7 @@ std::unique_ptr<mactalk_client::Wire> open_port(const Common& common) {
         throw UserError(
             fmt::format("no port; name one with --port or in the environment's {}", port_variable(common)));
     auto opened = mactalk_client::open_wire(common.port, common.baud);
+    if (opened.never) throw UserError(opened.error);
     if (opened.wire == nullptr)
         throw mactalk_client::LineError(mactalk_client::LineError::Kind::port_gone, opened.error);
     return std::move(opened.wire);
@@ -128,6 +131,11 @@ void fail(Common& common, int exit_code, const std::string& text, const Json& de
         fmt::print("{}\n", one_line(whole));
     }
     fmt::print(stderr, "{}: {}\n", common.program, text);
+}
+
+bool output_has_reader() {
+    pollfd output{.fd = STDOUT_FILENO, .events = 0, .revents = 0};
+    return ::poll(&output, 1, 0) <= 0 || (output.revents & (POLLERR | POLLHUP)) == 0;
 }
 
 bool goes_on() {

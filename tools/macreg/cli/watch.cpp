@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "cli/subcommands.h"
@@ -18,6 +19,9 @@ struct Options {
     double seconds = 0;
     bool all = false;
 };
+
+/// Between two looks whether it is to end.
+constexpr base::Microseconds kLook{100'000};
 
 /// What one wants to see of any motor.
 const std::vector<std::string> kUsual{"MODE_REG", "P_SOLL", "P_IST",  "V_SOLL",
@@ -89,9 +93,15 @@ void watch(Session& session, const Options& options) {
     Table table(session, options, registers);
     const base::Instant begun = session.now();
     const base::Microseconds limit{static_cast<std::int64_t>(options.seconds * 1e6)};
-    while (goes_on() && (options.seconds == 0 || session.now() - begun < limit)) {
+    const auto ends = [&] {
+        return !goes_on() || !command_line::output_has_reader() ||
+               (options.seconds > 0 && session.now() - begun >= limit);
+    };
+    while (!ends()) {
         table.show(session.motor().read_block(registers));
-        session.pause(base::Milliseconds{options.interval_ms});
+        const base::Instant next = session.now() + base::Milliseconds{options.interval_ms};
+        while (session.now() < next && !ends())
+            session.pause(std::min<base::Microseconds>(kLook, next - session.now()));
     }
 }
 
