@@ -50,12 +50,15 @@ class Case(unittest.TestCase):
                                 text=True, check=check, env={**os.environ, "LC_ALL": "C.UTF-8"})
         return result.stdout
 
-    def start(self, columns=80, rows=24, locale="C.UTF-8", term="screen-256color"):
+    def start(self, columns=80, rows=24, locale="C.UTF-8", term="screen-256color", keys=None):
         """The screen within a shell that tells how it ended and how it found the terminal. A motor that is there answers some
         day; how long a slow machine takes is not what is tested."""
         script = (f"stty -g > {self.path('before')}; LC_ALL={locale} TERM={term} {MACREG} --port {self.path('m')} "
                   f"--patience 20000 ui; echo ended with $?; stty -g > {self.path('after')}; echo all done; sleep 600")
         self.tmux("new-session", "-d", "-x", str(columns), "-y", str(rows), "sh -c " + shlex.quote(script))
+        if keys is not None:
+            self.keys(keys)
+            return
         self.until("INIT_MODE, no error")
 
     def screen(self):
@@ -128,6 +131,27 @@ class Screen(Case):
         self.until("type yes")
         self.keys("n", "Enter")
         self.until("not confirmed, nothing was written")
+        self.keys("q")
+        self.assert_ended(0)
+
+    def test_keys_before_the_first_reading_act(self):
+        self.start(keys="?")
+        self.until("Any key goes back")
+        self.keys("x")
+        self.until("INIT_MODE, no error", "[Parameters]")
+        self.keys("q")
+        self.assert_ended(0)
+
+    def test_a_refusal_is_shown_with_its_remedy(self):
+        self.start()
+        self.select("MODE_REG")
+        self.keys("w")
+        self.until("MODE_REG (")
+        self.type("256")
+        self.keys("Enter")
+        self.until("MODE_REG: 256 to 258 rewrite flash", "ask first")
+        self.keys("Escape")
+        self.until("/ search")
         self.keys("q")
         self.assert_ended(0)
 
