@@ -1,8 +1,6 @@
 #include "command_line/program.h"
 
 #include <fmt/format.h>
-#include <poll.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -131,11 +129,6 @@ void fail(Common& common, int exit_code, const std::string& text, const Json& de
         fmt::print("{}\n", one_line(whole));
     }
     fmt::print(stderr, "{}: {}\n", common.program, text);
-}
-
-bool output_has_reader() {
-    pollfd output{.fd = STDOUT_FILENO, .events = 0, .revents = 0};
-    return ::poll(&output, 1, 0) <= 0 || (output.revents & (POLLERR | POLLHUP)) == 0;
 }
 
 bool goes_on() {

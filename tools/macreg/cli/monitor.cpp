@@ -143,7 +143,7 @@ void listen(const Common& common, const Options& options) {
     const base::Instant start = lines.front().wire->now();
     constexpr base::Microseconds kWait{10'000};
     std::array<std::uint8_t, 256> bytes{};
-    while (goes_on() && command_line::output_has_reader()) {
+    while (goes_on() && output_has_reader()) {
         for (Line& line : lines) {
             const auto count = line.wire->read(bytes, kWait);
             if (!count) {

@@ -74,6 +74,9 @@ void guard(Common& common, const std::function<void()>& what);
 /// Of -o: empty for standard output, which is "-"; throws UserError if it names nothing.
 std::string output_file(const std::string& option);
 
+/// False once who reads standard output is gone: what writes seldom learns of it here.
+bool output_has_reader();
+
 /// "1 register", "2 registers"
 std::string counted(std::size_t count, const std::string& what);
 

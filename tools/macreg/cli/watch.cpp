@@ -94,8 +94,7 @@ void watch(Session& session, const Options& options) {
     const base::Instant begun = session.now();
     const base::Microseconds limit{static_cast<std::int64_t>(options.seconds * 1e6)};
     const auto ends = [&] {
-        return !goes_on() || !command_line::output_has_reader() ||
-               (options.seconds > 0 && session.now() - begun >= limit);
+        return !goes_on() || !output_has_reader() || (options.seconds > 0 && session.now() - begun >= limit);
     };
     while (!ends()) {
         table.show(session.motor().read_block(registers));

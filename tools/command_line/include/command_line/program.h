@@ -76,9 +76,6 @@ void tell(const Common& common, const std::string& text, const Json& document);
 /// Tells what went wrong, with --json as a document too.
 void fail(Common& common, int exit_code, const std::string& text, const Json& details = Json::object());
 
-/// False once who reads standard output is gone: what writes seldom learns of it here.
-bool output_has_reader();
-
 /// Until SIGINT or SIGTERM came. A second one ends the program at once.
 bool goes_on();
 
