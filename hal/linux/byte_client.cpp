@@ -27,9 +27,11 @@ ByteClient::Opened ByteClient::open(const std::string& endpoint, std::uint32_t b
     if (const auto where = after("tcp"); where && !where->empty()) return open_tcp_client(*where);
     if (endpoint.find('/') != std::string::npos && endpoint.find(':') > endpoint.find('/'))
         return open_terminal_client(endpoint, endpoint, baud);
-    return {nullptr, "'" + endpoint +
-                         "': write a serial line's path such as /dev/ttyUSB0, or pty:PATH, unix:PATH or "
-                         "tcp:127.0.0.1:PORT"};
+    return {nullptr,
+            "'" + endpoint +
+                "': write a serial line's path such as /dev/ttyUSB0, or pty:PATH, unix:PATH or "
+                "tcp:127.0.0.1:PORT",
+            true};
 }
 
 bool DescriptorClient::write(std::span<const std::uint8_t> bytes) {
