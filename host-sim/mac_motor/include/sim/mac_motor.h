@@ -152,6 +152,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     static void clear_volatile(MotorMemory& memory);
     void load_parameters(std::uint16_t command);
     void run_sample_buffer();
+    bool records_inner(std::uint32_t control) const;
     void rewind_samples();
     void record();
     void inner_sample() override;
