@@ -37,13 +37,14 @@ class Plant {
 
     /// Before the steps of a sample: the load as it is now.
     void take_load() {
-        if (load_.inertia_256 != inertia_256_) {
-            inertia_256_ = load_.inertia_256;
-            of_one_ = acceleration_of_one_ * 256 / std::max(inertia_256_ - elsewhere_256_, 1.0);
-        }
         const std::int32_t friction = std::max(load_.friction_torque + holding_, 0);
-        friction_ = friction * of_one_;
-        sticking_ = friction == 0 ? 0 : (friction + kStick) * of_one_;
+        if (load_.inertia_256 != inertia_256_ || friction != friction_torque_) {
+            inertia_256_ = load_.inertia_256;
+            friction_torque_ = friction;
+            of_one_ = acceleration_of_one_ * 256 / std::max(inertia_256_ - elsewhere_256_, 1.0);
+            friction_ = friction * of_one_;
+            sticking_ = friction == 0 ? 0 : (friction + kStick) * of_one_;
+        }
         pull_ = load_.torque;
         has_stops_ = load_.low_stop || load_.high_stop;
     }
@@ -102,10 +103,11 @@ class Plant {
     Load load_;
     std::int32_t holding_ = 0;       // of the brake
     std::int32_t inertia_256_ = -1;  // that of_one_ is for
-    double of_one_ = 0;              // of torque 1 on motor and load, counts/step^2
-    double friction_ = 0;            // counts/step^2
-    double sticking_ = 0;            // the same where the shaft is slow
-    double pull_ = 0;                // torque
+    std::int32_t friction_torque_ = -1;
+    double of_one_ = 0;    // of torque 1 on motor and load, counts/step^2
+    double friction_ = 0;  // counts/step^2
+    double sticking_ = 0;  // the same where the shaft is slow
+    double pull_ = 0;      // torque
     bool has_stops_ = false;
     std::int64_t position_ = 0;  // 1/kCount counts
     double velocity_ = 0;        // counts/step
