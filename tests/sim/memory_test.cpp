@@ -28,6 +28,28 @@ TEST(Memory, SmallMotorsKeepLongwordsInTwoNumbersLowFirst) {
     EXPECT_EQ(m.read(255, true), 0x12345678U);
 }
 
+// The program has each register by the sign and width that the manual's table gives it, whatever wrote it. R:
+// but KVOUT and L1..L4, which are no less than 1, and AMPLITUDE; 154 and 158 it does not use.
+TEST(Memory, WordsFromTheLineAreNumbersOfTheirRegister) {
+    constexpr auto kModel = registers::Model::mac140;
+    MotorMemory m(kModel);
+    int looked_at = 0;
+    for (int number = 1; number < 256; ++number) {
+        const auto reg = static_cast<std::uint8_t>(number);
+        const registers::Register* entry = registers::find(kModel, reg);
+        const bool ours = number == KVOUT || (number >= L1 && number < L1 + 4) || number == 127 ||
+                          number == 154 || number == 158;
+        if (entry == nullptr || ours) continue;
+        ++looked_at;
+        const bool wide = registers::is_32_bit(entry->format);
+        m.write(reg, 0xFFFF'FFFE, wide);
+        const std::int32_t expected = wide || entry->min < 0 ? -2 : 0xFFFE;
+        EXPECT_EQ(m.get(cell::word(reg, reg)), expected) << number;
+        EXPECT_EQ(m.read(reg, wide), wide ? 0xFFFF'FFFE : 0xFFFE) << number;
+    }
+    EXPECT_GT(looked_at, 100);
+}
+
 TEST(Memory, LongwordIntoAWordRegisterReachesTheNext) {
     MotorBench b;
     b.motor.write(V_SOLL, 0x00640320, true);
