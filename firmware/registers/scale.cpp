@@ -52,6 +52,8 @@ Factor length(string_view unit, const ExactScale& scale) {
 /// Counts a second.
 Factor speed(string_view unit, const ExactScale& scale) {
     if (same_name(unit, "rpm")) return Ratio{scale.counts_per_rev, 1} / Ratio{60, 1};
+    if (const string_view of_length = before(unit, "/sample"); !of_length.empty())
+        return scaled(length(of_length, scale), scale.samples_per_second);
     return length(before(unit, "/s"), scale);
 }
 

@@ -62,7 +62,7 @@ ByteClient::Opened ByteClient::open(const std::string& endpoint, std::uint32_t b
     if (const auto where = after("tcp"); where && !where->empty()) return hal_linux::open_tcp_client(*where);
     if (endpoint.find('/') != std::string::npos && endpoint.find(':') > endpoint.find('/'))
         return hal_linux::open_terminal_client(endpoint, endpoint, baud);
-    return {nullptr, "'" + endpoint + "': write " + forms()};
+    return {nullptr, "'" + endpoint + "': write " + forms(), true};
 }
 
 std::string ByteClient::forms() {

@@ -44,7 +44,7 @@ int join(int socket, const sockaddr* address, socklen_t size) {
 host::ByteClient::Opened open_unix_client(const std::string& path) {
     const std::string name = "unix:" + path;
     const auto address = unix_address(path);
-    if (!address) return {nullptr, name + ": the path is too long for a socket; name a shorter one"};
+    if (!address) return {nullptr, name + ": the path is too long for a socket; name a shorter one", true};
     FileDescriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
     const int reason =
         socket ? join(socket.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address) : errno;
@@ -56,7 +56,7 @@ host::ByteClient::Opened open_tcp_client(const std::string& where) {
     const std::string name = "tcp:" + where;
     const auto address = tcp_address(where);
     if (!address || address->sin_port == 0)
-        return {nullptr, name + ": write tcp:127.0.0.1:PORT (this machine only), PORT 1..65535"};
+        return {nullptr, name + ": write tcp:127.0.0.1:PORT (this machine only), PORT 1..65535", true};
     FileDescriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
     const int reason =
         socket ? join(socket.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address) : errno;

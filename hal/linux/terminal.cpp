@@ -23,4 +23,9 @@ bool input_within(base::Milliseconds wait) {
     return ::poll(&input, 1, static_cast<int>(wait.count())) > 0;
 }
 
+bool output_has_reader() {
+    pollfd output{.fd = STDOUT_FILENO, .events = 0, .revents = 0};
+    return ::poll(&output, 1, 0) <= 0 || (output.revents & (POLLERR | POLLHUP)) == 0;
+}
+
 }  // namespace nplc::host

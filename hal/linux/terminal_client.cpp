@@ -112,9 +112,11 @@ host::ByteClient::Opened open_terminal_client(const std::string& path, const std
         if (known.baud == baud) speed = &known;
     }
     if (speed == nullptr)
-        return {nullptr, name + ": no serial line has " + std::to_string(baud) +
-                             " baud; take 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, "
-                             "460800 or 921600"};
+        return {nullptr,
+                name + ": no serial line has " + std::to_string(baud) +
+                    " baud; take 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, "
+                    "460800 or 921600",
+                true};
     FileDescriptor terminal(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
     if (!terminal) return {nullptr, cannot_open(name, path, errno)};
     termios before{};

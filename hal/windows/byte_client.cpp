@@ -37,8 +37,8 @@ ByteClient::Opened ByteClient::open(const std::string& endpoint, std::uint32_t b
     if (endpoint.starts_with("tcp:") && endpoint.size() > 4)
         return hal_windows::open_tcp_client(endpoint.substr(4));
     if (endpoint.starts_with("pty:") || endpoint.starts_with("unix:"))
-        return {nullptr, "'" + endpoint + "': Windows has no such lines; write " + forms()};
-    return {nullptr, "'" + endpoint + "': write " + forms()};
+        return {nullptr, "'" + endpoint + "': Windows has no such lines; write " + forms(), true};
+    return {nullptr, "'" + endpoint + "': write " + forms(), true};
 }
 
 std::string ByteClient::forms() {

@@ -110,8 +110,10 @@ host::ByteClient::Opened open_com_client(const std::string& port, std::uint32_t 
     if (!::GetCommState(handle.get(), &before)) return {nullptr, port + ": this is not a serial line"};
     DCB mode = raw_mode(before, baud);
     if (!::SetCommState(handle.get(), &mode))
-        return {nullptr, port + ": cannot be set to " + std::to_string(baud) +
-                             " baud: " + error_words(::GetLastError())};
+        return {
+            nullptr,
+            port + ": cannot be set to " + std::to_string(baud) + " baud: " + error_words(::GetLastError()),
+            true};
     ::PurgeComm(handle.get(), PURGE_RXCLEAR | PURGE_TXCLEAR);
     return {std::make_unique<ComClient>(std::move(handle), port, before), {}};
 }

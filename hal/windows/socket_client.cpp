@@ -129,7 +129,7 @@ host::ByteClient::Opened open_tcp_client(const std::string& where) {
     const std::string name = "tcp:" + where;
     const auto known = host::loopback_address(where);
     if (!known || known->port == 0)
-        return {nullptr, name + ": write tcp:127.0.0.1:PORT (this machine only), PORT 1..65535"};
+        return {nullptr, name + ": write tcp:127.0.0.1:PORT (this machine only), PORT 1..65535", true};
     if (!start_sockets()) return {nullptr, name + ": Windows' sockets cannot be used"};
     sockaddr_in address{};
     address.sin_family = AF_INET;

@@ -44,4 +44,11 @@ bool input_within(base::Milliseconds wait) {
     return ::WaitForSingleObject(input, static_cast<DWORD>(wait.count())) == WAIT_OBJECT_0;
 }
 
+bool output_has_reader() {
+    const HANDLE output = ::GetStdHandle(STD_OUTPUT_HANDLE);
+    if (::GetFileType(output) != FILE_TYPE_PIPE) return true;
+    DWORD written = 0;
+    return ::WriteFile(output, "", 0, &written, nullptr) != 0;
+}
+
 }  // namespace nplc::host

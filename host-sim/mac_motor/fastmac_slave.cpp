@@ -9,6 +9,7 @@ namespace fastmac = protocol::fastmac;
 namespace flexmac = protocol::flexmac;
 
 constexpr std::size_t kReplyBuffer = 64;
+constexpr int kCharacter = 10;  // bits
 
 // R: the read indices of 001 §5.2.2 whose registers have another number on MAC800 (004).
 std::uint8_t mac800_number(std::uint8_t reg) {
@@ -42,26 +43,31 @@ void FastMacSlave::power_up() {
     address_due_in_.reset();
 }
 
-base::Microseconds FastMacSlave::characters(int count) const {
-    constexpr std::int64_t kBits = 10;
-    return base::Microseconds(kBits * 1'000'000 * count / options_.baud);
+base::Microseconds FastMacSlave::bits(int count) const {
+    return base::Microseconds(std::int64_t{1'000'000} * count / options_.baud);
 }
 
 void FastMacSlave::receive(std::uint8_t byte, bool framing_error, base::Instant now, LinkTarget& motor) {
-    const bool pause = last_received_ && now - *last_received_ >= characters(1 + 2);
+    // R: a line that was idle for the nine bits after a start bit: the next one is a start bit again.
+    constexpr int kInStep = kCharacter + 9;
+    const base::Microseconds since = last_received_ ? now - *last_received_ : base::Microseconds(0);
     last_received_ = now;
-    if (pause || framing_error) {
+    if (since >= bits(3 * kCharacter) || framing_error) {
         receiver_.break_pair();
         decoder_.abandon();
     }
-    framing_error_ = framing_error;
-    motor.show_framing_error(framing_error);
+    if (framing_error || since >= bits(kInStep)) show_framing_error(framing_error, motor);
     if (framing_error) return;
     if (!flexmac_) {
         receive_command(byte, now, motor);
     } else if (const auto message = decoder_.receive(byte)) {
         receive_message(*message, now, motor);
     }
+}
+
+void FastMacSlave::show_framing_error(bool seen, LinkTarget& motor) {
+    framing_error_ = seen;
+    motor.show_framing_error(seen);
 }
 
 void FastMacSlave::receive_command(std::uint8_t byte, base::Instant now, LinkTarget& motor) {
@@ -128,6 +134,7 @@ std::uint8_t FastMacSlave::register_of(const flexmac::Message& message) const {
 void FastMacSlave::receive_message(const flexmac::Message& message, base::Instant now, LinkTarget& motor) {
     if (!takes(message)) return;
     receiver_.accept_other();
+    show_framing_error(false, motor);  // R: no line out of step makes three header bytes and the inverses
     if (flexmac::is_protocol_command(message)) {
         flexmac_ = message.target == flexmac::kReadIndexUseFlexMac;
         return;
@@ -149,7 +156,7 @@ void FastMacSlave::reply(const flexmac::Message& request, const LinkTarget& moto
 std::optional<std::uint8_t> FastMacSlave::transmit(base::Instant now, const LinkTarget& motor) {
     if (pause_until_ && now < *pause_until_) return std::nullopt;
     pause_until_.reset();
-    if (slow_) pause_until_ = now + characters(1 + 1);
+    if (slow_) pause_until_ = now + bits(2 * kCharacter);
     return next_byte(motor);
 }
 

@@ -108,8 +108,7 @@ void MacMotor::sample() {
 
 void MacMotor::measure() {
     const auto control = static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS));
-    const std::uint32_t inner = bits().record | bits().record_inner;
-    const bool watching = (control & inner) == inner;
+    const bool watching = (control & bits().record) != 0 && records_inner(control);
     if (watching && (control & bits().rewind) != 0) rewind_samples();
     servo_.break_encoder(is_mac800(model()) && surroundings_.encoder_broken);
     servo_.plant().hold(brake_output());

@@ -10,10 +10,7 @@ std::int32_t MacMotor::analogue_v_soll() const {
                                                  : analogue_velocity_with_dead_band(model(), aninp, v_soll());
 }
 
-/// P_SOLL or P_FNC of the position block, where the voltage sets them.
-void MacMotor::set_target_by_voltage() {
-    if (is_mode(MotorMode::analogue_two_positions)) return set_target_by_level();
-    if (!is_mode(MotorMode::analogue_position)) return;
+void MacMotor::set_target_by_place() {
     memory_.set(cell::P_SOLL,
                 analogue_position(memory_.get(cell::ANINP), memory_.get(cell::P1), memory_.get(cell::P1[1]),
                                   memory_.get(cell::P1[2]), memory_.get(cell::P_SOLL)));

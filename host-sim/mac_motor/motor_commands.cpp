@@ -134,11 +134,6 @@ void MacMotor::set_relative(bool p_soll, bool p_fnc) {
     memory_.set(where, static_cast<std::int32_t>(flags));
 }
 
-void MacMotor::clear_in_position() {
-    samples_within_ = 0;
-    set_error_bits(err::IN_POS, false);
-}
-
 void MacMotor::show_framing_error(bool seen) {
     if (bits().frame_err_tx != 0) set_error_bits(bits().frame_err_tx, seen);
 }
@@ -169,11 +164,12 @@ void MacMotor::write_register(std::uint8_t reg, std::uint32_t value, bool longwo
 }
 
 std::int32_t MacMotor::read(std::uint8_t reg) const {
+    if (reg == 0) return 0;
     const registers::Register* entry = registers::find(model(), reg);
-    if (is_mac800(model())) return static_cast<std::int32_t>(memory_.read(reg, true));
-    if (entry != nullptr && registers::is_32_bit(entry->format)) return memory_.get(cell::long_int(reg, reg));
+    const bool wide = is_mac800(model()) || (entry != nullptr && registers::is_32_bit(entry->format));
+    const std::uint32_t value = memory_.read(reg, wide);
     const bool has_sign = entry != nullptr && entry->min < 0;
-    return memory_.get(has_sign ? cell::integer(reg, reg) : cell::word(reg, reg));
+    return !wide && has_sign ? static_cast<std::int16_t>(value) : static_cast<std::int32_t>(value);
 }
 
 void MacMotor::write(std::uint8_t reg, std::int32_t value, bool longword) {

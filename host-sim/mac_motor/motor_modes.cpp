@@ -92,8 +92,7 @@ std::string_view MacMotor::why_it_stands(std::uint16_t mode) const {
     return {};
 }
 
-/// 001 §4.1.8, §4.4.5, §4.4.9 to §4.4.11: what a mode does without being asked.
-void MacMotor::end_mode_by_itself() {
+void MacMotor::end_stop_or_test() {
     if (is_mode(MotorMode::stop) && below_300_rpm()) {
         enter(mode_after_stop_);
     } else if (coasting_ && below_300_rpm()) {

@@ -79,11 +79,14 @@ void MacMotor::load_parameters(std::uint16_t command) {
     memory_ = wanted;
 }
 
-void MacMotor::run_sample_buffer() {
-    const auto control = static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS));
-    if ((control & (bits().rewind | bits().record)) == 0) return;
+void MacMotor::rewind_or_record(std::uint32_t control) {
     if ((control & bits().rewind) != 0) rewind_samples();
-    if ((control & bits().record) != 0 && (control & bits().record_inner) == 0) record();
+    if ((control & bits().record) != 0 && !records_inner(control)) record();
+}
+
+/// R: where there is no inner loop, its samples are those of the outer one.
+bool MacMotor::records_inner(std::uint32_t control) const {
+    return options_.depth == Servo::Depth::current_loop && (control & bits().record_inner) != 0;
 }
 
 void MacMotor::rewind_samples() {

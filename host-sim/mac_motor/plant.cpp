@@ -25,6 +25,7 @@ Plant::Plant(double full_acceleration, int steps, const Load& load, double elsew
     : acceleration_of_one_(full_acceleration / kFullTorque / steps / steps),
       elsewhere_256_(256 * elsewhere),
       fastest_(kFastest / steps),
+      slow_(kSlow / steps),
       thrown_(thrown_in(steps)),
       load_(load) {
     take_load();

@@ -31,19 +31,6 @@ double nominal_squares_of(const MotorConstants& c) {
     return 1.5 * nominal * nominal;
 }
 
-std::int32_t rounded(double value) {
-    constexpr double kMost = 2'000'000'000;
-    return static_cast<std::int32_t>(within(value, kMost));
-}
-
-/// Puts a sum into its register, and answers what stands there.
-std::int32_t shown(MotorMemory& memory, Cell sum, double value) {
-    const std::int32_t all = rounded(value);
-    const std::int32_t shown = is_mac800(memory.model()) ? all : std::clamp(all, 0, 0xFFFF);
-    memory.set(sum, shown);
-    return shown;
-}
-
 }  // namespace
 
 Servo::Servo(registers::Model model, Depth depth, const Load& load)
@@ -83,6 +70,7 @@ void Servo::use_settings(const MotorMemory& memory) {
     const Cell forwards = is_mac800(memory.model()) ? cell::ELDEG_OFFSET : cell::ELDEGP_OFFSET;
     constexpr std::int32_t kTurn = CurrentRegulator::kTurn;
     regulator_.use(regulator_coefficients(memory));
+    kvout_ = kvout_of(memory);
     inner_.use(current_settings(memory), {.eldegp_offset = memory.get(forwards) & (kTurn - 1),
                                           .eldegn_offset = memory.get(cell::ELDEGN_OFFSET) & (kTurn - 1)});
 }
@@ -179,21 +167,21 @@ void Servo::run_outer(const MotorMemory& memory, const Terminals& terminals) {
 
 Servo::Result Servo::carry_out(const Drive& drive, MotorMemory& memory) {
     const bool regulated = drive.kind == Drive::Kind::velocity;
-    const Regulator::Output out = regulated ? regulator_.step(regulator_input(drive, memory))
+    const Regulator::Output out = regulated ? regulator_.step(regulator_input(drive))
                                             : Regulator::Output{.torque = unregulated_torque(drive, memory)};
     drive_ = drive;
     torque_ = out.torque;
     memory.set(cell::VF_OUT, torque_);
-    memory.show(cell::FF_OUT, rounded(out.ff_out));
-    memory.show(cell::VB_OUT, rounded(out.vb_out));
+    memory.show(cell::FF_OUT, out.ff_out);
+    memory.show(cell::VB_OUT, out.vb_out);
     return {out.torque, out.correction};
 }
 
-Regulator::Input Servo::regulator_input(const Drive& drive, const MotorMemory& memory) const {
+Regulator::Input Servo::regulator_input(const Drive& drive) const {
     return {.fnc_out = drive.fnc_out,
             .v_ist = v_ist_,
             .torque_limit = std::clamp(drive.torque_limit, 0, kFullTorque),
-            .kvout = kvout_of(memory)};
+            .kvout = kvout_};
 }
 
 /// The speed regulator is passive. Takes what MANI and TESTU are set to.
@@ -259,6 +247,7 @@ void Servo::show_currents(MotorMemory& memory) const {
 // 001 §3.2.16, §3.2.18. R: leaky sums that come to rest at 10000 with what is borne for ever.
 void Servo::warm(double squares, double regenerated) {
     i2t_ += (squares * heat_of_square_ - i2t_) * copper_share_;
+    if (uit_ == 0 && regenerated == 0) return;
     uit_ += (regenerated * dumped_of_watt_ - uit_) * dump_share_;
 }
 
@@ -269,16 +258,16 @@ void Servo::take_sums(const MotorMemory& memory) {
 }
 
 void Servo::show_sums(MotorMemory& memory) {
-    i2t_shown_ = shown(memory, cell::I2T, i2t_);
-    uit_shown_ = shown(memory, cell::UIT, uit_);
+    i2t_shown_ = memory.show(cell::I2T, i2t_);
+    uit_shown_ = memory.show(cell::UIT, uit_);
 }
 
 void Servo::show_supply(MotorMemory& memory) const {
     constexpr double kDegree = 0.12207, kAir = 25, kLogicRegister = 24 * 74.4713;
-    memory.set(cell::U_SUPPLY, rounded(supply_.volts() * constants_.volts_register + 0.5));
+    memory.show(cell::U_SUPPLY, supply_.volts() * constants_.volts_register + 0.5);
     if (!is_mac800(memory.model())) return;
-    memory.set(cell::DEGC, rounded((kAir + constants_.warming * i2t_ / kAtLimit) / kDegree));
-    memory.set(cell::U_24V, rounded(kLogicRegister));
+    memory.show(cell::DEGC, (kAir + constants_.warming * i2t_ / kAtLimit) / kDegree);
+    memory.show(cell::U_24V, kLogicRegister);
 }
 
 }  // namespace nplc::sim

@@ -31,6 +31,7 @@ class ActionParser {
     bool fault(action::SpoilLine& spoil);
     void motor(Actions& list, Time after);
     action::LoadMotor motor_load();
+    action::MotorBrake motor_brake();
     action::PowerMotor motor_power();
     void motor_stop(Actions& list, Time after);
     double spring();

@@ -4,15 +4,15 @@ namespace nplc::sim {
 namespace {
 
 constexpr std::string_view kMotor =
-    "motor error, motor load, motor power, motor stop, motor sensor, motor analogue, motor pulses, motor "
-    "steps, "
-    "motor supply, motor logic, motor temperature or motor encoder";
+    "motor error, motor load, motor brake, motor power, motor stop, motor sensor, motor analogue, motor "
+    "pulses, motor steps, motor supply, motor logic, motor temperature or motor encoder";
 
 }  // namespace
 
 void ActionParser::motor(Actions& list, Time after) {
     if (reader_.take("error")) return add(list, after, action::FailMotor{});
     if (reader_.take("load")) return add(list, after, motor_load());
+    if (reader_.take("brake")) return add(list, after, motor_brake());
     if (reader_.take("power")) return add(list, after, motor_power());
     if (reader_.take("stop")) return motor_stop(list, after);
     if (reader_.take("sensor")) return add(list, after, motor_sensor());
@@ -40,6 +40,11 @@ int ActionParser::whole(std::string_view what, double least, double most, std::s
 action::LoadMotor ActionParser::motor_load() {
     return {whole("a torque, such as motor load 500", -10'000, 10'000,
                   "a load is a whole number -10000 to 10000, 1023 being the motor's full torque")};
+}
+
+action::MotorBrake ActionParser::motor_brake() {
+    return {whole("a torque, such as motor brake 300", 0, 10'000,
+                  "a brake is a whole number 0 to 10000, 1023 being the motor's full torque")};
 }
 
 action::PowerMotor ActionParser::motor_power() {

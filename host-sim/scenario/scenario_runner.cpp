@@ -98,6 +98,7 @@ void ScenarioRunner::perform(const Action& action) {
         void operator()(const action::FailMotor&) const { self.stage_.fail_motor(); }
         void operator()(const action::PowerMotor& a) const { self.stage_.power_motor(a.on); }
         void operator()(const action::LoadMotor& a) const { self.stage_.load_motor(a.torque); }
+        void operator()(const action::MotorBrake& a) const { self.stage_.set_brake(a.torque); }
         void operator()(const action::StopMotor& a) const { self.stage_.stop_motor(a); }
         void operator()(const action::FreeMotor&) const { self.stage_.free_motor(); }
         void operator()(const action::MotorSensor& a) const { self.stage_.connect_sensor(a); }

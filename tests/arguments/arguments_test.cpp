@@ -217,6 +217,10 @@ TEST(Arguments, PagesAreWrittenFromItsDescription) {
     EXPECT_EQ(options[2].names, "-o,--output");
     EXPECT_TRUE(options[2].positional.empty());
     EXPECT_EQ(options[3].long_names, (Words{"quiet", "silent"}));
+    const auto has_value = [](const OptionText& option) { return option.has_value; };
+    EXPECT_EQ((std::vector{has_value(options[0]), has_value(options[1]), has_value(options[2]),
+                           has_value(options[3])}),
+              (std::vector{false, true, true, false}));
 }
 
 }  // namespace

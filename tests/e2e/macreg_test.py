@@ -215,10 +215,40 @@ class Files(Case):
                            ("type 99", head + "motor_type = 99\n")):
             with self.subTest(part):
                 self.refused(2, part, "load", self.write("bad.txt", text + ("" if "incomplete" in text else "end = 2\n")))
+        three = self.write("bad.txt", head + "A_SOL = 5\nT_SOLL = x\nT_SOLL = 7\nP_IST = 1\nend = 5\n")
+        result = self.call("load", three)
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual([line.split("bad.txt:")[1].split(":")[0] for line in result.stderr.splitlines()[1:]],
+                         ["3", "4", "6"])
+        self.assertIn("3 problems, nothing was written", result.stderr)
+        self.assertEqual([one["line"] for one in self.reg("load", three, exit_code=2)["problems"]], [3, 4, 6])
+        self.refused(2, "bad.txt: no line says 'model", "load", self.write("bad.txt", ""))
+        self.refused(2, "write a file's name", "dump", "-o", "")
         self.refused(2, "may be cut short", "load", self.write("bad.txt", head + "A_SOLL = 397"))
         self.refused(2, "cannot be read", "load", self.path("none.txt"))
         self.refused(2, "folder", "load", self.folder.name)
         self.assertEqual(self.value("V_SOLL"), 1600)
+
+    def test_a_file_of_another_axis_is_told_and_the_address_stays(self):
+        self.motor()
+        text = "model = MAC140\naddress = 4\nMYADDR = 44\nend = 1\n"
+        result = subprocess.run([MACREG, "--port", self.endpoint, "load", "-"], input=text, capture_output=True, text=True,
+                                check=True)
+        self.assertIn("read from a motor with address 4, this one has 8", result.stderr)
+        self.assertIn("MYADDR stays 8: load leaves the address alone, standard input has 44", result.stderr)
+        self.assertIn("the motor has all else already", result.stdout)
+        self.assertEqual(self.value("MYADDR"), 8)
+
+    def test_a_file_that_broke_off_is_compared_as_far_as_it_goes(self):
+        self.motor()
+        part = self.write("f.part", "model = MAC140\nV_SOLL = raw:1600\nincomplete = lost\n")
+        same = self.call("--json", "diff", "--partial", part)
+        self.assertEqual(same.returncode, 0, same.stdout)
+        self.assertIn("A_SOLL", json.loads(same.stdout)["not_compared"])
+        self.reg("set", "V_SOLL", "raw:5")
+        result = self.call("diff", "--partial", part)
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(len(result.stdout.splitlines()), 2, result.stdout)
 
     def test_a_motor_that_runs_is_not_changed_under_way(self):
         self.motor()
@@ -244,13 +274,16 @@ class Files(Case):
 
     def test_a_line_that_breaks_in_a_load_says_what_was_written(self):
         self.motor("--speed", "10")
+        self.reg("set", "V_SOLL", "10rpm", "MODE_REG", "V_MODE")
         names = [f"{letter}{number}" for letter, most in (("P", 8), ("V", 8), ("A", 4)) for number in range(1, most + 1)]
         file = self.write("file.txt", "model = MAC140\n" + "".join(f"{name} = raw:77\n" for name in names) + "end = 20\n")
         # Of 9 + 19 bytes a read, some 140 a block: far behind the first write, before the last.
         proxy = NoisyProxy(self.path("breaking"), self.path("port"), 0, 1, breaks_after=2200)
         self.addCleanup(proxy.close)
-        answer = self.reg("load", file, port="unix:" + self.path("breaking"), exit_code=3)
-        self.assertIn("were written", answer["error"])
+        answer = self.reg("load", "--stop", file, port="unix:" + self.path("breaking"), exit_code=3)
+        for words in ("were written", "may have been written or not", "ran in V_MODE and was told to stop",
+                      "the flash is as it was"):
+            self.assertIn(words, answer["error"])
         self.assertGreater(len(answer["written"]), 0)
         self.assertLess(len(answer["written"]), len(names))
         process = self.running[0]
@@ -286,6 +319,14 @@ class Service(Case):
         self.reg("flash", "reload", "--yes")
         self.assertEqual(self.value("V_SOLL"), 777)
 
+    def test_a_motor_that_vanishes_in_a_save_is_told_with_what_became_of_the_flash(self):
+        self.motor("--speed", "10", "--flash", self.path("flash"))
+        proxy = NoisyProxy(self.path("breaking"), self.path("port"), 0, 1, breaks_after=400)
+        self.addCleanup(proxy.close)
+        answer = self.reg("--yes", "flash", "save", port="unix:" + self.path("breaking"), exit_code=3)
+        self.assertIn("the flash was not written", answer["error"])
+        self.assertEqual(answer["order"], "not sent")
+
     def test_prepare_sets_saves_resets_and_checks(self):
         self.motor()
         self.assertFalse(self.reg("prepare").get("changed", True))
@@ -302,6 +343,7 @@ class Service(Case):
         units = self.reg("find", patience=45)["units"]
         self.assertEqual([(one["address"], one["family"]) for one in units], [(8, "MAC50-141"), (20, "MAC800")])
         self.refused(3, "--address", "get", "V_SOLL", patience=20)
+        self.refused(3, "several motors that answer at once", "--address", "255", "set", "V_SOLL", "50", patience=20)
         self.assertEqual(self.reg("--address", "20", "get", "V_SOLL")["registers"][0]["raw"], 2771)
 
     def test_find_where_nobody_is(self):
@@ -321,6 +363,25 @@ class Line(Case):
         watcher.communicate(timeout=LONG)
         self.assertEqual(watcher.returncode, 0)
         self.assertEqual(self.value("V_SOLL"), 1600)
+
+    def test_a_socket_tells_a_busy_program_from_one_that_ended(self):
+        for endpoint in ("unix:" + self.path("socket"), "tcp:127.0.0.1:0"):
+            motor = self.motor(endpoint=endpoint)
+            watcher = self.start("watch", "P_IST")
+            watcher.stdout.readline()
+            self.refused(3, "another one probably holds it", "get", "P_IST")
+            motor.kill()
+            _, error = watcher.communicate(timeout=LONG)
+            self.assertEqual(watcher.returncode, 3)
+            self.assertIn("has its program ended?", error)
+            self.assertNotIn("another", error)
+
+    def test_watch_ends_with_who_reads_it(self):
+        self.motor()
+        watcher = self.start("watch", "P_IST")
+        watcher.stdout.readline()
+        watcher.stdout.close()
+        self.assertEqual(watcher.wait(LONG), 0)
 
     def test_the_terminal_is_left_as_it_was(self):
         self.motor(endpoint="pty:" + self.path("tty"))
@@ -359,6 +420,9 @@ class Line(Case):
             with self.subTest(arguments):
                 self.refused(exit_code, part, *arguments, patience=20)
         self.refused(3, "no such port", "get", "1", port="/dev/ttyNONE")
+        for wrong in ("foo:bar", "tcp:nohost:99", "tcp:127.0.0.1:99999"):
+            self.refused(2, "write ", "get", "1", port=wrong)
+        self.refused(2, "12345 baud", "--baud", "12345", "get", "1", port=self.path("fastmac"))
         alone = subprocess.run([MACREG, "get", "1"], capture_output=True, text=True, check=False,
                                env={key: value for key, value in os.environ.items() if key != "MACREG_PORT"})
         self.assertEqual(alone.returncode, 2)

@@ -41,8 +41,8 @@ class Case(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder.name, name)
 
-    def motor(self):
-        self.running.append(simulator.start(MACSIM, "--model", "MAC140", "--address", "8", "--speed", "10", "--fastmac",
+    def motor(self, speed=10):
+        self.running.append(simulator.start(MACSIM, "--model", "MAC140", "--address", "8", "--speed", str(speed), "--fastmac",
                                             "pty:" + self.path("f"), "--mactalk", "pty:" + self.path("m"))[0])
 
     def call(self, *arguments, **options):
@@ -81,7 +81,7 @@ class Recordings(Case):
         self.assertAlmostEqual(float(rows[-1]["time_s"]), 299 * 15 / 7812.5, places=5)
         self.good("plot", self.path("move.csv"), "-o", self.path("move.svg"))
         words = "".join(ElementTree.parse(self.path("move.svg")).getroot().itertext())
-        for name in ("P_IST", "[counts]", "V_IST", "[rpm]", "time [ms]", "MAC140"):
+        for name in ("P_IST", "[counts]", "V_IST", "[rpm]", "time [ms]", "MAC50-141"):
             self.assertIn(name, words)
         self.good("plot", self.path("move.csv"), "-o", self.path("move.png"), "--width", "640", "--columns", "V_IST")
         with open(self.path("move.png"), "rb") as file:
@@ -127,6 +127,27 @@ class Recordings(Case):
         self.assertFalse(os.path.exists(self.path("a.csv")))
         self.assertEqual(self.good("get", "SAMPLE1", "SAMPLE2", "SAMPLE3", "CNTRL_BITS"), before)
 
+    def test_a_recording_that_breaks_off_is_kept_as_far_as_it_was_read(self):
+        self.motor(speed=1)  # reads for 20 s
+        ours, its = pty.openpty()
+        process = subprocess.Popen([MACREG, "--port", self.path("m"), "record", "P_IST,V_IST", "-o", self.path("a.csv")],
+                                   stderr=its)
+        self.running.append(process)
+        shown = b""
+        while b"Kread 5 of 895" not in shown:
+            shown += os.read(ours, 1000)
+        process.send_signal(signal.SIGINT)
+        while b"a.csv.part, marked as incomplete" not in shown:
+            shown += os.read(ours, 1000)
+        self.assertEqual(process.wait(LONG), 130)
+        os.close(its)
+        os.close(ours)
+        self.assertFalse(os.path.exists(self.path("a.csv")))
+        self.assertGreaterEqual(len(self.rows("a.csv.part")), 5)
+        with open(self.path("a.csv.part"), encoding="ascii") as file:
+            self.assertIn("# incomplete: ", file.read())
+        self.good("plot", self.path("a.csv.part"), "-o", self.path("a.svg"))
+
     def test_damaged_recordings_are_refused_with_their_line(self):
         with open(self.path("bad.csv"), "w", encoding="ascii") as file:
             file.write("time_s,A\n0,1\n1,x\n")
@@ -142,6 +163,10 @@ class Monitors(Case):
         self.assertEqual(text, "0.000 s  -> motor 8: read P_IST (10)   <- 00001234 = 4660 counts\n")
         text = self.good("monitor", "--replay", "-", "--protocol", "fastmac", input="E1 61 FF 63 63 63 E8 17 03 FC")
         self.assertIn("FlexMAC: write V_SOLL (5) := 03E8", text)
+        # As the manuals write it.
+        text = self.good("monitor", "--replay", "-", input="50h,50h,50h - 08h,F7h - 0Ah,F5h - AAh,AAh\n50h,50h")
+        self.assertIn("-> motor 8: read P_IST (10)   <- no answer", text)
+        self.assertIn("cut off after 2 bytes: 50 50", text)
         document = json.loads(self.good("--json", "monitor", "--replay", "-", input=READ))
         self.assertEqual((document["register"], document["answer"]), (10, "no answer"))
         self.refused(2, "standard input:2: '5G' is no byte", "monitor", "--replay", "-", input="50\n5G\n")

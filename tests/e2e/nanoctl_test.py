@@ -463,6 +463,7 @@ class Generated(unittest.TestCase):
                 self.assertTrue(shell.completes("nanoctl up", "nanoctl upload "))
                 self.assertTrue(shell.completes("nanoctl settings ge", "nanoctl settings get "))
                 self.assertTrue(shell.completes("nanoctl upload --only", "--only-store "))
+                self.assertTrue(shell.completes("nanoctl --json up", "nanoctl --json upload "), "a flag has no value")
             finally:
                 shell.close()
 

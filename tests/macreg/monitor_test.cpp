@@ -175,9 +175,18 @@ TEST(MactalkMonitor, FlawsAreNamed) {
     line.lines();
     line.hear("52 52 52 10 EF 08 F7 04 FB 22 DD 33 CC AA AA");
     EXPECT_TRUE(one(line).starts_with("0.034 s  !! length and data do not fit: 52 52 52"));
+    line.finish();
+    line.lines();
+    line.hear("50 50");
+    line.wait(Microseconds{200'000});
+    EXPECT_NE(one(line).find("!! cut off after 2 bytes: 50 50"), std::string::npos);
+}
+
+TEST(MactalkMonitor, AMessageThatStaysOpenIsCutOff) {
+    auto line = mactalk_line();
     line.hear("50 50 50 13");
     line.wait(Microseconds{200'000});
-    EXPECT_EQ(one(line), "0.049 s  !! cut off after 4 bytes: 50 50 50 13");
+    EXPECT_EQ(one(line), "0.000 s  !! cut off after 4 bytes: 50 50 50 13");
 }
 
 TEST(MactalkMonitor, AnAnswerToNothingAndToSomethingElse) {

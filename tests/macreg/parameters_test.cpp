@@ -72,6 +72,8 @@ TEST(Parameters, EveryProblemOfAFileIsToldWithItsLine) {
         const std::string problem = problem_of(head + line + "\nT_SOLL = 100%\n");
         EXPECT_NE(problem.find(part), std::string::npos) << line << ": " << problem;
     }
+    EXPECT_EQ(parse_parameters("").problems.size(), 1U) << "not that it holds no register, too";
+    EXPECT_EQ(parse_parameters(head + "V_SOL = 5\n").problems.size(), 1U);
     EXPECT_EQ(parse_parameters(head + "A = 1\nB = 2\nV_SOLL = x\nT_SOLL = 5\n").problems.size(), 3U);
 }
 

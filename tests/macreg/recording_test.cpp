@@ -192,6 +192,22 @@ TEST_F(RecorderTest, PutsEverythingBackWhenItIsEnded) {
     EXPECT_EQ(settings(), before);
 }
 
+TEST_F(RecorderTest, WhatWasReadIsKeptWhenItBreaksOff) {
+    make_ready();
+    const auto whole = record_buffer(motor, {.registers = named({"P_IST", "V_IST"}), .samples = 100});
+    struct Enough {};
+    RecordOptions options{.registers = named({"P_IST", "V_IST"}), .samples = 100};
+    options.progress = [](const RecordProgress& progress) {
+        if (progress.phase == RecordProgress::Phase::reading && progress.done == 40) throw Enough{};
+    };
+    Recording broken;
+    EXPECT_THROW(record_buffer(motor, options, &broken), Enough);
+    ASSERT_EQ(broken.size(), 40U);
+    EXPECT_EQ(broken.columns[1].values.size(), 40U);
+    EXPECT_EQ(broken.time_s.back(), whole.time_s[39]);
+    EXPECT_EQ(broken.model, "MAC50-141") << "which of them is not known by its answers";
+}
+
 TEST_F(RecorderTest, WhatDoesNotFitIsRefusedAndNothingIsSent) {
     const std::size_t sent = wire.sent().size();
     try {

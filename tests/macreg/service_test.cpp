@@ -99,5 +99,51 @@ TEST_F(ServiceTest, AMotorThatVanishesIsALineError) {
     EXPECT_THROW(static_cast<void>(service.save()), mactalk_client::LineError);
 }
 
+// Wherever the line breaks, what is said of the flash is true.
+TEST_F(ServiceTest, ABrokenSaveTellsWhatBecameOfTheFlash) {
+    int none = 0;
+    int unknown = 0;
+    int written = 0;
+    for (std::size_t bytes = 1;; ++bytes) {
+        Bench broken;
+        broken.put("V_SOLL", 777);
+        broken.units.bytes_to_live = bytes;
+        Service saving(broken.motor, {});
+        try {
+            static_cast<void>(saving.save());
+            break;
+        } catch (const mactalk_client::LineError&) {
+        }
+        const std::string text = saving.left_behind();
+        if (text.starts_with("the flash was not written")) {
+            EXPECT_EQ(broken.sim.flash_writes(), 0U) << bytes;
+            ++none;
+        } else if (text.starts_with("the flash was written")) {
+            EXPECT_EQ(broken.sim.flash_writes(), 1U) << bytes;
+            ++written;
+        } else {
+            EXPECT_NE(text.find("not known"), std::string::npos) << text;
+            ++unknown;
+        }
+        if (broken.at("MODE_REG") == 15) {
+            EXPECT_NE(text.find("SAFE_MODE"), std::string::npos) << text;
+        }
+    }
+    EXPECT_GT(none, 0);
+    EXPECT_GT(unknown, 0);
+    EXPECT_GT(written, 0);
+}
+
+TEST_F(ServiceTest, AnInterruptionAfterTheStopSaysSo) {
+    bench.put("MODE_REG", 1);
+    bench.run(500ms);
+    service.allow_stop();
+    looks = 1;  // the first look is while it stops
+    EXPECT_THROW(service.reset(), Interrupted);
+    EXPECT_NE(service.left_behind().find("the motor was not reset"), std::string::npos);
+    EXPECT_NE(service.left_behind().find("ran in V_MODE and was told to stop"), std::string::npos)
+        << service.left_behind();
+}
+
 }  // namespace
 }  // namespace nplc::macreg

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "macreg/curve.h"
+#include "macreg/wrap.h"
 
 namespace nplc::macreg {
 namespace {
@@ -187,11 +188,32 @@ TEST_F(UiTest, RecordsWhatIsNamedAndRemembersIt) {
     EXPECT_TRUE(model.recording().columns.empty());
 }
 
+TEST_F(UiTest, WhatWasLostWithTheLineStaysOnTheScreen) {
+    model.set_trouble("NO ANSWER, asking again");
+    model.set_trouble("");
+    EXPECT_EQ(model.note(), "the motor answers again");
+    model.set_trouble("NO ANSWER, asking again");
+    model.tell("V_SOLL may have been written or not", true);
+    model.set_trouble("");
+    EXPECT_EQ(model.note(), "V_SOLL may have been written or not");
+}
+
 TEST_F(UiTest, HelpGoesWithAnyKey) {
     type("?");
     EXPECT_TRUE(model.shows_help());
+    key(Key::none);  // time passes
+    EXPECT_TRUE(model.shows_help());
     EXPECT_EQ(type("q").kind, Kind::none);
     EXPECT_FALSE(model.shows_help());
+}
+
+TEST(Wrapped, BreaksAtBlanksAndSaysWhereItEnds) {
+    const std::string text = "MODE_REG: 256 acts in SAFE_MODE only";
+    EXPECT_EQ(wrapped(text, 40, 3), (std::vector<std::string>{text}));
+    EXPECT_EQ(wrapped(text, 15, 4), (std::vector<std::string>{"MODE_REG: 256", "acts in", "SAFE_MODE only"}));
+    EXPECT_EQ(wrapped(text, 15, 2), (std::vector<std::string>{"MODE_REG: 256", "acts in..."}));
+    EXPECT_EQ(wrapped("abcdefgh", 5, 3), (std::vector<std::string>{"abcde", "fgh"}));
+    EXPECT_TRUE(wrapped("", 5, 3).empty());
 }
 
 TEST(TextCurve, StarsGoFromLowToHigh) {

@@ -18,7 +18,8 @@ TypedValue typed(std::string_view name, std::string_view text, Model model = Mod
 // 001 §3.2.5: 1600 is 762.9 rpm; a step is 0.4768 rpm, so 1500 rpm is 3145.7 steps.
 TEST(Values, TakesUnitsRawHexAndNames) {
     EXPECT_EQ(typed("V_SOLL", "1500rpm").raw, 3146);
-    EXPECT_NE(typed("V_SOLL", "1500rpm").rounding, "");
+    EXPECT_NE(typed("V_SOLL", "1500rpm").rounding.find("1500.13 rpm (raw 3146)"), std::string::npos);
+    EXPECT_EQ(typed("V_SOLL", "100 counts/sample").raw, 1600);  // 1/16 counts a sample
     EXPECT_EQ(typed("V_SOLL", "1600").rounding, "");
     EXPECT_EQ(typed("V_SOLL", "raw:-1600").raw, -1600);
     EXPECT_EQ(typed("V_SOLL", "0xFFFE").raw, -2);
@@ -45,6 +46,10 @@ TEST(Values, SaysWhatIsWrong) {
                                                  {"MODE_REG", "FAST", "no value"},
                                                  {"CNTRL_BITS", "HICLK+FOO", "no value"},
                                                  {"GEARF1", "3 rpm", "plain number"},
+                                                 {"V_SOLL", "1,5rpm", "'1,5' is no number"},
+                                                 {"V_SOLL", "1e3 rpm", "'1e3' is no number"},
+                                                 {"P_SOLL", "1.2.3", "'1.2.3' is no number"},
+                                                 {"T_SOLL", "5,0 %", "'5,0' is no number"},
                                                  {"V_SOLL", "", "no value"}}) {
         const TypedValue value = typed(name, text);
         EXPECT_NE(value.error.find(part), std::string::npos) << name << " " << text << ": " << value.error;
@@ -64,6 +69,9 @@ TEST(Values, FindsRegistersByNameAndNumber) {
     EXPECT_NE(find_register(Model::mac140, "V_SOL").error.find("did you mean V_SOLL"), std::string::npos);
     EXPECT_NE(find_register(Model::mac140, "4").error.find("upper word of register 3, P_SOLL"),
               std::string::npos);
+    EXPECT_NE(find_register(Model::mac140, "ADDRESS").error.find("did you mean MYADDR"), std::string::npos);
+    for (const char* silly : {"", "BAR", "FOO", "BAUD"})
+        EXPECT_EQ(find_register(Model::mac140, silly).error.find("did you mean"), std::string::npos) << silly;
     for (const char* wrong : {"0", "256", "-1", "999999999999999999999", "165", ""})
         EXPECT_EQ(find_register(Model::mac140, wrong).reg, nullptr) << wrong;
 }

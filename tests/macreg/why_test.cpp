@@ -286,6 +286,18 @@ std::vector<Finding> of_a_motor_that_turns(Model model) {
     return judge(bench);
 }
 
+TEST(Why, RegistersHaveTheNamesOfTheModel) {
+    for (const auto& [model, name] :
+         {std::pair{Model::mac140, " STARTMODE is"}, std::pair{Model::mac800, " START_MODE is"}}) {
+        Bench bench(model);
+        bench.run(300ms);
+        const auto findings = judge(bench);
+        const Finding* passive = find(findings, "passive");
+        ASSERT_NE(passive, nullptr) << codes(findings);
+        EXPECT_NE(passive->remedy.find(name), std::string::npos) << passive->remedy;
+    }
+}
+
 TEST(Why, EachCauseIsFoundAndTold) {
     const auto small = of_a_motor_that_turns(Model::mac140);
     const auto large = of_a_motor_that_turns(Model::mac800);

@@ -119,25 +119,43 @@ TEST_F(Endpoint, AConnectionThatIsClosedIsSaid) {
         FAIL();
     } catch (const LineError& error) {
         EXPECT_EQ(error.kind(), LineError::Kind::port_gone) << error.what();
+        EXPECT_NE(std::string(error.what()).find("before anything came"), std::string::npos) << error.what();
+    }
+}
+
+TEST_F(Endpoint, AServerThatEndsIsNotTakenForABusyOne) {
+    auto server = std::make_unique<Server>("unix:" + path("socket"));
+    const OpenedWire opened = open_wire("unix:" + path("socket"), 19'200);
+    Master master(*opened.wire, {.patience = std::chrono::seconds{5}});
+    master.read(8, 5);
+    server.reset();
+    try {
+        master.read(8, 5);
+        FAIL();
+    } catch (const LineError& error) {
+        EXPECT_NE(std::string(error.what()).find("has its program ended?"), std::string::npos)
+            << error.what();
     }
 }
 
 TEST_F(Endpoint, WhatCannotBeOpenedIsNamedWithWhatToDo) {
-    const auto expect_error = [](const std::string& endpoint, std::uint32_t baud, const std::string& words) {
+    const auto expect_error = [](const std::string& endpoint, std::uint32_t baud, const std::string& words,
+                                 bool never = true) {
         const OpenedWire opened = open_wire(endpoint, baud);
+        EXPECT_EQ(opened.never, never) << endpoint;
         EXPECT_EQ(opened.wire, nullptr) << endpoint;
         EXPECT_NE(opened.error.find(words), std::string::npos) << opened.error;
         EXPECT_EQ(opened.error.find('\n'), std::string::npos) << opened.error;
     };
-    expect_error(path("no_such"), 19'200, "there is no such port");
-    expect_error("unix:" + path("no_such"), 19'200, "is the program running?");
-    expect_error("tcp:127.0.0.1:1", 19'200, "nobody listens there");
+    expect_error(path("no_such"), 19'200, "there is no such port", false);
+    expect_error("unix:" + path("no_such"), 19'200, "is the program running?", false);
+    expect_error("tcp:127.0.0.1:1", 19'200, "nobody listens there", false);
     for (const char* wrong : {"tcp:127.0.0.1", "tcp::80", "tcp:127.0.0.1:99999", "tcp:127.0.0.1:65536",
                               "tcp:127.0.0.1:0", "tcp:127.0.0.1:-1", "tcp:127.0.0.1:80x",
                               "tcp:localhost:http", "tcp:192.0.2.1:80", "tcp:example.org:80"})
         expect_error(wrong, 19'200, "write tcp:127.0.0.1:PORT (this machine only), PORT 1..65535");
     expect_error("unix:" + std::string(200, 'x'), 19'200, "too long");
-    expect_error("/dev/null", 19'200, "not a serial line");
+    expect_error("/dev/null", 19'200, "not a serial line", false);
     expect_error(path("tty"), 19'201, "no serial line has 19201 baud");
     for (const char* wrong : {"", "ttyUSB0", "pty:", "tcp:", "serial:/dev/x"})
         expect_error(wrong, 19'200, "write a serial line's path");

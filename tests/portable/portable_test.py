@@ -247,11 +247,11 @@ class Macreg(Case):
 
     def test_ports_that_are_none(self):
         self.assertIn("nobody listens there", self.macreg("get", "P_IST", code=3, port="tcp:127.0.0.1:1")[1])
-        self.assertIn("this machine only", self.macreg("get", "P_IST", code=3, port="tcp:192.0.2.1:80")[1])
+        self.assertIn("this machine only", self.macreg("get", "P_IST", code=2, port="tcp:192.0.2.1:80")[1])
         if self.target.ending:
             for port in ("pty:/tmp/x", "unix:/tmp/x", "/dev/ttyUSB0"):
                 self.assertIn("write a serial line such as COM3, or tcp:127.0.0.1:PORT",
-                              self.macreg("get", "P_IST", code=3, port=port)[1])
+                              self.macreg("get", "P_IST", code=2, port=port)[1])
             self.assertIn("COM9: there is no such port", self.macreg("get", "P_IST", code=3, port="com9")[1])
         else:
             self.assertIn("there is no such port", self.macreg("get", "P_IST", code=3, port="/dev/nothing")[1])

@@ -44,6 +44,7 @@ TEST(RegisterScale, ManualsFigures) {
     EXPECT_NEAR(366 / raw(kLarge, "U_BUS", "V"), 325, 0.5);                 // 198's example
     EXPECT_NEAR(1 / raw(kSmall, "MAN_ALPHA", "eldeg"), 0.176, 0.001);       // §3.2.129
     EXPECT_DOUBLE_EQ(raw(kSmall, "V_ELDEG", "counts/s"), 1 / 7812.5);       // §3.2.144
+    EXPECT_EQ(raw(kSmall, "V_SOLL", "counts/sample"), 16);                  // §3.2.5
 }
 
 TEST(RegisterScale, Lengths) {

@@ -83,7 +83,8 @@ TEST(FastMacLink, ShortPauseKeepsThePair) {
     EXPECT_EQ(b.reg(P_SOLL), 5);
 }
 
-TEST(FastMacLink, FramingErrorShowsUntilAGoodCharacter) {
+// 001 §5.2.1.7: until synchronisation is re-established, for which the master pauses between characters.
+TEST(FastMacLink, FramingErrorShowsUntilACharacterAfterAPause) {
     MotorBench b;
     b.set(P1, 5);
     b.send_one(0x80, true);
@@ -98,6 +99,23 @@ TEST(FastMacLink, FramingErrorShowsUntilAGoodCharacter) {
     c.send_one(0x80, true);
     EXPECT_EQ(c.reg(ERR_STAT), 0);
     EXPECT_EQ(c.status(), 0x04);
+}
+
+TEST(FastMacLink, FramingErrorShowsWhileCharactersComeWithoutAPause) {
+    MotorBench b;
+    b.send_one(0x60, true);
+    b.send({0x60, 0x60, 0x60});
+    EXPECT_EQ(b.reg(ERR_STAT), 1 << 8);
+    b.send({0xE0});  // a command is taken meanwhile
+    b.sent.clear();
+    b.send({0xE0});
+    EXPECT_EQ(b.sent.back(), 0x84);
+    b.pause(1);
+    b.send_one(0xE0, true);
+    EXPECT_EQ(b.status(), 0x84) << "broken once more";
+    b.send({0xE0});
+    EXPECT_EQ(b.status(), 0x80);
+    EXPECT_EQ(b.reg(ERR_STAT), 0);
 }
 
 // 13h: one character of pause after each, until the motor is reset.

@@ -174,6 +174,17 @@ TEST(FlexMacLink, FramingErrorDropsTheMessage) {
     EXPECT_EQ(b.reg(V_SOLL), 0x0547);
 }
 
+// 001 §5.2.1.7: a message that comes whole shows that the link is in step, without any pause.
+TEST(FlexMacLink, AMessageEndsTheFramingError) {
+    MotorBench b = in_flexmac();
+    b.send_one(0x63, true);
+    b.send({0x63, 0x63, 0x63, 0x47, 0xB8, 0x05});
+    EXPECT_EQ(b.reg(ERR_STAT) & 1 << 8, 1 << 8);
+    b.send({0xFA});
+    EXPECT_EQ(b.status() & 0x04, 0);
+    EXPECT_EQ(b.reg(ERR_STAT) & 1 << 8, 0);
+}
+
 TEST(FlexMacLink, NopAndBack) {
     MotorBench b = in_flexmac();
     EXPECT_EQ(b.status(), 0x88);

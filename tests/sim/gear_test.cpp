@@ -136,6 +136,7 @@ TEST(Gear, WhatTheLimitTookIsMadeUpFor) {
         ASSERT_LE(b.reg(166) / 0x10000, 1600);
     }
     EXPECT_EQ(b.reg(P_FNC), pulses * 40);
+    b.settle();
     EXPECT_NEAR(b.motor.p_ist(), static_cast<double>(pulses) * 2.5, 1);
 }
 

@@ -23,8 +23,9 @@ ByteList bytes(const std::string& text) {
 
 class Bench {
   public:
-    explicit Bench(Model model = Model::mac140, std::uint8_t address = 8)
-        : motor(model, {.address = address}) {}
+    explicit Bench(Model model = Model::mac140, std::uint8_t address = 8,
+                   Servo::Depth depth = Servo::Depth::current_loop)
+        : motor(model, {.address = address, .depth = depth}) {}
 
     ByteList ask(const ByteList& request) {
         for (const std::uint8_t byte : request) motor.receive_mactalk(byte, false);
@@ -330,6 +331,18 @@ TEST(SampleBuffer, RecordsFifteenTimesAsFastInTheInnerLoop) {
     EXPECT_EQ(bench.motor.read(116), 15);
     bench.samples(58);
     EXPECT_EQ(bench.motor.read(116), 59 * 15);
+    bench.samples(1);
+    EXPECT_EQ(bench.motor.read(116), 895);
+    EXPECT_EQ(control_bits(bench), kUserInterface | kRecordInner);
+}
+
+// 001 §3.2.36: RECORD is reset when the buffer is full, here at the only rate that there is.
+TEST(SampleBuffer, RecordsAtTheOuterRateWithoutAnInnerLoop) {
+    Bench bench(Model::mac140, 8, Servo::Depth::outer_loop);
+    bench.motor.write(36, kUserInterface | kRewind | kRecord | kRecordInner, false);
+    bench.samples(894);
+    EXPECT_EQ(bench.motor.read(116), 894);
+    EXPECT_EQ(control_bits(bench), kUserInterface | kRecord | kRecordInner);
     bench.samples(1);
     EXPECT_EQ(bench.motor.read(116), 895);
     EXPECT_EQ(control_bits(bench), kUserInterface | kRecordInner);

@@ -28,6 +28,28 @@ TEST(Memory, SmallMotorsKeepLongwordsInTwoNumbersLowFirst) {
     EXPECT_EQ(m.read(255, true), 0x12345678U);
 }
 
+// The program has each register by the sign and width that the manual's table gives it, whatever wrote it. R:
+// but KVOUT and L1..L4, which are no less than 1, and AMPLITUDE; 154 and 158 it does not use.
+TEST(Memory, WordsFromTheLineAreNumbersOfTheirRegister) {
+    constexpr auto kModel = registers::Model::mac140;
+    MotorMemory m(kModel);
+    int looked_at = 0;
+    for (int number = 1; number < 256; ++number) {
+        const auto reg = static_cast<std::uint8_t>(number);
+        const registers::Register* entry = registers::find(kModel, reg);
+        const bool ours = number == KVOUT || (number >= L1 && number < L1 + 4) || number == 127 ||
+                          number == 154 || number == 158;
+        if (entry == nullptr || ours) continue;
+        ++looked_at;
+        const bool wide = registers::is_32_bit(entry->format);
+        m.write(reg, 0xFFFF'FFFE, wide);
+        const std::int32_t expected = wide || entry->min < 0 ? -2 : 0xFFFE;
+        EXPECT_EQ(m.get(cell::word(reg, reg)), expected) << number;
+        EXPECT_EQ(m.read(reg, wide), wide ? 0xFFFF'FFFE : 0xFFFE) << number;
+    }
+    EXPECT_GT(looked_at, 100);
+}
+
 TEST(Memory, LongwordIntoAWordRegisterReachesTheNext) {
     MotorBench b;
     b.motor.write(V_SOLL, 0x00640320, true);
@@ -46,7 +68,7 @@ TEST(Memory, Mac800KeepsALongwordInEach) {
     EXPECT_EQ(m.read(117, true), 0U);
 }
 
-// 001 §3.2.89 to §3.2.111, §3.2.124 to §3.2.127, §3.2.140 to §3.2.142, §3.2.148 to §3.2.150.
+// 001 §3.2.13, §3.2.89 to §3.2.111, §3.2.124 to §3.2.127, §3.2.140 to §3.2.142, §3.2.148 to §3.2.150.
 TEST(Memory, TellsOnceThatARegisterOfTheRegulatorsWasWritten) {
     MotorMemory m(registers::Model::mac140);
     EXPECT_TRUE(m.take_settings_written());
@@ -55,8 +77,9 @@ TEST(Memory, TellsOnceThatARegisterOfTheRegulatorsWasWritten) {
         m.write(static_cast<std::uint8_t>(reg), 1, longword);
         return m.take_settings_written();
     };
-    for (const int reg : {89, 101, 111, 124, 127, 140, 142, 148, 150}) EXPECT_TRUE(tells(reg, false)) << reg;
-    for (const int reg : {1, 13, 88, 112, 123, 128, 139, 143, 147, 151}) {
+    for (const int reg : {13, 89, 101, 111, 124, 127, 140, 142, 148, 150})
+        EXPECT_TRUE(tells(reg, false)) << reg;
+    for (const int reg : {1, 12, 14, 88, 112, 123, 128, 139, 143, 147, 151}) {
         EXPECT_FALSE(tells(reg, false)) << reg;
     }
     for (const int reg : {88, 123, 139, 147}) EXPECT_TRUE(tells(reg, true)) << reg;
@@ -66,11 +89,12 @@ TEST(Memory, TellsOnceThatARegisterOfTheRegulatorsWasWritten) {
     EXPECT_FALSE(m.take_settings_written());
 }
 
-// 004: filters 121 to 149, ELDEG_OFFSET, PHASE_COMP and AMPLITUDE 172 to 174, offsets and gains 186 to 189.
+// 004: KVOUT 13, filters 121 to 149, ELDEG_OFFSET, PHASE_COMP and AMPLITUDE 172 to 174, offsets and gains 186
+// to 189.
 TEST(Memory, TellsItOfMac800sNumbersToo) {
     MotorMemory m(registers::Model::mac800);
     EXPECT_TRUE(m.take_settings_written());
-    for (const int reg : {121, 149, 172, 174, 186, 189}) {
+    for (const int reg : {13, 121, 149, 172, 174, 186, 189}) {
         m.write(static_cast<std::uint8_t>(reg), 1, true);
         EXPECT_TRUE(m.take_settings_written()) << reg;
     }

@@ -51,6 +51,7 @@ TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
         at 4 s motor error
         at 4 s motor power off, after 1 s motor power on
         at 4 s motor load -500
+        motor brake 300, after 1 s motor brake 0
         at 4 s motor stop below -2 rev, after 1 s motor stop above 8192 spring 5000 per rev
         at 4 s motor stop none
         at 4 s motor sensor on below -1 rev
@@ -136,9 +137,9 @@ TEST(ScenarioParser, MistakesSayWhatIsWrongAndWhatToWrite) {
     EXPECT_EQ(mistake("motor power"), "the line ends too early; write motor power off, or motor power on");
     EXPECT_EQ(
         mistake("motor stpo none"),
-        "\"stpo\" is out of place; write motor error, motor load, motor power, motor stop, motor sensor, "
-        "motor analogue, motor pulses, motor steps, motor supply, motor logic, motor temperature or motor "
-        "encoder");
+        "\"stpo\" is out of place; write motor error, motor load, motor brake, motor power, motor stop, "
+        "motor sensor, motor analogue, motor pulses, motor steps, motor supply, motor logic, motor "
+        "temperature or motor encoder");
     EXPECT_EQ(mistake("motor supply 20"),
               "the line ends too early; write its unit, such as motor supply 20 V");
     EXPECT_EQ(mistake("motor supply -1 V"), "a supply is 0 V to 600 V");
@@ -174,6 +175,9 @@ TEST(ScenarioParser, MistakesSayWhatIsWrongAndWhatToWrite) {
     EXPECT_EQ(mistake("motor pulses 0.5 per s"), "pulses are a whole number -1000000 to 1000000 per s");
     EXPECT_EQ(mistake("motor load 99999999999"),
               "a load is a whole number -10000 to 10000, 1023 being the motor's full torque");
+    EXPECT_EQ(mistake("motor brake"), "the line ends too early; write a torque, such as motor brake 300");
+    EXPECT_EQ(mistake("motor brake -300"),
+              "a brake is a whole number 0 to 10000, 1023 being the motor's full torque");
     EXPECT_EQ(mistake("at 1 s IN0 := 1 IN1 := 1"),
               "\"IN1\" is out of place; write one statement in a line, actions separated by commas");
     EXPECT_EQ(mistake("at 1 s IN0 := 1 \x01"),

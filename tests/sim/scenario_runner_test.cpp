@@ -53,6 +53,7 @@ class Bench final : public Stage {
     void seed(std::uint64_t value) override { did("seed " + std::to_string(value)); }
     void fail_motor() override { did("error"); }
     void load_motor(int torque) override { did("load " + std::to_string(torque)); }
+    void set_brake(int torque) override { did("brake " + std::to_string(torque)); }
     void power_motor(bool on) override { did(on ? "on" : "off"); }
     void stop_motor(const action::StopMotor& stop) override {
         did((stop.above ? "stop above " : "stop below ") + std::to_string(stop.counts) + " spring " +
@@ -110,12 +111,14 @@ TEST(ScenarioRunner, DrivesThePlantAroundTheMotor) {
         motor logic 15 V
         motor temperature -10
         motor encoder broken
+        motor load -80
+        motor brake 300
     )scn");
     bench.run_to(1ms);
-    EXPECT_EQ(bench.done,
-              (Done{"0: stop below -8192 spring 0", "0: stop above 500 spring 500", "0: free",
-                    "0: sensor below -4096", "0: sensor above 2048", "0: analogue -75", "0: pulses -5000",
-                    "0: steps 300", "0: supply 205", "0: logic 150", "0: temperature -10", "0: encoder"}));
+    EXPECT_EQ(bench.done, (Done{"0: stop below -8192 spring 0", "0: stop above 500 spring 500", "0: free",
+                                "0: sensor below -4096", "0: sensor above 2048", "0: analogue -75",
+                                "0: pulses -5000", "0: steps 300", "0: supply 205", "0: logic 150",
+                                "0: temperature -10", "0: encoder", "0: load -80", "0: brake 300"}));
 }
 
 TEST(ScenarioRunner, LooksAtShaftAndTorque) {

@@ -201,6 +201,28 @@ TEST_F(WorldRun, AMac800FeelsItsSurroundings) {
     EXPECT_EQ(err_stat_after(20ms) & 0x2BB8F, 0);
 }
 
+// 004, MAN_NO_BRAKE: the output holds while the motor is passive, if a brake is built in. Less than the pull
+// it does not hold.
+TEST_F(WorldRun, AMac800CanHaveABrake) {
+    WorldOptions options;
+    options.motor = registers::Model::mac800;
+    World big(table(), options);
+    big.cut_line(true);  // the motor stays in INIT
+    const auto turned_in = [&big](Time time) {
+        const std::int64_t before = big.take_snapshot().shaft;
+        const Time end = big.now() + time;
+        while (big.now() < end) big.step(end);
+        return big.take_snapshot().shaft - before;
+    };
+    big.set_brake(300);
+    big.load_motor(100);
+    EXPECT_EQ(turned_in(500ms), 0);
+    big.set_brake(80);
+    EXPECT_GT(turned_in(500ms), 10);
+    big.set_brake(0);
+    EXPECT_GT(turned_in(500ms), 100);
+}
+
 TEST_F(WorldRun, SnapshotsHandOverTheOrdersOnce) {
     ASSERT_TRUE(run_until([&] { return step() == 1; }, 1s));
     const Snapshot first = world_.take_snapshot();

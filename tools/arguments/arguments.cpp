@@ -21,7 +21,8 @@ OptionText text_of(const CLI::Option& option) {
     return {.long_names = option.get_lnames(),
             .names = option.get_name(option.get_positional(), true),
             .positional = option.get_positional() ? option.get_name(true) : std::string(),
-            .description = option.get_description()};
+            .description = option.get_description(),
+            .has_value = option.get_items_expected_max() != 0};
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #
 #   nplc_core_module(NAME SOURCES ... DEPENDS ...)   firmware code: no exceptions, no RTTI, no heap
 #   nplc_host_module(NAME SOURCES ... DEPENDS ...)   tools and simulation: ordinary C++, with fmt
+#     BUSY          optimised with the sanitizers too
+#     OWN_HEADERS   without the common precompiled headers, as another optimisation asks for
 #
 # Each makes library nplc_NAME whose only public include path is the folder's own include/, so a folder can
 # include only what it names under DEPENDS.
@@ -53,6 +55,11 @@ if(NPLC_FUZZ)
   target_link_options(nplc_options INTERFACE -fsanitize=address,undefined)
 endif()
 
+# Whole machines run for minutes of virtual time in the tests: what they consist of is optimised with the sanitizers too.
+if(NPLC_SANITIZE)
+  set(NPLC_BUSY_OPTIONS -O2)
+endif()
+
 function(_nplc_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;OPTIONS" ${ARGN})
   if(ARG_SOURCES)
@@ -68,7 +75,7 @@ function(_nplc_module name)
 endfunction()
 
 function(nplc_core_module name)
-  _nplc_module(${name} ${ARGN} OPTIONS -fno-exceptions -fno-rtti)
+  _nplc_module(${name} ${ARGN} OPTIONS -fno-exceptions -fno-rtti ${NPLC_BUSY_OPTIONS})
   set_property(GLOBAL APPEND PROPERTY NPLC_CORE_MODULES nplc_${name})
 endfunction()
 
@@ -102,7 +109,11 @@ if(NPLC_HOSTED AND NPLC_COMMON_HEADERS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 
 function(nplc_host_module name)
-  cmake_parse_arguments(ARG "OWN_HEADERS" "" "" ${ARGN})
+  cmake_parse_arguments(ARG "OWN_HEADERS;BUSY" "" "" ${ARGN})
+  if(ARG_BUSY AND NPLC_SANITIZE)
+    set(ARG_OWN_HEADERS ON)
+    list(APPEND ARG_UNPARSED_ARGUMENTS OPTIONS ${NPLC_BUSY_OPTIONS})
+  endif()
   _nplc_module(${name} ${ARG_UNPARSED_ARGUMENTS})
   get_target_property(type nplc_${name} TYPE)
   if(type STREQUAL "STATIC_LIBRARY")

@@ -81,8 +81,8 @@ std::string zsh_options(const arguments::App& app) {
     std::string text;
     for (const arguments::OptionText& option : app.get_options()) {
         for (const std::string& name : option.long_names) {
-            text += fmt::format(" \\\n                '--{}[{}]:value:_files'", name,
-                                zsh_text(option.description));
+            text += fmt::format(" \\\n                '--{}[{}]{}'", name, zsh_text(option.description),
+                                option.has_value ? ":value:_files" : "");
         }
     }
     return text;

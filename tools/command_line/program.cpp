@@ -96,6 +96,7 @@ std::unique_ptr<mactalk_client::Wire> open_port(const Common& common) {
         throw UserError(
             fmt::format("no port; name one with --port or in the environment's {}", port_variable(common)));
     auto opened = mactalk_client::open_wire(common.port, common.baud);
+    if (opened.never) throw UserError(opened.error);
     if (opened.wire == nullptr)
         throw mactalk_client::LineError(mactalk_client::LineError::Kind::port_gone, opened.error);
     return std::move(opened.wire);

@@ -214,7 +214,7 @@ ParsedFile parse_parameters(std::string_view text) {
         parser.file.set.incomplete = "no line says 'end = ...', so it may be cut short";
     if (parser.file.set.header.count("model") == 0)
         parser.problem("no line says 'model = ...'; this is no file of macreg dump");
-    if (parser.file.set.values.empty()) parser.problem("holds no register");
+    if (parser.file.set.values.empty() && parser.file.problems.empty()) parser.problem("holds no register");
     return parser.file;
 }
 

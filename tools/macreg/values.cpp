@@ -46,7 +46,26 @@ std::string field_text(const Field& field, std::uint32_t bits) {
     return value != 0 ? fmt::format("{}={}", field.name, value) : std::string();
 }
 
+/// What stands before the unit, if it is meant to be a number and is none: 1,5 or 1e3.
+std::string_view malformed_number(const Register& reg, Model model, std::string_view text) {
+    for (std::size_t end = text.size(); end > 0; --end) {
+        const std::string_view unit = text.substr(end);
+        if (!unit.empty() && !registers::raw_per_unit(reg, model, unit)) continue;
+        const std::string_view number = text.substr(0, text.find_last_not_of(' ', end - 1) + 1);
+        const bool meant = number.find_first_of("0123456789") != std::string_view::npos &&
+                           number.find_first_not_of("0123456789+-.,eE'") == std::string_view::npos;
+        const bool flawed = number.find_first_of(",eE'") != std::string_view::npos ||
+                            std::count(number.begin(), number.end(), '.') > 1;
+        if (meant && flawed) return number;
+    }
+    return {};
+}
+
 std::string why_not(TextError error, const Register& reg, Model model, std::string_view text) {
+    if (const auto number = malformed_number(reg, model, text); !number.empty())
+        return fmt::format(
+            "'{}' is no number; write digits, with a point where one is needed, such as 1500 or 762.94",
+            number);
     switch (error) {
         case TextError::wrong_unit: {
             std::string units;
@@ -139,15 +158,38 @@ std::size_t distance(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
-std::string nearest(Model model, std::string_view name) {
-    std::string best;
-    std::size_t least = 3;
-    for (const Register& reg : registers::map_of(model)) {
-        const std::size_t steps = distance(lower(name), lower(reg.name));
-        if (steps < least) {
-            least = steps;
-            best = reg.name;
+/// How many letters in a row both have.
+std::size_t in_common(std::string_view a, std::string_view b) {
+    std::size_t most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        for (std::size_t length = most + 1; i + length <= a.size(); ++length) {
+            if (b.find(a.substr(i, length)) == std::string_view::npos) break;
+            most = length;
         }
+    }
+    return most;
+}
+
+/// The name that was meant: a letter in three may be wrong, or a part of it is another's.
+std::string nearest(Model model, std::string_view text) {
+    constexpr std::size_t kMostWrong = 2;
+    constexpr std::size_t kLeastPart = 3;
+    const std::string name = lower(text);
+    std::string best;
+    std::size_t least = std::min(kMostWrong, name.size() / 3) + 1;
+    for (const Register& reg : registers::map_of(model)) {
+        const std::size_t steps = distance(name, lower(reg.name));
+        if (steps >= least) continue;
+        least = steps;
+        best = reg.name;
+    }
+    if (!best.empty()) return best;
+    std::size_t most = kLeastPart;
+    for (const Register& reg : registers::map_of(model)) {
+        const std::size_t part = in_common(lower(reg.name), name);
+        if (part <= most || 2 * part < reg.name.size()) continue;
+        most = part;
+        best = reg.name;
     }
     return best;
 }
@@ -205,8 +247,8 @@ TypedValue typed_value(const Register& reg, Model model, std::string_view text) 
     if (parsed.error != TextError::none) return {.error = why_not(parsed.error, reg, model, text)};
     TypedValue typed{.raw = parsed.raw};
     if (!parsed.exact)
-        typed.rounding = fmt::format("{} falls between two steps of {}, taken as {}", text, reg.name,
-                                     number_text(reg, model, parsed.raw));
+        typed.rounding = fmt::format("{} falls between two steps of {}, taken as {} (raw {})", text, reg.name,
+                                     number_text(reg, model, parsed.raw), parsed.raw);
     return typed;
 }
 

@@ -28,8 +28,9 @@ void judge_passive(const Facts& facts, Findings& findings) {
     } else if (mode == kInit) {
         const bool error = (static_cast<std::uint32_t>(facts.at(ERR_STAT)) & error_bits(facts.model())) != 0;
         const char* sentence = "The motor is in INIT_MODE: passive, nobody told it to move.";
-        const char* remedy =
-            "`macreg set MODE_REG P_MODE` (or V_MODE ...); STARTMODE is the mode after power-up.";
+        std::string remedy =
+            fmt::format("`macreg set MODE_REG P_MODE` (or V_MODE ...); {} is the mode after power-up.",
+                        registers::find(facts.model(), STARTMODE)->name);
         if (facts.gateway()) {
             sentence = "The motor is in INIT_MODE, passive: the gateway's sequence has not told it to move.";
             remedy =

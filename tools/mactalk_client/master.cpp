@@ -143,6 +143,7 @@ void Master::send(std::span<const std::uint8_t> bytes) {
 std::size_t Master::receive(std::span<std::uint8_t> out, base::Microseconds wait) {
     const auto count = wire_.read(out, wait);
     if (!count) gone();
+    heard_any_ = heard_any_ || *count > 0;
     return *count;
 }
 
@@ -177,10 +178,17 @@ void Master::no_answer(std::uint8_t address, unsigned attempts) const {
 }
 
 void Master::gone() const {
-    throw LineError(LineError::Kind::port_gone,
-                    fmt::format("{}: the other end closed the connection; another client may hold it, or the "
-                                "device was unplugged",
-                                wire_.name()));
+    const std::string& name = wire_.name();
+    const bool socket = name.starts_with("unix:") || name.starts_with("tcp:");
+    const bool silent = counters_.questions <= 1 && !heard_any_;
+    throw LineError(
+        LineError::Kind::port_gone,
+        name + (socket && silent
+                    ? ": the other end closed the connection before anything came: it serves one client "
+                      "at a time, and another one probably holds it; end that one first"
+                : socket ? ": the other end closed the connection; has its program ended?"
+                         : ": the other end closed the connection; was the device unplugged, or its "
+                           "program ended?"));
 }
 
 }  // namespace nplc::mactalk_client

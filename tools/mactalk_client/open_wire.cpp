@@ -23,7 +23,7 @@ class LineWire final : public Wire {
 
 OpenedWire open_wire(const std::string& endpoint, std::uint32_t baud) {
     auto opened = host::ByteClient::open(endpoint, baud);
-    if (opened.client == nullptr) return {nullptr, opened.error};
+    if (opened.client == nullptr) return {nullptr, opened.error, opened.never};
     return {std::make_unique<LineWire>(std::move(opened.client)), {}};
 }
 

@@ -27,11 +27,15 @@ Json raw_or_null(std::optional<std::int64_t> raw) {
     return raw ? Json(*raw) : Json(nullptr);
 }
 
+/// Not read before the file broke off, which is no difference.
+bool is_missing(std::optional<std::int64_t> raw, const ParameterSet& set) {
+    return !raw && !set.incomplete.empty();
+}
+
 void look_at_models(const Options& options, const ParameterSet& left, const ParameterSet& right) {
     if ((left.model == Model::mac800) == (right.model == Model::mac800)) return;
-    throw UserError(fmt::format("{} is of a {}, {} of a {}: their registers cannot be compared", options.left,
-                                registers::name_of(left.model), options.right,
-                                registers::name_of(right.model)));
+    throw UserError(fmt::format("{} is of {}, {} of {}: their registers cannot be compared", options.left,
+                                model_words(left), options.right, model_words(right)));
 }
 
 void only_settings(ParameterSet& set) {
@@ -50,7 +54,12 @@ void diff(Common& common, const Options& options) {
     only_settings(right);
     std::string text;
     Json list = Json::array();
+    Json missing = Json::array();
     for (const Difference& one : differences(left, right)) {
+        if (is_missing(one.left, left) || is_missing(one.right, right)) {
+            missing.push_back(one.reg->name);
+            continue;
+        }
         text += fmt::format("{:<14} {} -> {}\n", one.reg->name, side(*one.reg, left.model, one.left),
                             side(*one.reg, left.model, one.right));
         list.push_back({{"name", one.reg->name},
@@ -59,10 +68,13 @@ void diff(Common& common, const Options& options) {
                         {"right", raw_or_null(one.right)}});
     }
     if (!list.empty()) common.exit_code = command_line::kRefused;
-    if (!text.empty()) text.pop_back();
-    command_line::tell(
-        common, text.empty() ? fmt::format("{} and {}: no difference", options.left, options.right) : text,
-        {{"same", list.empty()}, {"differences", list}});
+    if (text.empty()) text = fmt::format("{} and {}: no difference\n", options.left, options.right);
+    if (!missing.empty())
+        text += fmt::format("not compared: {} that an incomplete file does not have\n",
+                            counted(missing.size(), "register"));
+    text.pop_back();
+    command_line::tell(common, text,
+                       {{"same", list.empty()}, {"differences", list}, {"not_compared", missing}});
 }
 
 }  // namespace

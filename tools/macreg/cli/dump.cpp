@@ -20,7 +20,7 @@ using mactalk_client::Interrupted;
 using mactalk_client::LineError;
 
 struct Options {
-    std::string file;
+    std::string file = "-";
     bool all = false;
 };
 
@@ -81,8 +81,9 @@ void give_up(Session& session, Target& target, const char* why, int exit_code, s
 void dump(Session& session, const Options& options) {
     Motor& motor = session.motor();
     const registers::Model model = motor.model();
-    Target target(options.file);
-    const bool as_text = !options.file.empty() || !session.json();
+    const std::string file = output_file(options.file);
+    Target target(file);
+    const bool as_text = !file.empty() || !session.json();
     std::size_t done = 0;
     std::size_t all = 0;
     Json list = Json::array();
@@ -97,10 +98,7 @@ void dump(Session& session, const Options& options) {
         session.progress(fmt::format("{} of {} registers", done, all));
     };
     try {
-        const bool known = !session.common().model.empty() || model == registers::Model::mac800;
-        if (as_text)
-            target.add(
-                header_text(motor, known ? registers::name_of(model) : "MAC50-141", session.common().date));
+        if (as_text) target.add(header_text(motor, session.model_name(), session.common().date));
         options.all ? read_everything(motor, received, goes_on) : read_parameters(motor, received, goes_on);
     } catch (const LineError& error) {
         give_up(session, target, error.what(), command_line::kNoAnswer, done, all);
@@ -111,9 +109,9 @@ void dump(Session& session, const Options& options) {
     target.finish();
     session.progress("");
     if (session.json()) {
-        session.tell("", {{"file", options.file}, {"count", done}, {"registers", list}});
-    } else if (!options.file.empty()) {
-        session.tell(fmt::format("{}: {} registers", options.file, done), {});
+        session.tell("", {{"file", file}, {"count", done}, {"registers", list}});
+    } else if (!file.empty()) {
+        session.tell(fmt::format("{}: {}", file, counted(done, "register")), {});
     }
 }
 
@@ -125,7 +123,7 @@ void add_dump(arguments::App& app, Common& common) {
         add_command(app, "dump",
                     "Write the motor's parameters as text with units, for `load`, `diff` and version "
                     "control. What was read of a motor that vanishes stays in FILE.part");
-    command.add_option("-o,--output", options->file, "FILE; else standard output");
+    command.add_option("-o,--output", options->file, "FILE; standard output if not said, or -");
     command.add_flag("--all", options->all, "What the motor measures and counts too, as comments");
     command.callback([options, &common] { work(common, [&](Session& s) { dump(s, *options); }); });
 }

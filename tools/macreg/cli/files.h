@@ -6,7 +6,10 @@
 
 namespace nplc::macreg::cli {
 
-/// A file of `dump`, whole; throws UserError with the first problem's line, and how many more there are.
+/// A file of `dump`, whole, - is standard input; throws Failure with every line that is wrong.
 ParameterSet read_parameter_file(const std::string& path, bool partial);
+
+/// "a MAC800", "one of MAC50 to MAC141"
+std::string model_words(const ParameterSet& set);
 
 }  // namespace nplc::macreg::cli

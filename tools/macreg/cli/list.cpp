@@ -94,7 +94,8 @@ void list(Common& common, const Options& options) {
     if (const NamedRegister exact = find_register(model, options.pattern); exact.reg != nullptr)
         wanted = {exact.reg};
     if (wanted.empty())
-        throw UserError(fmt::format("no register with '{}' in its name or title", options.pattern));
+        throw UserError(fmt::format("no register has '{}' in its name or title; `macreg list` shows them all",
+                                    options.pattern));
     std::string text = wanted.size() == 1 ? whole(*wanted[0], model) : "";
     Json documents = Json::array();
     for (const Register* reg : wanted) {

@@ -43,8 +43,8 @@ std::string names_of(const std::vector<Difference>& all) {
 void look_at_model(Session& session, const ParameterSet& set, const Options& options) {
     const Model model = session.motor().model();
     if ((set.model == Model::mac800) != (model == Model::mac800))
-        throw UserError(fmt::format("{} is of a {}, the motor is {}: their registers are not the same",
-                                    options.file, registers::name_of(set.model),
+        throw UserError(fmt::format("{} is of {}, the motor is {}: their registers are not the same",
+                                    options.file, model_words(set),
                                     model == Model::mac800 ? "a MAC800" : "one of MAC50 to MAC141"));
     if (options.another) return;
     const bool known = set.model_is_known && !session.common().model.empty();
@@ -81,93 +81,163 @@ std::vector<Difference> to_write(Session& session, const ParameterSet& wanted, c
     return some;
 }
 
-void make_passive(Session& session, bool stop) {
-    Motor& motor = session.motor();
-    const std::int64_t mode = motor.read(registers::MODE_REG);
-    if (mode == 0 || mode == 15) return;
-    if (!stop)
-        refuse(fmt::format("the motor is in {}: parameters change under way; stop it first, or say --stop",
-                           mode_text(motor.model(), mode)));
-    motor.master().init_mode(motor.address());
-    const base::Instant end = motor.now() + base::Milliseconds{10'000};
-    while (motor.read(registers::MODE_REG) != 0) {
-        look_for_interruption();
-        if (motor.now() >= end) refuse("the motor was told to stop and did not become passive within 10 s");
-        session.pause(base::Milliseconds{50});
-    }
-}
+/// Writes the differences; when something breaks off it says what has been done.
+class Writer {
+  public:
+    Writer(Session& session, const Options& options, const std::vector<Difference>& all)
+        : session_(session), options_(options), all_(all) {}
 
-[[noreturn]] void broke_off(const std::string& why, int exit_code, const std::vector<Difference>& all,
-                            std::size_t done) {
-    const std::vector<Difference> written(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(done));
-    Json names = Json::array();
-    for (const Difference& one : written) names.push_back(one.reg->name);
-    const std::string next =
-        done < all.size() ? fmt::format("; {} may have been written or not", all[done].reg->name) : "";
-    throw command_line::Failure(exit_code,
-                                fmt::format("{}; {} of {} were written{}{}", why, done, all.size(),
-                                            written.empty() ? "" : ": " + names_of(written), next),
-                                {{"written", names}, {"of", all.size()}});
-}
-
-std::int64_t whole_value(Session& session, const Difference& one) {
-    const Model model = session.motor().model();
-    const auto mask = static_cast<std::int32_t>(setting_bits(model, *one.reg));
-    if (mask == -1) return *one.left;
-    const std::int64_t now = session.motor().read(*one.reg);
-    return (now & ~mask) | (*one.left & mask);
-}
-
-void write_all(Session& session, const std::vector<Difference>& all) {
-    for (std::size_t done = 0; done < all.size(); ++done) {
+    void run(const ParameterSet& wanted) {
         try {
-            look_for_interruption();
-            const Outcome outcome = change(session.motor(), *all[done].reg, whole_value(session, all[done]));
-            if (!outcome.taken)
-                broke_off(fmt::format("{} was not taken: {}", all[done].reg->name, outcome.why),
-                          command_line::kRefused, all, done);
+            if (all_.empty()) return;
+            make_passive();
+            for (; done_ < all_.size(); ++done_) write(all_[done_]);
+            session_.progress("");
+            verify(wanted);
         } catch (const LineError& error) {
-            broke_off(error.what(), command_line::kNoAnswer, all, done);
+            broke_off(error.what(), command_line::kNoAnswer);
         } catch (const Interrupted& error) {
-            broke_off(error.what(), command_line::kInterrupted, all, done);
+            broke_off(error.what(), command_line::kInterrupted);
         }
-        session.progress(fmt::format("{} of {} registers", done + 1, all.size()));
     }
-    session.progress("");
+
+  private:
+    void make_passive() {
+        Motor& motor = session_.motor();
+        const std::int64_t mode = motor.read(registers::MODE_REG);
+        if (mode == 0 || mode == 15) return;
+        const std::string name = mode_text(motor.model(), mode);
+        if (!options_.stop)
+            refuse(fmt::format(
+                "the motor is in {}: parameters change under way; stop it first, or say --stop", name));
+        ran_in_ = name;
+        motor.master().init_mode(motor.address());
+        const base::Instant end = motor.now() + base::Milliseconds{10'000};
+        while (motor.read(registers::MODE_REG) != 0) {
+            look_for_interruption();
+            if (motor.now() >= end)
+                broke_off("the motor was told to stop and did not become passive within 10 s",
+                          command_line::kRefused);
+            session_.pause(base::Milliseconds{50});
+        }
+    }
+
+    void write(const Difference& one) {
+        look_for_interruption();
+        const std::int64_t value = whole_value(one);
+        in_doubt_ = true;
+        const Outcome outcome = change(session_.motor(), *one.reg, value);
+        in_doubt_ = false;
+        if (!outcome.taken)
+            broke_off(fmt::format("{} was not taken: {}", one.reg->name, outcome.why),
+                      command_line::kRefused);
+        session_.progress(fmt::format("{} of {} registers", done_ + 1, all_.size()));
+    }
+
+    std::int64_t whole_value(const Difference& one) {
+        const Model model = session_.motor().model();
+        const auto mask = static_cast<std::int32_t>(setting_bits(model, *one.reg));
+        if (mask == -1) return *one.left;
+        const std::int64_t now = session_.motor().read(*one.reg);
+        return (now & ~mask) | (*one.left & mask);
+    }
+
+    void verify(const ParameterSet& wanted) {
+        const ParameterSet own = read_parameters(session_.motor(), {}, goes_on);
+        std::vector<Difference> wrong;
+        for (const Difference& one : all_) {
+            if (own.values.at(one.reg->number) != wanted.values.at(one.reg->number)) wrong.push_back(one);
+        }
+        if (!wrong.empty())
+            refuse(fmt::format("written, but read back these have another value: {}", names_of(wrong)));
+    }
+
+    [[noreturn]] void broke_off(const std::string& why, int exit_code) {
+        session_.progress("");
+        const std::vector<Difference> written(all_.begin(),
+                                              all_.begin() + static_cast<std::ptrdiff_t>(done_));
+        Json names = Json::array();
+        for (const Difference& one : written) names.push_back(one.reg->name);
+        std::string text = fmt::format("{}; ", why);
+        if (done_ == all_.size())
+            text += "all of it was written, but not compared: see `macreg diff`";
+        else
+            text += fmt::format("{} of {} were written{}", done_ == 0 ? "none" : fmt::format("{}", done_),
+                                counted(all_.size(), "register"),
+                                written.empty() ? "" : ": " + names_of(written));
+        if (in_doubt_) text += fmt::format("; {} may have been written or not", all_[done_].reg->name);
+        if (!ran_in_.empty())
+            text += fmt::format(
+                "; the motor ran in {} and was told to stop: it starts again only when MODE_REG is set",
+                ran_in_);
+        throw command_line::Failure(exit_code, text + "; the flash is as it was",
+                                    {{"written", names}, {"of", all_.size()}, {"stopped", !ran_in_.empty()}});
+    }
+
+    Session& session_;
+    const Options& options_;
+    const std::vector<Difference>& all_;
+    std::size_t done_ = 0;
+    bool in_doubt_ = false;  ///< the write under way may have arrived
+    std::string ran_in_;     ///< the mode it was stopped in
+};
+
+ParameterSet read_own(Session& session) {
+    const auto unchanged = [](const std::exception& error) {
+        return fmt::format("{}; nothing was written", error.what());
+    };
+    try {
+        return read_parameters(session.motor(), {}, goes_on);
+    } catch (const LineError& error) {
+        throw LineError(error.kind(), unchanged(error));
+    } catch (const Interrupted& error) {
+        throw Interrupted(unchanged(error));
+    }
 }
 
-void verify(Session& session, const ParameterSet& wanted, const std::vector<Difference>& written) {
-    const ParameterSet own = read_parameters(session.motor(), {}, goes_on);
-    std::vector<Difference> wrong;
-    for (const Difference& one : written) {
-        if (own.values.at(one.reg->number) != wanted.values.at(one.reg->number)) wrong.push_back(one);
+/// What the file says and is not written: the address of this motor is its own.
+std::string left_alone(const Options& options, const ParameterSet& wanted, const ParameterSet& own) {
+    for (const Difference& one : differences(wanted, own)) {
+        if (one.left && one.right && is_address(*one.reg))
+            return fmt::format("{} stays {}: load leaves the address alone, {} has {}", one.reg->name,
+                               *one.right, options.file, *one.left);
     }
-    if (!wrong.empty())
-        refuse(fmt::format("written, but read back these have another value: {}", names_of(wrong)));
+    return {};
 }
 
-void load(Common& common, const Options& options) {
+/// A file of another axis is a mistake more often than not.
+void look_at_address(Session& session, const ParameterSet& wanted, const Options& options) {
+    const auto address = wanted.header.find("address");
+    const unsigned own = session.motor().address();
+    if (address == wanted.header.end() || address->second == fmt::format("{}", own)) return;
+    session.remark(fmt::format("{} was read from a motor with address {}, this one has {}", options.file,
+                               address->second, own));
+}
+
+void load(Common& common, Options options) {
     ParameterSet wanted = read_parameter_file(options.file, options.partial);
+    if (options.file == "-") options.file = "standard input";
     Session session(common);
     look_at_model(session, wanted, options);
+    look_at_address(session, wanted, options);
     const Model model = session.motor().model();
-    const ParameterSet own = read_parameters(session.motor(), {}, goes_on);
+    const ParameterSet own = read_own(session);
     for (auto& [number, raw] : wanted.values)
         raw &= static_cast<std::int32_t>(setting_bits(model, *session.motor().find(number)));
     wanted.model = model;
     const auto all = to_write(session, wanted, own, options);
-    if (!all.empty()) make_passive(session, options.stop);
-    write_all(session, all);
-    verify(session, wanted, all);
+    const std::string address = left_alone(options, wanted, own);
+    Writer(session, options, all).run(wanted);
+    if (!address.empty()) session.remark(address);
     Json names = Json::array();
     for (const Difference& one : all) names.push_back(one.reg->name);
-    session.tell(
-        all.empty()
-            ? fmt::format("{}: the motor has all of it already", options.file)
-            : fmt::format("{}: {} registers written and checked; they are in memory, `macreg flash save` "
-                          "keeps them",
-                          options.file, all.size()),
-        {{"written", names}});
+    session.tell(all.empty()
+                     ? fmt::format("{}: the motor has all {}already", options.file,
+                                   address.empty() ? "of it " : "else ")
+                     : fmt::format("{}: {} written and checked; {} in memory, `macreg flash save` keeps {}",
+                                   options.file, counted(all.size(), "register"),
+                                   all.size() == 1 ? "it is" : "they are", all.size() == 1 ? "it" : "them"),
+                 {{"written", names}, {"left_alone", address}});
 }
 
 }  // namespace
@@ -178,7 +248,7 @@ void add_load(arguments::App& app, Common& common) {
         add_command(app, "load",
                     "Write a file of `dump` into the motor's memory. The whole file is checked first; only "
                     "what differs is written, and all of it is read back. The address stays");
-    command.add_option("file", options->file, "The file")->required();
+    command.add_option("file", options->file, "The file; - is standard input")->required();
     command.add_flag("--stop", options->stop, "Stop the motor first if it is in a mode that moves it");
     command.add_flag("--force", options->force, "Write dangerous registers too; asks");
     command.add_flag("--skip-dangerous", options->skip_dangerous, "Leave dangerous registers as they are")

@@ -58,14 +58,15 @@ class Teller {
     const Options& options_;
 };
 
-/// `50 50`, `505050`, `0x50`; # and what follows it in a line is a remark.
+/// `50 50`, `505050`, `0x50`, or as the manuals write `50h,50h,50h - 08h,F7h`; # and what follows it in a
+/// line is a remark.
 std::vector<std::uint8_t> read_hex(const std::string& text, const std::string& name) {
     std::vector<std::uint8_t> bytes;
     std::size_t line = 1;
     std::string word;
     const auto end_word = [&] {
         std::string digits = word.starts_with("0x") || word.starts_with("0X") ? word.substr(2) : word;
-        if (!digits.empty() && (digits.back() == 'h' || digits.back() == ',')) digits.pop_back();
+        if (!digits.empty() && (digits.back() == 'h' || digits.back() == 'H')) digits.pop_back();
         const bool hex =
             std::all_of(digits.begin(), digits.end(), [](unsigned char c) { return std::isxdigit(c) != 0; });
         if (!hex || digits.size() % 2 != 0)
@@ -78,7 +79,7 @@ std::vector<std::uint8_t> read_hex(const std::string& text, const std::string& n
     bool remark = false;
     for (const char c : text + "\n") {
         remark = c != '\n' && (remark || c == '#');
-        if (!remark && std::isspace(static_cast<unsigned char>(c)) == 0) {
+        if (!remark && std::isspace(static_cast<unsigned char>(c)) == 0 && c != ',' && c != '-') {
             word += c;
             continue;
         }
@@ -143,7 +144,7 @@ void listen(const Common& common, const Options& options) {
     const base::Instant start = lines.front().wire->now();
     constexpr base::Microseconds kWait{10'000};
     std::array<std::uint8_t, 256> bytes{};
-    while (goes_on()) {
+    while (goes_on() && output_has_reader()) {
         for (Line& line : lines) {
             const auto count = line.wire->read(bytes, kWait);
             if (!count) {

@@ -17,7 +17,7 @@ using registers::Register;
 
 struct Options {
     std::vector<std::string> registers;
-    std::string output;
+    std::string output = "-";
     std::string rate = "slow";
     std::string when;
     std::string move;
@@ -75,24 +75,25 @@ void write_file(const std::string& path, const std::string& content) {
 
 void save(Session& session, const Options& options, const Recording& recording) {
     const std::string csv = to_csv(recording);
-    if (options.output.empty()) {
+    const std::string file = output_file(options.output);
+    if (file.empty()) {
         if (!session.json()) return fmt::print("{}", csv);
     } else {
-        write_file(options.output, csv);
+        write_file(file, csv);
     }
     Json document{{"samples", recording.size()},
                   {"rate_hz", recording.rate_hz},
                   {"seconds", recording.size() > 0 ? recording.time_s.back() : 0.0},
                   {"incomplete", recording.incomplete}};
-    if (!options.output.empty()) {
-        document["file"] = options.output;
+    if (!file.empty()) {
+        document["file"] = file;
     } else {
         document["time_s"] = recording.time_s;
         for (const auto& column : recording.columns)
             document["columns"].push_back(
                 {{"name", column.name}, {"unit", column.unit}, {"values", column.values}});
     }
-    session.tell(fmt::format("{}: {} samples in {:.3f} s{}", options.output, recording.size(),
+    session.tell(fmt::format("{}: {} in {:.3f} s{}", file, counted(recording.size(), "sample"),
                              recording.size() > 0 ? recording.time_s.back() : 0.0,
                              recording.incomplete.empty() ? "" : ", incomplete: " + recording.incomplete),
                  document);
@@ -118,8 +119,52 @@ void poll(Session& session, const Options& options, const RecordOptions& how) {
     save(session, options, recording);
 }
 
+/// What was read of a buffer before it broke off, which no second recording brings back.
+[[noreturn]] void keep_broken(Session& session, const Options& options, const RecordOptions& how,
+                              Recording& recording, const std::string& why, int exit_code) {
+    session.progress("");
+    const std::size_t count = recording.size();
+    if (count == 0)
+        throw command_line::Failure(exit_code, why + "; no sample had been read, and nothing was written");
+    recording.incomplete = fmt::format("{} of {} were read: {}", count, counted(how.samples, "sample"),
+                                       why.substr(0, why.find('\n')));
+    const std::string csv = to_csv(recording);
+    const std::string file = output_file(options.output);
+    const std::string part = file.empty() ? "standard output" : file + ".part";
+    if (!file.empty()) {
+        if (const std::string problem = whole_files::write_files({{part, csv}}); !problem.empty())
+            throw command_line::Failure(exit_code,
+                                        fmt::format("{}; what was read is lost too: {}", why, problem));
+    } else if (!session.json()) {
+        fmt::print("{}", csv);
+    }
+    throw command_line::Failure(
+        exit_code,
+        fmt::format("{}; {} of {} were read and are in {}, marked as incomplete", why, count,
+                    counted(how.samples, "sample"), part),
+        {{"incomplete", true}, {"read", count}, {"of", how.samples}, {"file", file.empty() ? "" : part}});
+}
+
+void record_and_save(Session& session, const Options& options, const RecordOptions& how) {
+    Recording broken;
+    try {
+        const Recording recording = record_buffer(session.motor(), how, &broken);
+        session.progress("");
+        save(session, options, recording);
+    } catch (const mactalk_client::LineError& error) {
+        keep_broken(session, options, how, broken, error.what(), command_line::kNoAnswer);
+    } catch (const mactalk_client::Interrupted& error) {
+        keep_broken(session, options, how, broken, error.what(), command_line::kInterrupted);
+    } catch (const CannotRecord& error) {
+        if (broken.size() == 0) throw;
+        keep_broken(session, options, how, broken, error.what(), command_line::kRefused);
+    }
+}
+
 RecordOptions how_to(Session& session, const Options& options) {
+    static_cast<void>(output_file(options.output));
     RecordOptions how;
+    how.model_name = session.model_name();
     how.registers = find_registers(session.motor().model(), options.registers);
     if (options.rate != "slow" && options.rate != "fast")
         throw UserError(fmt::format(
@@ -153,9 +198,7 @@ void record(Session& session, const Options& options) {
     }
     try {
         if (options.poll) return poll(session, options, how);
-        const Recording recording = record_buffer(session.motor(), how);
-        session.progress("");
-        save(session, options, recording);
+        record_and_save(session, options, how);
     } catch (const CannotRecord& error) {
         session.progress("");
         refuse(error.what());
@@ -173,7 +216,7 @@ void add_record(arguments::App& app, Common& common) {
     command.add_option("registers", options->registers, "Names or numbers, P_IST,V_IST")
         ->required()
         ->delimiter(',');
-    command.add_option("-o,--output", options->output, "The file; standard output if not said");
+    command.add_option("-o,--output", options->output, "The file; standard output if not said, or -");
     command
         .add_option("--rate", options->rate,
                     "slow: a sample of the position loop, about 521 Hz; fast: of the current loop, 7812.5 Hz")

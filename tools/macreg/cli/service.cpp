@@ -44,7 +44,24 @@ void tell_mode(Session& session, const std::string& what) {
 void with_service(Session& session, const Options& options, const std::function<void(Service&)>& what) {
     Service service(session.motor(), goes_on);
     if (options.stop) service.allow_stop();
-    what(service);
+    const auto give_up = [&](const std::exception& error, int exit_code) {
+        constexpr const char* kOrders[] = {"not sent", "sent, not known to be done", "done"};
+        const Trail& trail = service.trail();
+        throw command_line::Failure(exit_code, fmt::format("{}; {}", error.what(), service.left_behind()),
+                                    {{"order", kOrders[static_cast<std::size_t>(trail.order)]},
+                                     {"stopped", !trail.ran_in.empty()},
+                                     {"perhaps_in_safe_mode", trail.in_safe_mode}});
+    };
+    try {
+        what(service);
+    } catch (const mactalk_client::LineError& error) {
+        give_up(error, command_line::kNoAnswer);
+    } catch (const mactalk_client::Interrupted& error) {
+        give_up(error, command_line::kInterrupted);
+    } catch (const NotDone& error) {
+        if (service.trail().ran_in.empty()) throw;
+        give_up(error, command_line::kRefused);
+    }
 }
 
 void save(Session& session, const Options& options) {
@@ -90,6 +107,16 @@ void reset(Session& session, const Options& options) {
     });
 }
 
+/// In memory; a line that is gone cannot do it, and what went wrong first is what is told.
+void put_back(Motor& motor, const registers::Register& reg, std::int64_t raw) {
+    try {
+        static_cast<void>(change(motor, reg, raw));
+    } catch (const mactalk_client::LineError&) {
+        fmt::print(stderr, "macreg: {} could not be put back: it has another value in memory, not in flash\n",
+                   reg.name);
+    }
+}
+
 /// FastMAC and FlexMAC need the user interface set to communication, which counts from a reset on (001
 /// §3.2.36).
 void prepare(Session& session, const Options& options) {
@@ -111,14 +138,23 @@ void prepare(Session& session, const Options& options) {
         "then. All of the motor's memory is saved in flash, and it resets: {}",
         names_text(bits, motor.model(), before), what_a_start_does(session)));
     with_service(session, options, [&](Service& service) {
-        const Outcome outcome = change(motor, bits, before | kCommunication);
+        const Outcome outcome = [&] {
+            try {
+                return change(motor, bits, before | kCommunication);
+            } catch (const mactalk_client::LineError& error) {
+                throw mactalk_client::LineError(
+                    error.kind(),
+                    fmt::format("{}; CNTRL_BITS may have been written in memory, the flash is as it was",
+                                error.what()));
+            }
+        }();
         if (!outcome.taken) refuse(fmt::format("CNTRL_BITS was not taken: {}", outcome.why));
         std::vector<std::string> changed;
         try {
             changed = service.save();
         } catch (...) {
             // As found: what is in memory would be saved by somebody else some day.
-            static_cast<void>(change(motor, bits, before));
+            if (service.trail().order == Trail::Order::none) put_back(motor, bits, before);
             throw;
         }
         if ((motor.read(bits) & kCommunication) != kCommunication || !changed.empty())

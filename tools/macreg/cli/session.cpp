@@ -49,12 +49,19 @@ Model find_model(mactalk_client::Master& master, std::uint8_t address, const Com
                         fmt::format("{}: a gateway answers, but its link to the motor does not work; "
                                     "`nanoctl status` tells more",
                                     master.wire().name()));
-    const bool asked_all = silent && common.address == 0;
-    throw LineError(
-        error.kind(),
-        std::string(error.what()) + (asked_all ? "; with several motors on the line name one with --address "
-                                                 "(`macreg find` shows them)"
-                                               : ""));
+    if (!silent || (common.address != 0 && common.address != kEveryone))
+        throw LineError(error.kind(), error.what());
+    if (master.counters().stray_bytes > 0)
+        throw LineError(
+            error.kind(),
+            fmt::format("{}: answers came that cannot be understood: several motors that answer at once "
+                        "do that; name one with --address (`macreg find` shows them). With one motor "
+                        "only: is the speed right?",
+                        master.wire().name()));
+    throw LineError(error.kind(),
+                    std::string(error.what()) +
+                        "; with several motors on the line name one with --address (`macreg find` "
+                        "shows them)");
 }
 
 /// What is wrong in the command line is told before anybody is asked.
@@ -106,6 +113,11 @@ Session::Session(const Common& common)
     }
 }
 
+std::string Session::model_name() const {
+    const bool known = !common_.model.empty() || motor_->model() == Model::mac800;
+    return known ? std::string(registers::name_of(motor_->model())) : "MAC50-141";
+}
+
 void Session::remark(const std::string& text) const {
     if (!json()) fmt::print(stderr, "{}: {}\n", common_.program, text);
 }
@@ -147,6 +159,19 @@ void work(Common& common, const std::function<void(Session&)>& what) {
         Session session(common);
         what(session);
     });
+}
+
+std::string output_file(const std::string& option) {
+    if (option.empty()) throw UserError("-o: write a file's name, or - for standard output");
+    return option == "-" ? std::string() : option;
+}
+
+bool output_has_reader() {
+    return host::output_has_reader();
+}
+
+std::string counted(std::size_t count, const std::string& what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
 Json value_document(const registers::Register& reg, Model model, std::int64_t raw) {

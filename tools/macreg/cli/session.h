@@ -44,6 +44,8 @@ class Session {
     mactalk_client::Master& master() { return master_; }
     const Common& common() const { return common_; }
     bool json() const { return common_.json; }
+    /// "MAC140" if that is known, for what is kept: by its answers alone a motor is one of "MAC50-141".
+    std::string model_name() const;
     void pause(base::Microseconds time) { master_.pause(time); }
     base::Instant now() { return wire_->now(); }
 
@@ -69,6 +71,15 @@ class Session {
 void work(Common& common, const std::function<void(Session&)>& what);
 /// The same without a motor.
 void guard(Common& common, const std::function<void()>& what);
+
+/// Of -o: empty for standard output, which is "-"; throws UserError if it names nothing.
+std::string output_file(const std::string& option);
+
+/// False once who reads standard output is gone: what writes seldom learns of it here.
+bool output_has_reader();
+
+/// "1 register", "2 registers"
+std::string counted(std::size_t count, const std::string& what);
 
 /// {"name":, "number":, "raw":, "value":} of a register's value.
 Json value_document(const registers::Register& reg, registers::Model model, std::int64_t raw);

@@ -17,12 +17,12 @@ void ui(Common& common) {
         Session session(common);
         options.address = session.motor().address();
         options.model = session.motor().model();
+        options.model_name = session.model_name();
     }
     constexpr unsigned kAttempts = 2;  // a person who waits presses again
     options.line = {
         .baud = common.baud, .patience = base::Milliseconds{common.patience_ms}, .attempts = kAttempts};
-    options.title =
-        fmt::format("macreg {} {} at {}", registers::name_of(options.model), options.address, common.port);
+    options.title = fmt::format("macreg {} {} at {}", options.model_name, options.address, common.port);
     options.reopen = [&] { return mactalk_client::open_wire(common.port, common.baud); };
     try {
         run_ui(command_line::open_port(common), options);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -19,6 +20,9 @@ struct Options {
     double seconds = 0;
     bool all = false;
 };
+
+/// Between two looks whether it is to end.
+constexpr base::Microseconds kLook{100'000};
 
 /// What one wants to see of any motor.
 const std::vector<std::string> kUsual{"MODE_REG", "P_SOLL", "P_IST",  "V_SOLL",
@@ -90,9 +94,14 @@ void watch(Session& session, const Options& options) {
     Table table(session, options, registers);
     const base::Instant begun = session.now();
     const base::Microseconds limit{static_cast<std::int64_t>(options.seconds * 1e6)};
-    while (goes_on() && (options.seconds == 0 || session.now() - begun < limit)) {
+    const auto ends = [&] {
+        return !goes_on() || !output_has_reader() || (options.seconds > 0 && session.now() - begun >= limit);
+    };
+    while (!ends()) {
         table.show(session.motor().read_block(registers));
-        session.pause(base::Milliseconds{options.interval_ms});
+        const base::Instant next = session.now() + base::Milliseconds{options.interval_ms};
+        while (session.now() < next && !ends())
+            session.pause(std::min<base::Microseconds>(kLook, next - session.now()));
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -65,7 +66,11 @@ void FrameCutter::pass(base::Instant now) {
 
 void FrameCutter::finish() {
     if (bytes_.empty()) return;
-    if (state_ == State::message)
+    const bool only_a_head =
+        state_ == State::hunting && std::all_of(bytes_.begin(), bytes_.end(), [&](std::uint8_t byte) {
+            return is_head(byte) && byte == bytes_.front();
+        });
+    if (state_ == State::message || only_a_head)
         emit(Frame::Kind::broken, cut_off());
     else
         emit(state_ == State::hunting ? Frame::Kind::noise : Frame::Kind::broken, std::move(flaw_));
@@ -132,7 +137,7 @@ void FrameCutter::fault(std::string flaw) {
 }
 
 std::string FrameCutter::cut_off() const {
-    return fmt::format("cut off after {} bytes", bytes_.size());
+    return fmt::format("cut off after {} byte{}", bytes_.size(), bytes_.size() == 1 ? "" : "s");
 }
 
 }  // namespace nplc::macreg

@@ -47,7 +47,10 @@ std::string start_words(const Motor& motor, const RecordOptions& options) {
 
 Recording empty_recording(const Motor& motor, const RecordOptions& options) {
     Recording recording;
-    recording.model = registers::name_of(motor.model());
+    const bool large = motor.model() == Model::mac800;
+    recording.model = !options.model_name.empty() ? options.model_name
+                      : large                     ? registers::name_of(motor.model())
+                                                  : "MAC50-141";
     recording.address = motor.address();
     recording.start = start_words(motor, options);
     for (const Register* reg : options.registers) recording.columns.push_back(column_of(*reg));
@@ -67,7 +70,7 @@ class BufferRecorder {
         plan();
     }
 
-    Recording run() {
+    Recording run(Recording* broken) {
         if (motor_.is_behind_gateway())
             throw CannotRecord(
                 "the motor is behind a gateway, whose line to it carries no sample buffer; use --poll");
@@ -83,6 +86,7 @@ class BufferRecorder {
             restore();
             return recording;
         } catch (...) {
+            if (broken != nullptr) *broken = put_together(got_);
             try {
                 change_bits(0, 0);
                 restore();
@@ -193,7 +197,8 @@ class BufferRecorder {
     /// that did not come REC_CNT tells whether that was lost or the question.
     void read_pass(std::vector<std::optional<Sample>>& samples, std::size_t end) {
         rewind();
-        auto got = samples;
+        got_ = samples;
+        auto& got = got_;  // stays when an exception ends the pass
         unsigned losses = 0;
         for (std::size_t i = 0; i < end;) {
             options_.progress({Phase::reading,
@@ -207,11 +212,17 @@ class BufferRecorder {
             } catch (const LineError& error) {
                 if (error.kind() != LineError::Kind::no_answer || ++losses == kMostLosses) throw;
                 const std::int64_t next = counted();
-                if (next < static_cast<std::int64_t>(i) || next > static_cast<std::int64_t>(i) + 1) return;
+                if (next < static_cast<std::int64_t>(i) || next > static_cast<std::int64_t>(i) + 1) {
+                    got_ = samples;
+                    return;
+                }
                 i = static_cast<std::size_t>(next);
             }
         }
-        if (counted() == static_cast<std::int64_t>(end)) samples = got;
+        if (counted() == static_cast<std::int64_t>(end))
+            samples = got_;
+        else
+            got_ = samples;
     }
 
     Sample ask() {
@@ -227,6 +238,7 @@ class BufferRecorder {
         Recording recording = empty_recording(motor_, options_);
         recording.rate_hz = rate();
         for (std::size_t i = 0; i < samples.size(); ++i) {
+            if (!samples[i]) continue;  // of a recording that broke off
             recording.time_s.push_back(static_cast<double>(i) / recording.rate_hz);
             std::size_t slot = 0;
             for (std::size_t c = 0; c < options_.registers.size(); ++c) {
@@ -261,6 +273,7 @@ class BufferRecorder {
     std::array<const Register*, kSlots> samples_{};
     std::array<std::int64_t, kSlots> saved_{};
     std::int64_t saved_inner_ = 0;
+    std::vector<std::optional<Sample>> got_;  ///< of the pass under way
 };
 
 }  // namespace
@@ -269,8 +282,8 @@ unsigned sample_words(Model model, const Register& reg) {
     return model != Model::mac800 && registers::is_32_bit(reg.format) ? 2 : 1;
 }
 
-Recording record_buffer(Motor& motor, const RecordOptions& options) {
-    return BufferRecorder(motor, options).run();
+Recording record_buffer(Motor& motor, const RecordOptions& options, Recording* broken) {
+    return BufferRecorder(motor, options).run(broken);
 }
 
 void record_polling(Motor& motor, const RecordOptions& options, Recording& into) {

@@ -142,7 +142,16 @@ class App {
     }
 
     void write(const Register& reg, std::int64_t raw) {
-        const Outcome outcome = change(*motor_, reg, raw);
+        const Outcome outcome = [&] {
+            try {
+                return change(*motor_, reg, raw);
+            } catch (const LineError&) {
+                model_.tell(fmt::format("{} may have been written or not; read it (r) once the motor answers",
+                                        reg.name),
+                            true);
+                throw;
+            }
+        }();
         Snapshot one(motor_->now());
         one.set(reg.number, outcome.after, motor_->now());
         model_.store(one);
@@ -170,13 +179,22 @@ class App {
             }
             word.clear();
         }
+        how.model_name = options_.model_name;
         how.progress = [this](const RecordProgress& progress) { look_on(progress); };
+        Recording broken;
         try {
-            model_.set_recording(record_buffer(*motor_, how));
+            model_.set_recording(record_buffer(*motor_, how, &broken));
             model_.set_progress("");
         } catch (const GivenUp&) {
             model_.set_progress("");
             model_.tell("given up; the sample registers are as they were");
+        } catch (const LineError&) {
+            model_.set_progress("");
+            model_.tell(
+                fmt::format("the line broke off; {} of {} samples had been read", broken.size(), how.samples),
+                true);
+            if (broken.size() > 1) model_.set_recording(std::move(broken));
+            throw;
         } catch (...) {
             model_.set_progress("");
             throw;

@@ -58,7 +58,7 @@ UiModel::UiModel(registers::Model model) : model_(model) {
 
 Wish UiModel::press(KeyPress key) {
     if (help_) {
-        help_ = false;
+        help_ = key.key == Key::none;  // nobody pressed one
         return {};
     }
     if (prompt_.kind != Prompt::Kind::none) return answer_prompt(key);
@@ -312,7 +312,8 @@ void UiModel::tell(std::string note, bool bad) {
 }
 
 void UiModel::set_trouble(std::string trouble) {
-    if (trouble.empty() && !trouble_.empty()) tell("the motor answers again");
+    // What was lost with the line stays on the screen.
+    if (trouble.empty() && !trouble_.empty() && !bad_) tell("the motor answers again");
     trouble_ = std::move(trouble);
 }
 

@@ -9,6 +9,7 @@
 #include "curses_headers.h"
 #include "macreg/curve.h"
 #include "macreg/words.h"
+#include "macreg/wrap.h"
 
 namespace nplc::macreg {
 
@@ -153,8 +154,11 @@ class Screen {
                       fmt::format("{} {}", reg.name, raw ? fmt::format("{:X}h", bits & mask_of(reg)) : ""));
         const auto fields = model_.fields();
         if (fields.empty()) return draw_about(box, reg);
-        const auto page = static_cast<std::size_t>(std::max(1, box.rows - 1));
         const std::size_t selected = model_.selected_field();
+        const auto meaning =
+            wrapped(fields[selected].meaning, static_cast<std::size_t>(std::max(10, box.columns - 2)),
+                    static_cast<std::size_t>(std::max(1, box.rows / 2)));
+        const auto page = static_cast<std::size_t>(std::max(1, box.rows - static_cast<int>(meaning.size())));
         const std::size_t first = selected >= page ? selected - page + 1 : 0;
         for (std::size_t i = 0; i < page && first + i < fields.size(); ++i) {
             const Field& field = fields[first + i];
@@ -162,8 +166,9 @@ class Screen {
             cell(box.top + static_cast<int>(i), box.left + 1, box.columns - 1,
                  field_words(field, bits, raw.has_value()), active ? A_REVERSE : A_NORMAL);
         }
-        cell(box.top + box.rows - 1, box.left + 1, box.columns - 1, std::string(fields[selected].meaning),
-             colour(kPairTitle, A_NORMAL));
+        int y = box.top + box.rows - static_cast<int>(meaning.size());
+        for (const std::string& line : meaning)
+            cell(y++, box.left + 1, box.columns - 1, line, colour(kPairTitle, A_NORMAL));
     }
 
     std::uint32_t mask_of(const Register& reg) const {
@@ -185,18 +190,10 @@ class Screen {
         const auto* details = registers::details_of(model_.model(), reg.number);
         int y = box.top;
         const int end = box.top + box.rows;
+        const auto width = static_cast<std::size_t>(std::max(10, box.columns - 3));
         const auto paragraph = [&](const std::string& text) {
-            const auto width = static_cast<std::size_t>(std::max(10, box.columns - 3));
-            for (std::size_t at = 0; at < text.size() && y < end;) {
-                std::size_t length = std::min(width, text.size() - at);
-                if (at + length < text.size()) {
-                    const std::size_t blank = text.rfind(' ', at + length);
-                    if (blank != std::string::npos && blank > at) length = blank - at;
-                }
-                cell(y++, box.left + 2, box.columns - 3, text.substr(at, length));
-                at += length;
-                while (at < text.size() && text[at] == ' ') ++at;
-            }
+            for (const std::string& line : wrapped(text, width, static_cast<std::size_t>(end - y)))
+                cell(y++, box.left + 2, box.columns - 3, line);
         };
         if (details != nullptr) paragraph(std::string(details->title));
         paragraph(fmt::format("raw {} to {}, {}, {}", reg.min, reg.max, registers::name_of(reg.format),
@@ -243,12 +240,19 @@ class Screen {
             cell(box.top + 2 + static_cast<int>(i - first), box.left, box.columns, lines[i]);
     }
 
+    /// As many lines as it needs, up from `last`: what to do stands at a message's end.
+    void draw_note(int last) {
+        const auto lines = wrapped(model_.note(), static_cast<std::size_t>(columns_ - 1),
+                                   static_cast<std::size_t>(rows_ / 2));
+        int y = last - static_cast<int>(lines.size()) + 1;
+        for (const std::string& line : lines) cell(y++, 0, columns_, line, model_.is_bad() ? bad() : A_BOLD);
+    }
+
     void draw_bottom() {
         const int y = rows_ - 1;
         const Prompt& prompt = model_.prompt();
         ::curs_set(prompt.kind == Prompt::Kind::none ? 0 : 1);
-        if (!model_.note().empty() && prompt.kind != Prompt::Kind::none)
-            cell(y - 1, 0, columns_, model_.note(), model_.is_bad() ? bad() : A_BOLD);
+        draw_note(prompt.kind == Prompt::Kind::none ? y : y - 1);
         if (prompt.kind != Prompt::Kind::none) {
             // The end of a long label and text is what a person types at.
             const std::string text = prompt.label + prompt.text;
@@ -256,9 +260,7 @@ class Screen {
             const std::string shown = text.size() > width ? text.substr(text.size() - width) : text;
             cell(y, 0, columns_ - 1, shown, A_BOLD);
             ::move(y, static_cast<int>(shown.size()));
-        } else if (!model_.note().empty()) {
-            cell(y, 0, columns_ - 1, model_.note(), model_.is_bad() ? bad() : A_BOLD);
-        } else {
+        } else if (model_.note().empty()) {
             cell(y, 0, columns_ - 1,
                  "arrows  r read  w write  s samples  / search  Tab panel  z zoom  ? help  q quit");
         }

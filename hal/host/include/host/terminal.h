@@ -21,4 +21,7 @@ std::size_t terminal_columns();
 /// Whether something is to be read from standard input, its end too, waiting no longer than `wait`.
 bool input_within(base::Milliseconds wait);
 
+/// False if standard output is a pipe that nobody reads any more.
+bool output_has_reader();
+
 }  // namespace nplc::host

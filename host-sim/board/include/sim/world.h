@@ -101,6 +101,7 @@ class World final : public Stage, private gateway::Observer {
     void seed(std::uint64_t value) override { line_.reseed(value); }
     void fail_motor() override { motor_fails_ = true; }
     void load_motor(int torque) override { mac_.plant().load().torque = torque; }
+    void set_brake(int torque) override { mac_.plant().load().brake_torque = torque; }
     void power_motor(bool on) override;
     void stop_motor(const action::StopMotor& stop) override;
     void free_motor() override;

@@ -54,7 +54,8 @@ class FastMacSlave {
     /// Toggle 0, FastMAC, rapid communication, no pauses. The log stays.
     void power_up();
 
-    /// A character whose stop bit ended at `now`.
+    /// A character whose stop bit ended at `now`. A framing error shows until the link is in step again (001
+    /// §5.2.1.7): at a good character after an empty one, or a FlexMAC message.
     void receive(std::uint8_t byte, bool framing_error, base::Instant now, LinkTarget& motor);
 
     /// The next byte to send, asked for whenever the transmitter is free; nothing while it pauses.
@@ -68,6 +69,7 @@ class FastMacSlave {
     bool toggle() const { return receiver_.toggle(); }
 
   private:
+    void show_framing_error(bool seen, LinkTarget& motor);
     void receive_command(std::uint8_t byte, base::Instant now, LinkTarget& motor);
     bool execute_on_link(protocol::fastmac::Number number);
     void receive_message(const protocol::flexmac::Message& message, base::Instant now, LinkTarget& motor);
@@ -77,7 +79,7 @@ class FastMacSlave {
     std::uint8_t next_byte(const LinkTarget& motor);
     std::uint8_t status_byte(const LinkTarget& motor) const;
     void log(const Order& order);
-    base::Microseconds characters(int count) const;
+    base::Microseconds bits(int count) const;
 
     Options options_;
     protocol::fastmac::CommandReceiver receiver_;

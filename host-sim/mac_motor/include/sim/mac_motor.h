@@ -146,12 +146,20 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     void act_on_pointers();
     void copy(Cell from, Cell to) { memory_.set(to, memory_.get(from)); }
     void set_relative(bool p_soll, bool p_fnc);
-    void clear_in_position();
+    void clear_in_position() {
+        samples_within_ = 0;
+        set_error_bits(err::IN_POS, false);
+    }
 
     // MacTalk's own: motor_service.cpp
     static void clear_volatile(MotorMemory& memory);
     void load_parameters(std::uint16_t command);
-    void run_sample_buffer();
+    void run_sample_buffer() {
+        const auto control = static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS));
+        if ((control & (bits().rewind | bits().record)) != 0) rewind_or_record(control);
+    }
+    void rewind_or_record(std::uint32_t control);
+    bool records_inner(std::uint32_t control) const;
     void rewind_samples();
     void record();
     void inner_sample() override;
@@ -171,7 +179,12 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     void go_passive(bool emergency);
     void begin_stop(std::uint16_t then, bool emergency);
     void begin_at_measured_speed();
-    void end_mode_by_itself();
+    /// 001 §4.1.8, §4.4.5, §4.4.9 to §4.4.11: what a mode does without being asked.
+    void end_mode_by_itself() {
+        if (is_driven() && !is_mode(MotorMode::stop) && !coasting_) return;
+        end_stop_or_test();
+    }
+    void end_stop_or_test();
     bool error_keeps_mode() const;
     const ModeFacts& facts() const { return *facts_; }
     bool is_driven() const { return facts().driven(); }
@@ -223,7 +236,12 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     Coil::Setup coil_setup() const;
     void show_gear_error();
     std::int32_t analogue_v_soll() const;
-    void set_target_by_voltage();
+    /// P_SOLL or P_FNC of the position block, where the voltage sets them.
+    void set_target_by_voltage() {
+        if (is_mode(MotorMode::analogue_two_positions)) set_target_by_level();
+        if (is_mode(MotorMode::analogue_position)) set_target_by_place();
+    }
+    void set_target_by_place();
     void set_target_by_level();
     void run_to(std::int64_t distance);
     std::int32_t braking(std::int64_t distance, std::int32_t acceleration);

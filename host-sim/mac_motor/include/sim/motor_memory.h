@@ -1,12 +1,12 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 
 #include "registers/mac.h"
+#include "sim/bounds.h"
 
 namespace nplc::sim {
 
@@ -77,56 +77,51 @@ inline constexpr Cell ELDEGN_OFFSET = word(124, 0), ELDEGP_OFFSET = word(125, 0)
                       OUTLOOPDIV = word(0, 157), U_MIN_SUP = word(152, 0), UV_HANDLE = word(160, 23);
 }  // namespace cell
 
-/// A register that the regulators' filters and the commutation are made of (001 §3.2.89 to §3.2.111, §3.2.124
-/// to §3.2.127, §3.2.140 to §3.2.142, §3.2.148 to §3.2.150; 004).
+/// A register that the regulators' filters and the commutation are made of (001 §3.2.13, §3.2.89 to §3.2.111,
+/// §3.2.124 to §3.2.127, §3.2.140 to §3.2.142, §3.2.148 to §3.2.150; 004).
 constexpr bool is_setting(registers::Model model, std::uint8_t reg) {
     const auto in = [reg](int first, int last) { return reg >= first && reg <= last; };
+    if (reg == 13) return true;  // KVOUT
     if (is_mac800(model)) return in(121, 149) || in(172, 174) || in(186, 189);
     return in(89, 111) || in(124, 127) || in(140, 142) || in(148, 150);
 }
 
-/// All registers of one motor. MAC50-141: 16-bit words by register number, a LongInt takes its number (low
+/// All registers of one motor, as numbers: what the motor's program reads in each sample is there as it is
+/// used. The line sees words. MAC50-141: 16-bit words by register number, a LongInt takes its number (low
 /// word) and the next (001 §3.1, §3.2). MAC800: a longword each (004). Registers nobody wrote read 0; nothing
 /// is refused.
 class MotorMemory {
   public:
-    explicit MotorMemory(registers::Model model) : model_(model) {}
+    explicit MotorMemory(registers::Model model) : model_(model), mac800_(is_mac800(model)) {}
 
     registers::Model model() const { return model_; }
 
     /// Value by the cell's kind; a cell that the model lacks reads 0 and is not written.
-    std::int32_t get(Cell cell) const {
-        const std::uint8_t number = number_of(cell);
-        if (number == 0) return 0;
-        if (is_wide(cell)) return static_cast<std::int32_t>(longword(place_of(number)));
-        const std::uint16_t word = words_[number];
-        return cell.kind == Cell::Kind::integer ? static_cast<std::int16_t>(word) : word;
-    }
+    std::int32_t get(Cell cell) const { return values_[place_of(cell)]; }
     /// Cut to the cell's width.
     void set(Cell cell, std::int32_t value) {
-        const std::uint8_t number = number_of(cell);
-        if (number == 0) return;
-        store(place_of(number), static_cast<std::uint32_t>(value), is_wide(cell));
+        const std::size_t place = place_of(cell);
+        if (place == kNowhere) return;
+        values_[place] = mac800_ ? value : cut(cell.kind, value);
         if (is_setting(cell)) settings_written_.yes = true;
     }
-    /// For what the motor shows: a value beyond the cell's range stands at its end.
-    void show(Cell cell, std::int32_t value) {
-        if (is_wide(cell)) return set(cell, value);
-        set(cell, cell.kind == Cell::Kind::word ? std::clamp(value, 0, 0xFFFF)
-                                                : std::clamp(value, -0x8000, 0x7FFF));
+    /// For what the motor shows, no setting: the value without its fraction, at the end of the cell's range
+    /// if it is beyond that. Answers what stands there.
+    std::int32_t show(Cell cell, double value) {
+        constexpr double kMost = 2'000'000'000;
+        const std::size_t place = place_of(cell);
+        if (place == kNowhere) return 0;
+        const bool wide = mac800_ || cell.kind == Cell::Kind::long_int;
+        return values_[place] = static_cast<std::int32_t>(wide ? within(value, kMost)
+                                                          : cell.kind == Cell::Kind::word
+                                                              ? within(value, 0, 0xFFFF)
+                                                              : within(value, -0x8000, 0x7FFF));
     }
 
     /// As the line sees it: 16 bits, or with `longword` 32. MAC50-141: a longword is `reg` and the number
     /// after it. MAC800: a word is the register's low half.
-    std::uint32_t read(std::uint8_t reg, bool longword) const {
-        const std::size_t place = place_of(reg);
-        return longword ? this->longword(place) : words_[place];
-    }
-    void write(std::uint8_t reg, std::uint32_t value, bool longword) {
-        store(place_of(reg), value, longword);
-        const bool setting = sim::is_setting(model_, reg) || (longword && sim::is_setting(model_, next(reg)));
-        if (setting) settings_written_.yes = true;
-    }
+    std::uint32_t read(std::uint8_t reg, bool longword) const;
+    void write(std::uint8_t reg, std::uint32_t value, bool longword);
 
     /// A setting may have been written since this was asked last. All of a copy may be new.
     bool take_settings_written() { return std::exchange(settings_written_.yes, false); }
@@ -143,27 +138,27 @@ class MotorMemory {
             return *this;
         }
     };
+    static constexpr std::size_t kPlaces = 257;       // a longword at 255 reaches beyond the last number
+    static constexpr std::size_t kNowhere = kPlaces;  // always 0
 
     /// In either family, which is known when compiled; the other's is taken for one too, at no harm.
     static constexpr bool is_setting(Cell cell) {
         return sim::is_setting(registers::Model::mac140, cell.small) ||
                sim::is_setting(registers::Model::mac800, cell.big);
     }
-    void store(std::size_t place, std::uint32_t value, bool longword) {
-        words_[place] = static_cast<std::uint16_t>(value);
-        if (longword) words_[place + 1] = static_cast<std::uint16_t>(value >> 16);
+    static constexpr std::int32_t cut(Cell::Kind kind, std::int32_t value) {
+        if (kind == Cell::Kind::word) return static_cast<std::uint16_t>(value);
+        return kind == Cell::Kind::integer ? static_cast<std::int16_t>(value) : value;
     }
-    std::uint8_t number_of(Cell cell) const { return is_mac800(model_) ? cell.big : cell.small; }
-    bool is_wide(Cell cell) const { return is_mac800(model_) || cell.kind == Cell::Kind::long_int; }
-    std::size_t place_of(std::uint8_t reg) const { return is_mac800(model_) ? 2U * reg : reg; }
-    static constexpr std::uint8_t next(std::uint8_t reg) { return static_cast<std::uint8_t>(reg + 1); }
-    std::uint32_t longword(std::size_t place) const {
-        return words_[place] | static_cast<std::uint32_t>(words_[place + 1]) << 16;
-    }
+    static constexpr std::size_t place_of(std::uint8_t number) { return number == 0 ? kNowhere : number; }
+    std::size_t place_of(Cell cell) const { return mac800_ ? place_of(cell.big) : place_of(cell.small); }
+    std::uint16_t word(std::size_t place) const;
+    void set_word(std::size_t place, std::uint16_t word);
 
     registers::Model model_;
+    bool mac800_;
     Written settings_written_;
-    std::array<std::uint16_t, 512> words_{};  // the low half first
+    std::array<std::int32_t, kPlaces + 1> values_{};  // by number; a LongInt's second number is not used
 };
 
 /// The values of a motor from its box; ours, see the folder's README.

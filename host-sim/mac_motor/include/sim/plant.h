@@ -37,11 +37,14 @@ class Plant {
 
     /// Before the steps of a sample: the load as it is now.
     void take_load() {
-        if (load_.inertia_256 != inertia_256_) {
+        const std::int32_t friction = std::max(load_.friction_torque + holding_, 0);
+        if (load_.inertia_256 != inertia_256_ || friction != friction_torque_) {
             inertia_256_ = load_.inertia_256;
+            friction_torque_ = friction;
             of_one_ = acceleration_of_one_ * 256 / std::max(inertia_256_ - elsewhere_256_, 1.0);
+            friction_ = friction * of_one_;
+            sticking_ = friction == 0 ? 0 : (friction + kStick) * of_one_;
         }
-        friction_ = std::max(load_.friction_torque + holding_, 0) * of_one_;
         pull_ = load_.torque;
         has_stops_ = load_.low_stop || load_.high_stop;
     }
@@ -66,6 +69,10 @@ class Plant {
     static constexpr std::int64_t kCount = std::int64_t{1} << kFractionBits;
     static constexpr double kTorqueBound = 1'000'000;
     static constexpr std::int32_t kStrongestBrake = 1'000'000;
+    /// What is slow sticks: a little more friction, less than the torques' unit. They are whole numbers, so
+    /// one that just equals the friction is nothing rare, and would let the shaft creep on for ever.
+    static constexpr double kStick = 0.75;
+    static constexpr double kSlow = 0.375;  // counts an outer sample
 
     /// Friction works against motion, holds what is slower than it brakes in a step, and never turns a shaft
     /// round.
@@ -78,7 +85,8 @@ class Plant {
     /// On to the velocity that this would be without friction.
     void move(double pushed) {
         const double before = velocity_;
-        velocity_ = within(rubbed(pushed, friction_), fastest_);
+        const double friction = before > -slow_ && before < slow_ ? sticking_ : friction_;
+        velocity_ = within(rubbed(pushed, friction), fastest_);
         const std::int64_t from = position_;
         position_ += static_cast<std::int64_t>((before + velocity_) * (kCount / 2));
         if (has_stops_) keep_within_stops(from);
@@ -90,13 +98,16 @@ class Plant {
     double acceleration_of_one_;  // of torque 1 on the bare motor, counts/step^2
     double elsewhere_256_;
     double fastest_;
+    double slow_;    // below it the shaft sticks, counts/step
     double thrown_;  // of the velocity with which a spring throws, what is left after a step
     Load load_;
     std::int32_t holding_ = 0;       // of the brake
     std::int32_t inertia_256_ = -1;  // that of_one_ is for
-    double of_one_ = 0;              // of torque 1 on motor and load, counts/step^2
-    double friction_ = 0;            // counts/step^2
-    double pull_ = 0;                // torque
+    std::int32_t friction_torque_ = -1;
+    double of_one_ = 0;    // of torque 1 on motor and load, counts/step^2
+    double friction_ = 0;  // counts/step^2
+    double sticking_ = 0;  // the same where the shaft is slow
+    double pull_ = 0;      // torque
     bool has_stops_ = false;
     std::int64_t position_ = 0;  // 1/kCount counts
     double velocity_ = 0;        // counts/step

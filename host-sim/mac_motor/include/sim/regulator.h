@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
+#include "sim/bounds.h"
 #include "sim/motor_memory.h"
 
 namespace nplc::sim {
@@ -41,9 +43,11 @@ class Regulator {
         double vb_out = 0;
     };
 
-    void use(const Coefficients& coefficients) { c_ = coefficients; }
+    void use(const Coefficients& coefficients);
 
-    Output step(const Input& input);
+    Output step(const Input& input) {
+        return c_.taps == kSmallOrder ? filter<kSmallOrder>(input) : filter<kOrder>(input);
+    }
     void reset();
     /// Profile and shaft are at the same place and run at `velocity`, 1/16 counts/sample, in the next step.
     void restart(std::int32_t velocity);
@@ -54,6 +58,9 @@ class Regulator {
     std::int64_t lag_16() const { return lag_16_; }
 
   private:
+    /// Two filters are computed as one: FF with VB, and of VF the part of its input with that of its output.
+    using Pair [[gnu::vector_size(16)]] = double;
+    using Pairs = std::array<Pair, kOrder>;
     /// What this sample adds to the histories.
     struct Newest {
         double fnc_out;
@@ -61,17 +68,63 @@ class Regulator {
         double error = 0;
         double torque = 0;
     };
+    static constexpr std::int64_t kLagBound = std::int64_t{1} << 28;
+    static constexpr double kTorqueBound = 1e9;  // keeps wild coefficients finite
+
     template <std::size_t kTaps>
     Output filter(const Input& input);
+    /// The sums of the samples times `c`: `newest` in place of the first of `history`.
+    template <std::size_t kTaps>
+    static Pair filtered(const Pairs& c, Pair newest, const Pairs& history) {
+        Pair even = c[0] * newest;
+        Pair odd = c[1] * history[1];
+        for (std::size_t i = 2; i < kTaps; i += 2) {
+            even += c[i] * history[i];
+            odd += c[i + 1] * history[i + 1];
+        }
+        return even + odd;
+    }
+    template <std::size_t kTaps>
+    static void remember(Pairs& history, Pair newest) {
+#pragma GCC unroll 5
+        for (std::size_t i = kTaps - 1; i > 1; --i) history[i] = history[i - 1];
+        history[1] = newest;
+    }
     std::int32_t correct(double excess, double kvout, Newest& newest) const;
 
     Coefficients c_;
-    Taps fnc_out_{};
-    Taps v_ist_{};
-    Taps error_{};
-    Taps torque_{};
+    Pairs ff_vb_{};    // c_'s
+    Pairs vfx_vfy_{};  // c_'s
+    // By age, from 1 on.
+    Pairs velocities_{};   // FNC_OUT and V_IST
+    Pairs answers_{};      // VF's input, beside it VF's output of the sample before
+    double answered_ = 0;  // VF's last output
     std::int64_t lag_16_ = 0;
 };
+
+template <std::size_t kTaps>
+Regulator::Output Regulator::filter(const Input& input) {
+    Newest newest{.fnc_out = static_cast<double>(input.fnc_out), .v_ist = static_cast<double>(input.v_ist)};
+    const Pair velocity = filtered<kTaps>(ff_vb_, Pair{newest.fnc_out, newest.v_ist}, velocities_);
+    Output out{.ff_out = velocity[0], .vb_out = velocity[1]};
+    newest.error = out.ff_out - out.vb_out;
+    const Pair answer = filtered<kTaps>(vfx_vfy_, Pair{newest.error, answered_}, answers_);
+    newest.torque = within(answer[0] + answer[1], kTorqueBound);
+
+    const double torque = newest.torque * input.kvout;
+    const double limited = within(torque, input.torque_limit);
+    out.torque = nearest(limited);
+    if (torque != limited) {
+        out.correction = correct(limited - torque, input.kvout, newest);
+        out.ff_out += c_.ff[0] * out.correction;
+    }
+    remember<kTaps>(velocities_, Pair{newest.fnc_out, newest.v_ist});
+    remember<kTaps>(answers_, Pair{newest.error, answered_});
+    answered_ = newest.torque;
+    lag_16_ = std::clamp(lag_16_ + input.fnc_out + out.correction - 16 * std::int64_t{input.v_ist},
+                         -kLagBound, kLagBound);
+    return out;
+}
 
 /// The filters as the registers have them.
 Regulator::Coefficients regulator_coefficients(const MotorMemory& memory);

@@ -79,9 +79,9 @@ class Servo {
                                                    InnerWatcher* watcher);
     [[gnu::cold]] void show_inner_sample(MotorMemory& memory, InnerWatcher& watcher) const;
     [[gnu::noinline]] void set_voltages(const MotorMemory& memory, const Terminals& terminals);
-    Regulator::Input regulator_input(const Drive& drive, const MotorMemory& memory) const;
+    Regulator::Input regulator_input(const Drive& drive) const;
     std::int32_t unregulated_torque(const Drive& drive, const MotorMemory& memory);
-    [[gnu::noinline]] void run_outer(const MotorMemory& memory, const Terminals& terminals);
+    [[gnu::flatten, gnu::noinline]] void run_outer(const MotorMemory& memory, const Terminals& terminals);
     std::int32_t analogue_torque(const MotorMemory& memory, const Terminals& terminals) const;
     void follow_offsets(MotorMemory& memory) const;
     void show_currents(MotorMemory& memory) const;
@@ -113,6 +113,7 @@ class Servo {
     std::int32_t uit_shown_ = 0;
     std::int64_t last_counts_ = 0;
     std::int32_t v_ist_ = 0;
+    double kvout_ = 0;  // KVOUT
     bool encoder_broken_ = false;
 };
 

@@ -44,6 +44,9 @@ struct PowerMotor {
 struct LoadMotor {
     int torque = 0;  ///< constant pull on the shaft, 1023 = the motor's full torque
 };
+struct MotorBrake {
+    int torque = 0;  ///< what a MAC800's holding brake holds; 0: none is built in
+};
 /// Mechanical ends of the axis, in counts of the shaft from where it was at the beginning.
 struct StopMotor {
     bool above = true;  ///< else below
@@ -82,10 +85,10 @@ struct End {};
 struct Action {
     Time after{0};  ///< since the moment that set it off
     std::variant<action::SetInput, action::ToggleInput, action::CutLine, action::SpoilLine, action::Seed,
-                 action::FailMotor, action::PowerMotor, action::LoadMotor, action::StopMotor,
-                 action::FreeMotor, action::MotorSensor, action::MotorAnalogue, action::MotorPulses,
-                 action::MotorSupply, action::MotorTemperature, action::BreakEncoder, action::Gateway,
-                 action::Log, action::End>
+                 action::FailMotor, action::PowerMotor, action::LoadMotor, action::MotorBrake,
+                 action::StopMotor, action::FreeMotor, action::MotorSensor, action::MotorAnalogue,
+                 action::MotorPulses, action::MotorSupply, action::MotorTemperature, action::BreakEncoder,
+                 action::Gateway, action::Log, action::End>
         what;
 };
 using Actions = std::vector<Action>;

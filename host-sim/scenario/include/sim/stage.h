@@ -16,6 +16,7 @@ class Stage {
     virtual void seed(std::uint64_t value) = 0;
     virtual void fail_motor() = 0;
     virtual void load_motor(int torque) = 0;
+    virtual void set_brake(int torque) = 0;
     virtual void power_motor(bool on) = 0;
     virtual void stop_motor(const action::StopMotor& stop) = 0;
     virtual void free_motor() = 0;

@@ -48,6 +48,7 @@ struct OptionText {
     std::string names;                      ///< all of them as in the help: -o,--output
     std::string positional;                 ///< an argument's name; empty for an option
     std::string description;
+    bool has_value = false;  ///< false for a flag
 };
 
 struct Outcome {

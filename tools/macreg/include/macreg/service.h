@@ -16,13 +16,22 @@ class NotDone : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// What was done to the motor so far: who breaks off has to know.
+struct Trail {
+    enum class Order : std::uint8_t { none, sent, done };
+
+    std::string ran_in{};       ///< the mode it was told to stop in; empty: it was passive
+    bool in_safe_mode = false;  ///< it could not be taken out again
+    Order order = Order::none;  ///< to write flash, to reset, to read parameters
+};
+
 /// Holds the motor in SAFE_MODE. At the end of its life the motor is as it was found: passive, or in
 /// SAFE_MODE if it had been in it.
 class SafeMode {
   public:
     /// The motor must be passive; with `stop` one that runs is stopped first, and stays passive. `goes_on`
-    /// false: mactalk_client::Interrupted.
-    SafeMode(Motor& motor, bool stop, std::function<bool()> goes_on);
+    /// false: mactalk_client::Interrupted. Writes down in `trail` what it does.
+    SafeMode(Motor& motor, bool stop, std::function<bool()> goes_on, Trail& trail);
     ~SafeMode();
     SafeMode(const SafeMode&) = delete;
     SafeMode& operator=(const SafeMode&) = delete;
@@ -34,6 +43,7 @@ class SafeMode {
 
   private:
     Motor& motor_;
+    Trail& trail_;
     bool was_safe_ = false;
     bool left_ = false;
 };
@@ -59,7 +69,14 @@ class Service {
     /// The mode in which the motor is now.
     std::int64_t mode() { return motor_.read(registers::MODE_REG); }
 
+    const Trail& trail() const { return trail_; }
+    /// Of the last call, if it ended early: what became of flash, memory and mode, and what to look at.
+    std::string left_behind() const;
+
   private:
+    enum class Task : std::uint8_t { safe_mode, save, defaults, unsaved_defaults, reload, reset };
+
+    void begin(Task task);
     void order_reset(const std::function<void()>& order, const char* what);
     void order_parameters(std::int64_t code, const char* what);
     bool wait_until_out_of_safe();
@@ -68,6 +85,8 @@ class Service {
     Motor& motor_;
     std::function<bool()> goes_on_;
     bool stop_ = false;
+    Task task_ = Task::safe_mode;
+    Trail trail_;
 };
 
 /// MODE_REG's name, for a person.

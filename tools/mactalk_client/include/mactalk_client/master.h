@@ -117,7 +117,8 @@ class Master {
     MasterOptions options_;
     Counters counters_;
     std::uint64_t heard_ = 0;  ///< bytes since the question
-    bool unsettled_ = false;   ///< an answer may still be on its way
+    bool heard_any_ = false;
+    bool unsettled_ = false;  ///< an answer may still be on its way
     base::Instant silent_since_{};
 };
 

@@ -26,10 +26,11 @@ class Wire {
 
 struct OpenedWire {
     std::unique_ptr<Wire> wire;
-    std::string error;  ///< one line: what, where, what to do; empty when it was opened
+    std::string error;   ///< one line: what, where, what to do; empty when it was opened
+    bool never = false;  ///< the endpoint or the speed is written wrongly
 };
 
-/// An endpoint as hal_linux::ByteClient takes it.
+/// An endpoint as host::ByteClient takes it.
 OpenedWire open_wire(const std::string& endpoint, std::uint32_t baud);
 
 }  // namespace nplc::mactalk_client

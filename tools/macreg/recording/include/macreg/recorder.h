@@ -26,6 +26,7 @@ struct RecordProgress {
 
 struct RecordOptions {
     std::vector<const registers::Register*> registers{};
+    std::string model_name{};   ///< for the recording; empty: the family's
     bool fast = false;          ///< current loop's rate instead of the position loop's
     std::size_t samples = 895;  ///< 1 to kMostSamples; polling takes any number, 0 is no end
     std::optional<Condition> when{};
@@ -47,8 +48,9 @@ unsigned sample_words(registers::Model model, const registers::Register& reg);
 
 /// Records in the motor's sample buffer (001 §3.2.36, §3.2.112-116) and reads it by 53h. A sample whose
 /// answer was lost is read again after a rewind. SAMPLE1..4 and RECINNERBIT are put back whatever happens,
-/// and recording is stopped. Throws CannotRecord, LineError, and what `progress` throws.
-Recording record_buffer(Motor& motor, const RecordOptions& options);
+/// and recording is stopped. Throws CannotRecord, LineError, and what `progress` throws; `broken` then holds
+/// what had been read, each sample with its time.
+Recording record_buffer(Motor& motor, const RecordOptions& options, Recording* broken = nullptr);
 
 /// Reads the registers as fast as the line permits; each row has the time in the middle of its questions.
 /// `into` holds what came so far even if it throws.

@@ -12,6 +12,7 @@ namespace nplc::macreg {
 struct UiOptions {
     std::uint8_t address = 255;
     registers::Model model = registers::Model::mac140;
+    std::string model_name{};  ///< for a person: MAC50-141 if no more is known
     mactalk_client::MasterOptions line{};
     std::string title{};
     /// Opens the port anew after it was lost.
