@@ -328,7 +328,7 @@ class Files(Case):
 
     def test_a_full_standard_output_is_said(self):
         with open("/dev/full", "w", encoding="ascii") as full:
-            for command in ([NANOCTL, "man"], [SEQC, "disasm", self.table]):
+            for command in ([NANOCTL, "man"], [NANOCTL, "--help"], [SEQC, "--version"], [SEQC, "disasm", self.table]):
                 result = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
                 self.assertEqual(result.returncode, 2, result.stderr)
                 self.assertIn("cannot write to standard output", result.stderr)

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <iostream>
 
 namespace nplc::arguments {
 namespace {
@@ -23,6 +24,14 @@ OptionText text_of(const CLI::Option& option) {
             .positional = option.get_positional() ? option.get_name(true) : std::string(),
             .description = option.get_description(),
             .has_value = option.get_items_expected_max() != 0};
+}
+
+/// Prints help or version.
+Outcome told(const CLI::App& app, const CLI::ParseError& error) {
+    const int code = app.exit(error);
+    std::cout.flush();
+    if (std::cout.fail()) return {.kind = Outcome::Kind::wrong, .error = "cannot write to standard output"};
+    return {.kind = Outcome::Kind::told, .exit_code = code};
 }
 
 }  // namespace
@@ -190,8 +199,7 @@ Outcome App::parse(int argc, const char* const* argv) {
     try {
         parts_->app->parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0)
-            return {.kind = Outcome::Kind::told, .exit_code = parts_->app->exit(error)};
+        if (error.get_exit_code() == 0) return told(*parts_->app, error);
         return {.kind = Outcome::Kind::wrong,
                 .error = one_line(error.what()),
                 .rest = parts_->app->remaining(true)};

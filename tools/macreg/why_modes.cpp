@@ -76,7 +76,7 @@ void judge_demands(const Facts& facts, Findings& findings) {
             by_supply ? "`macreg set V_SOLL 500rpm`, for example. UV_HANDLE lets undervoltage set it to 0: "
                         "look at the supply."
                       : "`macreg set V_SOLL 500rpm`, for example.");
-    else if (v < (facts.large() ? 14 : 10) && !facts.moves())
+    else if (v < (facts.large() ? 14 : 10))
         add(findings, "velocity_tiny", Severity::hinders,
             fmt::format("{} is so slow that it looks like standing.", facts.text(V_SOLL)), {V_SOLL},
             "`macreg set V_SOLL 500rpm`; without unit a number is raw steps, not rpm.");
