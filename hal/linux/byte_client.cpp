@@ -1,4 +1,4 @@
-#include "hal_linux/byte_client.h"
+#include "host/byte_client.h"
 
 #include <poll.h>
 
@@ -14,25 +14,6 @@ namespace {
 constexpr int kWriteWaitMs = 1000;
 
 }  // namespace
-
-ByteClient::Opened ByteClient::open(const std::string& endpoint, std::uint32_t baud) {
-    const auto after = [&](const char* kind) -> std::optional<std::string> {
-        const std::string prefix = std::string(kind) + ":";
-        if (!endpoint.starts_with(prefix)) return std::nullopt;
-        return endpoint.substr(prefix.size());
-    };
-    if (const auto path = after("pty"); path && !path->empty())
-        return open_terminal_client(*path, endpoint, baud);
-    if (const auto path = after("unix"); path && !path->empty()) return open_unix_client(*path);
-    if (const auto where = after("tcp"); where && !where->empty()) return open_tcp_client(*where);
-    if (endpoint.find('/') != std::string::npos && endpoint.find(':') > endpoint.find('/'))
-        return open_terminal_client(endpoint, endpoint, baud);
-    return {nullptr,
-            "'" + endpoint +
-                "': write a serial line's path such as /dev/ttyUSB0, or pty:PATH, unix:PATH or "
-                "tcp:127.0.0.1:PORT",
-            true};
-}
 
 bool DescriptorClient::write(std::span<const std::uint8_t> bytes) {
     while (!bytes.empty()) {
@@ -66,3 +47,26 @@ base::Instant DescriptorClient::now() const {
 }
 
 }  // namespace nplc::hal_linux
+
+namespace nplc::host {
+
+ByteClient::Opened ByteClient::open(const std::string& endpoint, std::uint32_t baud) {
+    const auto after = [&](const char* kind) -> std::optional<std::string> {
+        const std::string prefix = std::string(kind) + ":";
+        if (!endpoint.starts_with(prefix)) return std::nullopt;
+        return endpoint.substr(prefix.size());
+    };
+    if (const auto path = after("pty"); path && !path->empty())
+        return hal_linux::open_terminal_client(*path, endpoint, baud);
+    if (const auto path = after("unix"); path && !path->empty()) return hal_linux::open_unix_client(*path);
+    if (const auto where = after("tcp"); where && !where->empty()) return hal_linux::open_tcp_client(*where);
+    if (endpoint.find('/') != std::string::npos && endpoint.find(':') > endpoint.find('/'))
+        return hal_linux::open_terminal_client(endpoint, endpoint, baud);
+    return {nullptr, "'" + endpoint + "': write " + forms(), true};
+}
+
+std::string ByteClient::forms() {
+    return "a serial line's path such as /dev/ttyUSB0, or pty:PATH, unix:PATH or tcp:127.0.0.1:PORT";
+}
+
+}  // namespace nplc::host

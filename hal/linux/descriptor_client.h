@@ -3,12 +3,12 @@
 #include <string>
 
 #include "file_descriptor.h"
-#include "hal_linux/byte_client.h"
+#include "host/byte_client.h"
 
 namespace nplc::hal_linux {
 
 /// A client of any descriptor that does not block.
-class DescriptorClient : public ByteClient {
+class DescriptorClient : public host::ByteClient {
   public:
     DescriptorClient(FileDescriptor descriptor, std::string name)
         : descriptor_(std::move(descriptor)), name_(std::move(name)) {}
@@ -26,9 +26,10 @@ class DescriptorClient : public ByteClient {
     std::string name_;
 };
 
-ByteClient::Opened open_terminal_client(const std::string& path, const std::string& name, std::uint32_t baud);
-ByteClient::Opened open_unix_client(const std::string& path);
+host::ByteClient::Opened open_terminal_client(const std::string& path, const std::string& name,
+                                              std::uint32_t baud);
+host::ByteClient::Opened open_unix_client(const std::string& path);
 /// `where`: 127.0.0.1:PORT; what is not of this machine is refused.
-ByteClient::Opened open_tcp_client(const std::string& where);
+host::ByteClient::Opened open_tcp_client(const std::string& where);
 
 }  // namespace nplc::hal_linux

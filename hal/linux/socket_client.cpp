@@ -41,7 +41,7 @@ int join(int socket, const sockaddr* address, socklen_t size) {
 
 }  // namespace
 
-ByteClient::Opened open_unix_client(const std::string& path) {
+host::ByteClient::Opened open_unix_client(const std::string& path) {
     const std::string name = "unix:" + path;
     const auto address = unix_address(path);
     if (!address) return {nullptr, name + ": the path is too long for a socket; name a shorter one", true};
@@ -52,7 +52,7 @@ ByteClient::Opened open_unix_client(const std::string& path) {
     return {std::make_unique<DescriptorClient>(std::move(socket), name), {}};
 }
 
-ByteClient::Opened open_tcp_client(const std::string& where) {
+host::ByteClient::Opened open_tcp_client(const std::string& where) {
     const std::string name = "tcp:" + where;
     const auto address = tcp_address(where);
     if (!address || address->sin_port == 0)

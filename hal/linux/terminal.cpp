@@ -1,55 +1,31 @@
-#include "hal_linux/terminal.h"
+#include "host/terminal.h"
 
 #include <poll.h>
 #include <sys/ioctl.h>
-#include <termios.h>
 #include <unistd.h>
 
-namespace nplc::hal_linux {
+namespace nplc::host {
 
-struct KeyReader::SavedMode {
-    termios mode{};
-};
+void prepare_streams() {}
 
-bool stdin_is_terminal() {
-    return isatty(STDIN_FILENO) != 0;
-}
-
-bool stdout_is_terminal() {
-    return isatty(STDOUT_FILENO) != 0;
-}
-
-bool stderr_is_terminal() {
-    return isatty(STDERR_FILENO) != 0;
+bool is_terminal(std::FILE* stream) {
+    return ::isatty(::fileno(stream)) != 0;
 }
 
 std::size_t terminal_columns() {
     winsize size{};
-    const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+    const bool known = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
     return known ? size.ws_col : 80;
 }
 
-KeyReader::KeyReader() {
-    termios mode{};
-    if (!stdin_is_terminal() || tcgetattr(STDIN_FILENO, &mode) != 0) return;
-    saved_ = std::make_unique<SavedMode>(SavedMode{mode});
-    mode.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-    mode.c_cc[VMIN] = 0;
-    mode.c_cc[VTIME] = 0;
-    tcsetattr(STDIN_FILENO, TCSANOW, &mode);
+bool input_within(base::Milliseconds wait) {
+    pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
+    return ::poll(&input, 1, static_cast<int>(wait.count())) > 0;
 }
 
-KeyReader::~KeyReader() {
-    if (saved_ != nullptr) tcsetattr(STDIN_FILENO, TCSANOW, &saved_->mode);
+bool output_has_reader() {
+    pollfd output{.fd = STDOUT_FILENO, .events = 0, .revents = 0};
+    return ::poll(&output, 1, 0) <= 0 || (output.revents & (POLLERR | POLLHUP)) == 0;
 }
 
-std::optional<char> KeyReader::key(std::chrono::milliseconds wait) {
-    pollfd input{.fd = saved_ != nullptr ? STDIN_FILENO : -1, .events = POLLIN, .revents = 0};
-    if (poll(&input, 1, static_cast<int>(wait.count())) <= 0) return std::nullopt;
-    char key = 0;
-    if ((input.revents & POLLIN) != 0 && read(STDIN_FILENO, &key, 1) == 1) return key;
-    if ((input.revents & POLLHUP) != 0) saved_.reset();
-    return std::nullopt;
-}
-
-}  // namespace nplc::hal_linux
+}  // namespace nplc::host

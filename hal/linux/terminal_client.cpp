@@ -105,8 +105,8 @@ termios raw_mode(termios mode, speed_t speed) {
 
 }  // namespace
 
-ByteClient::Opened open_terminal_client(const std::string& path, const std::string& name,
-                                        std::uint32_t baud) {
+host::ByteClient::Opened open_terminal_client(const std::string& path, const std::string& name,
+                                              std::uint32_t baud) {
     const Speed* speed = nullptr;
     for (const Speed& known : kSpeeds) {
         if (known.baud == baud) speed = &known;

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "command_line.h"
-#include "hal_linux/terminal.h"
+#include "host/terminal.h"
 #include "service.h"
 
 namespace {
@@ -61,12 +61,12 @@ class StatusLine {
         if (!on_ || Clock::now() < next_) return;
         next_ = Clock::now() + kRefresh;
         const std::string text = service.status();
-        fmt::print("\r\033[K{}", std::string_view(text).substr(0, hal_linux::terminal_columns() - 1));
+        fmt::print("\r\033[K{}", std::string_view(text).substr(0, host::terminal_columns() - 1));
         std::fflush(stdout);
     }
 
   private:
-    bool on_ = hal_linux::stdout_is_terminal();
+    bool on_ = host::is_terminal(stdout);
     Clock::time_point next_ = Clock::now();
 };
 

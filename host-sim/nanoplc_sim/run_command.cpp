@@ -12,7 +12,8 @@
 
 #include "hal_linux/byte_server.h"
 #include "hal_linux/file_storage.h"
-#include "hal_linux/terminal.h"
+#include "hal_linux/key_reader.h"
+#include "host/terminal.h"
 #include "input_file.h"
 #include "output_check.h"
 #include "session.h"
@@ -48,7 +49,7 @@ Scenario load_scenario(const RunOptions& options, const Names& names) {
 }
 
 bool wants_colour() {
-    return hal_linux::stdout_is_terminal() && std::getenv("NO_COLOR") == nullptr;
+    return host::is_terminal(stdout) && std::getenv("NO_COLOR") == nullptr;
 }
 
 /// A line on standard error that is written over and over; only where nobody else writes to the terminal.
@@ -75,7 +76,7 @@ class Progress {
 };
 
 void run_fast(Session& session, const RunOptions& options, const volatile std::sig_atomic_t& interrupted) {
-    Progress progress(hal_linux::stderr_is_terminal() && (options.quiet || !hal_linux::stdout_is_terminal()));
+    Progress progress(host::is_terminal(stderr) && (options.quiet || !host::is_terminal(stdout)));
     while (!session.ended() && interrupted == 0) {
         session.advance(session.now() + kSlice);
         progress.show(session);
@@ -118,14 +119,14 @@ void handle_key(Session& session, char key) {
 
 void show_status(const Session& session) {
     const std::string line = session.status_line();
-    fmt::print("\r\033[K{}", std::string_view(line).substr(0, hal_linux::terminal_columns() - 1));
+    fmt::print("\r\033[K{}", std::string_view(line).substr(0, host::terminal_columns() - 1));
     std::fflush(stdout);
 }
 
 /// Virtual time follows the wall clock. The status line is rewritten in place below the timeline.
 void run_realtime(Session& session, Door& door, const volatile std::sig_atomic_t& interrupted) {
     hal_linux::KeyReader keys;
-    const bool live = hal_linux::stdout_is_terminal();
+    const bool live = host::is_terminal(stdout);
     if (live && keys.has_keys()) fmt::print("{}\n", session.keys());
     if (live) session.clear_line_before_each("\r\033[K");
     door.announce();

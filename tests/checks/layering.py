@@ -28,7 +28,9 @@ class Module:
 MODULES = [
     Module("hal/base", "base", (), core=True),
     Module("hal/ports", "ports", ("base",), core=True),
-    Module("hal/linux", "hal_linux", ("base", "ports"), os=True, clock=True),
+    Module("hal/host", "host", ("base",)),
+    Module("hal/linux", "hal_linux", ("base", "ports", "host"), os=True, clock=True),
+    Module("hal/windows", "hal_windows", ("base", "host"), os=True, clock=True),
     Module("hal/mcu", "hal_mcu", ("base", "ports"), core=True, os=True, clock=True),
     Module("sequencer", "sequencer", ("base",), core=True),
     Module("firmware/protocol", "protocol", ("base",), core=True),
@@ -44,34 +46,39 @@ MODULES = [
     Module("firmware/boards", None, ANY, os=True, clock=True),
     Module("host-sim", "sim", ("base", "ports", "protocol", "registers"), os=True),
     Module("host-sim/board", "sim", ANY, os=True, clock=True),
-    Module("host-sim/macsim", None, ("arguments", "base", "ports", "protocol", "registers", "hal_linux", "sim"), os=True),
+    Module(
+        "host-sim/macsim",
+        None,
+        ("arguments", "base", "ports", "protocol", "registers", "host", "hal_linux", "sim"),
+        os=True,
+    ),
     Module("host-sim/nanoplc_sim", None, ANY, os=True, clock=True),
-    Module("tools/whole_files", "whole_files", (), os=True),
+    Module("tools/whole_files", "whole_files", ("host",)),
     Module("tools/arguments", "arguments", ()),
-    Module("tools/mactalk_client", "mactalk_client", ("base", "protocol", "hal_linux")),
-    Module("tools/command_line", "command_line", ("arguments", "base", "mactalk_client")),
+    Module("tools/mactalk_client", "mactalk_client", ("base", "protocol", "host")),
+    Module("tools/command_line", "command_line", ("arguments", "base", "host", "mactalk_client")),
     Module(
         "tools/nanoctl",
         "nanoctl",
-        ("arguments", "base", "sequencer", "protocol", "registers", "store", "seqc", "mactalk_client", "command_line",
-         "whole_files"),
-        os=True,
+        ("arguments", "base", "sequencer", "protocol", "registers", "store", "seqc", "host", "mactalk_client",
+         "command_line", "whole_files"),
     ),
-    Module("tools/registers_reference", "registers_reference", ("base", "registers"), os=True),
-    Module("tools/seqc", "seqc", ("arguments", "base", "sequencer", "protocol", "registers", "whole_files"), os=True),
+    Module("tools/registers_reference", "registers_reference", ("base", "registers")),
+    Module("tools/seqc", "seqc", ("arguments", "base", "sequencer", "protocol", "registers", "host", "whole_files")),
     Module(
         "tools/macreg",
         "macreg",
-        ("arguments", "base", "protocol", "registers", "mactalk_client", "command_line", "whole_files"),
-        os=True,
+        ("arguments", "base", "protocol", "registers", "host", "mactalk_client", "command_line", "whole_files"),
     ),
+    Module("tools/macreg/ui", "macreg", ("base", "protocol", "registers", "mactalk_client"), os=True),
+    Module("tools/cmake", None, ()),
     Module("tests", None, ANY, os=True),
 ]
 
 # Composition roots name concrete parts and the clock: the boards, the simulated one included (the rows that may
 # include any module), and in host-sim and tools the programs' main files.
 ROOT_FILE = re.compile(r"^(host-sim|tools)/(.*/)?(main|\w+_main)\.cpp$")
-ROOT_MAY = {"host-sim": ANY, "tools": ("ports", "hal_linux")}
+ROOT_MAY = {"host-sim": ANY, "tools": ("ports", "host")}
 
 # What works without an operating system and never allocates.
 CORE_STANDARD = set(
@@ -90,7 +97,7 @@ HOSTED_STANDARD = set(
 )
 # Headers that take seconds to compile: one folder hides them from all others.
 HIDDEN = {"CLI/": "tools/arguments"}
-LIBRARIES = ("gtest/", "gmock/", "benchmark/", "fmt/", "CLI/", "nlohmann/")
+LIBRARIES = ("gtest/", "gmock/", "benchmark/", "fmt/", "CLI/", "nlohmann/", "stb/")
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
@@ -171,8 +178,8 @@ class Checker:
                           "no threads, no exceptions, no floating point and no libraries")
         elif not module.os:
             self.find(path, line, "OS or vendor header",
-                      f"<{header}> belongs in hal/linux, hal/mcu, firmware/boards, host-sim or tools (if it is standard "
-                      "and works without an OS, add it to CORE_STANDARD in tests/checks/layering.py)")
+                      f"<{header}> belongs in hal/linux, hal/windows, hal/mcu, firmware/boards or host-sim (if it is "
+                      "standard and works without an OS, add it to CORE_STANDARD in tests/checks/layering.py)")
 
 
 def blank_comments(text, strings):

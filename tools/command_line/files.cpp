@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "command_line/program.h"
+#include "host/paths.h"
 
 namespace nplc::command_line {
 
@@ -22,10 +23,10 @@ constexpr std::size_t kMostBytes = 4 * 1024 * 1024;
 
 std::string read_whole(const std::string& path) {
     std::error_code error;
-    if (fs::is_directory(path, error))
+    if (fs::is_directory(host::path_of(path), error))
         throw UserError(fmt::format("{}: cannot be read: it is a folder", path));
     errno = 0;
-    std::ifstream file(path, std::ios::binary);
+    std::ifstream file(host::path_of(path), std::ios::binary);
     std::string content(kMostBytes + 1, '\0');
     file.read(content.data(), static_cast<std::streamsize>(content.size()));
     if (!file.is_open() || file.bad())

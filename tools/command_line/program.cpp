@@ -4,24 +4,17 @@
 
 #include <algorithm>
 #include <cctype>
-#include <csignal>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <system_error>
 
+#include "host/interruption.h"
+#include "host/terminal.h"
 #include "mactalk_client/master.h"
 
 namespace nplc::command_line {
 namespace {
-
-volatile std::sig_atomic_t g_ended = 0;
-
-/// A second signal ends the program at once.
-void on_signal(int signal) {
-    g_ended = 1;
-    std::signal(signal, SIG_DFL);
-}
 
 std::string port_variable(const Common& common) {
     std::string name = common.program + "_PORT";
@@ -87,6 +80,7 @@ arguments::App& add_command(arguments::App& app, const std::string& name, const 
 }
 
 int run(arguments::App& app, Common& common, int argc, char** argv) {
+    host::prepare_streams();
     const arguments::Outcome outcome = app.parse(argc, argv);
     if (outcome.kind == arguments::Outcome::Kind::told) return outcome.exit_code;
     if (outcome.kind == arguments::Outcome::Kind::wrong) {
@@ -109,8 +103,7 @@ std::unique_ptr<mactalk_client::Wire> open_port(const Common& common) {
 }
 
 void guard(Common& common, const std::function<void()>& what) {
-    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, on_signal);
-    std::signal(SIGPIPE, SIG_IGN);
+    host::note_interruptions();
     try_to(common, what);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
         fmt::print(stderr, "{}: cannot write to standard output\n", common.program);
@@ -130,7 +123,7 @@ void tell(const Common& common, const std::string& text, const Json& document) {
 }
 
 bool goes_on() {
-    return g_ended == 0;
+    return !host::was_interrupted();
 }
 
 void look_for_interruption() {

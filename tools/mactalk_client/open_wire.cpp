@@ -1,4 +1,4 @@
-#include "hal_linux/byte_client.h"
+#include "host/byte_client.h"
 #include "mactalk_client/wire.h"
 
 namespace nplc::mactalk_client {
@@ -6,7 +6,7 @@ namespace {
 
 class LineWire final : public Wire {
   public:
-    explicit LineWire(std::unique_ptr<hal_linux::ByteClient> client) : client_(std::move(client)) {}
+    explicit LineWire(std::unique_ptr<host::ByteClient> client) : client_(std::move(client)) {}
 
     const std::string& name() const override { return client_->name(); }
     bool write(std::span<const std::uint8_t> bytes) override { return client_->write(bytes); }
@@ -16,13 +16,13 @@ class LineWire final : public Wire {
     base::Instant now() override { return client_->now(); }
 
   private:
-    std::unique_ptr<hal_linux::ByteClient> client_;
+    std::unique_ptr<host::ByteClient> client_;
 };
 
 }  // namespace
 
 OpenedWire open_wire(const std::string& endpoint, std::uint32_t baud) {
-    auto opened = hal_linux::ByteClient::open(endpoint, baud);
+    auto opened = host::ByteClient::open(endpoint, baud);
     if (opened.client == nullptr) return {nullptr, opened.error, opened.never};
     return {std::make_unique<LineWire>(std::move(opened.client)), {}};
 }

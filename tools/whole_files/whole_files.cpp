@@ -1,7 +1,6 @@
 #include "whole_files/whole_files.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -11,13 +10,17 @@
 #include <iostream>
 #include <iterator>
 
+#include "host/paths.h"
+#include "host/process.h"
+
 namespace nplc::whole_files {
 namespace {
 
 namespace fs = std::filesystem;
+using host::path_of;
 
 std::string temporary_name(const std::string& path) {
-    return fmt::format("{}.{}.tmp", path, ::getpid());
+    return fmt::format("{}.{}.tmp", path, host::own_process());
 }
 
 std::string reason() {
@@ -28,13 +31,13 @@ std::string reason() {
 std::string behind_links(const std::string& path) {
     constexpr int kMostLinks = 40;
     std::error_code error;
-    fs::path target = path;
+    fs::path target = path_of(path);
     for (int i = 0; i < kMostLinks && fs::is_symlink(target, error); ++i) {
         const fs::path next = fs::read_symlink(target, error);
         if (error) return path;
         target = target.parent_path() / next;
     }
-    return target.string();
+    return host::name_of(target);
 }
 
 std::string where_first(const std::string& path) {
@@ -43,13 +46,14 @@ std::string where_first(const std::string& path) {
 
 void keep_permissions(const std::string& path) {
     std::error_code ignored;
-    const fs::file_status status = fs::status(path, ignored);
-    if (fs::is_regular_file(status)) fs::permissions(temporary_name(path), status.permissions(), ignored);
+    const fs::file_status status = fs::status(path_of(path), ignored);
+    if (fs::is_regular_file(status))
+        fs::permissions(path_of(temporary_name(path)), status.permissions(), ignored);
 }
 
 std::string write_first(const OutputFile& file) {
     errno = 0;
-    std::ofstream stream(where_first(file.path), std::ios::binary | std::ios::trunc);
+    std::ofstream stream(path_of(where_first(file.path)), std::ios::binary | std::ios::trunc);
     stream.write(file.content.data(), static_cast<std::streamsize>(file.content.size()));
     stream.close();
     keep_permissions(file.path);
@@ -58,21 +62,22 @@ std::string write_first(const OutputFile& file) {
 
 void remove_temporaries(const std::vector<OutputFile>& files) {
     std::error_code ignored;
-    for (const OutputFile& file : files) fs::remove(temporary_name(file.path), ignored);
+    for (const OutputFile& file : files) fs::remove(path_of(temporary_name(file.path)), ignored);
 }
 
 }  // namespace
 
 bool is_special(const std::string& path) {
     std::error_code error;
-    return fs::exists(path, error) && !fs::is_regular_file(path, error);
+    const fs::file_status status = fs::status(path_of(path), error);
+    return fs::exists(status) && !fs::is_regular_file(status);
 }
 
 FileText read_file(const std::string& path) {
     std::error_code error;
-    if (fs::is_directory(path, error)) return {{}, fmt::format("'{}' is a folder", path)};
+    if (fs::is_directory(path_of(path), error)) return {{}, fmt::format("'{}' is a folder", path)};
     errno = 0;
-    std::ifstream stream(path, std::ios::binary);
+    std::ifstream stream(path_of(path), std::ios::binary);
     if (!stream) return {{}, fmt::format("cannot read '{}': {}", path, reason())};
     FileText result;
     result.text.assign(std::istreambuf_iterator<char>(stream), {});
@@ -97,7 +102,7 @@ std::string write_files(const std::vector<OutputFile>& named) {
     std::string problem;
     for (const OutputFile& file : files) {
         std::error_code error;
-        if (problem.empty() && fs::is_directory(file.path, error)) {
+        if (problem.empty() && fs::is_directory(path_of(file.path), error)) {
             problem = fmt::format("cannot write '{}': it is a folder", file.path);
         }
         if (problem.empty()) problem = write_first(file);
@@ -105,7 +110,7 @@ std::string write_files(const std::vector<OutputFile>& named) {
     for (const OutputFile& file : files) {
         std::error_code error;
         if (problem.empty() && !is_special(file.path))
-            fs::rename(temporary_name(file.path), file.path, error);
+            fs::rename(path_of(temporary_name(file.path)), path_of(file.path), error);
         if (error) problem = fmt::format("cannot write '{}': {}", file.path, error.message());
     }
     remove_temporaries(files);

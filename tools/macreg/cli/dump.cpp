@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "cli/subcommands.h"
+#include "host/paths.h"
 #include "macreg/parameters.h"
 #include "macreg/values.h"
 
@@ -28,10 +30,11 @@ class Target {
     explicit Target(const std::string& path) : path_(path) {
         if (path.empty()) return;
         std::error_code ignored;
+        const std::filesystem::path place = host::path_of(path);
         const bool special =
-            std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored);
+            std::filesystem::exists(place, ignored) && !std::filesystem::is_regular_file(place, ignored);
         written_ = special ? path : path + ".part";
-        file_ = std::fopen(written_.c_str(), "w");
+        file_ = std::fopen(written_.c_str(), "wb");
         if (file_ == nullptr)
             throw UserError(fmt::format("{}: cannot be written: {}", written_, std::strerror(errno)));
     }
@@ -50,8 +53,11 @@ class Target {
         if (file_ == nullptr) return;
         const int closed = std::fclose(file_);
         file_ = nullptr;
-        if (closed != 0 || (written_ != path_ && std::rename(written_.c_str(), path_.c_str()) != 0))
-            throw UserError(fmt::format("{}: cannot be written: {}", path_, std::strerror(errno)));
+        std::error_code error;
+        if (closed != 0) error.assign(errno, std::generic_category());
+        if (!error && written_ != path_)
+            std::filesystem::rename(host::path_of(written_), host::path_of(path_), error);
+        if (error) throw UserError(fmt::format("{}: cannot be written: {}", path_, error.message()));
     }
     std::string name() const { return written_.empty() ? "standard output" : written_; }
 

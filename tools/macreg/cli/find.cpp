@@ -1,10 +1,10 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/subcommands.h"
+#include "host/terminal.h"
 #include "macreg/finder.h"
 #include "macreg/service.h"
 #include "macreg/values.h"
@@ -104,7 +104,7 @@ class Search {
     }
 
     void progress(const std::string& text) const {
-        if (common_.json || ::isatty(STDERR_FILENO) == 0) return;
+        if (common_.json || !host::is_terminal(stderr)) return;
         fmt::print(stderr, "\r\033[K{}", text);
         std::fflush(stderr);
     }

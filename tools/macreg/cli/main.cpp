@@ -4,20 +4,19 @@
 
 #include "cli/subcommands.h"
 #include "command_line/generated.h"
+#include "host/byte_client.h"
 #include "registers/mac.h"
 
 namespace {
 
 constexpr const char* kFooter =
-    "PORT is a serial line's path, pty:PATH, unix:PATH or tcp:127.0.0.1:PORT. It may stand in the "
-    "environment's\n"
-    "MACREG_PORT instead. A program that holds the port already is named.\n"
+    "It may stand in the environment's MACREG_PORT instead. A port that another program holds is refused.\n"
     "Without --address the only motor on the line is asked for its own.\n"
     "Exit codes: 0 done; 1 the motor refused, or things differ; 2 wrong usage, a file, or not confirmed;\n"
     "3 the port cannot be opened, nobody answers, or the answers ended before it was done;\n"
     "130 ended by Ctrl-C or SIGTERM before it was done (watch ends with 0).\n"
     "With --json a failure is {\"ok\": false, \"error\": ...}.\n"
-    "Example: macreg --port /dev/ttyUSB0 get P_IST V_IST MODE_REG";
+    "Example: macreg --port PORT get P_IST V_IST MODE_REG";
 
 void add_common(nplc::arguments::App& app, nplc::macreg::cli::Common& common) {
     nplc::command_line::add_line_options(app, common, "the motor");
@@ -56,7 +55,7 @@ int main(int argc, char** argv) {
         "macreg");
     app.require_subcommand(1);
     app.set_version_flag("--version", std::string("macreg ") + NPLC_VERSION);
-    app.footer(kFooter);
+    app.footer(fmt::format("PORT is {}.\n{}", nplc::host::ByteClient::forms(), kFooter));
     Common common;
     common.program = "macreg";
     common.date =

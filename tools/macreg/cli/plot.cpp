@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/subcommands.h"
+#include "host/paths.h"
 #include "whole_files/whole_files.h"
 
 namespace nplc::macreg::cli {
@@ -22,7 +23,7 @@ bool ends_with(const std::string& text, std::string_view end) {
 }
 
 std::string usual_title(const Recording& recording, const std::string& path) {
-    std::string title = path.substr(path.rfind('/') + 1);
+    std::string title = host::name_of(host::path_of(path).filename());
     if (recording.model.empty()) return title;
     title += fmt::format(": {}, address {}", recording.model, recording.address);
     if (recording.rate_hz > 0) title += fmt::format(", {:g} Hz", recording.rate_hz);

@@ -1,12 +1,11 @@
 #include "cli/session.h"
 
 #include <fmt/format.h>
-#include <poll.h>
-#include <unistd.h>
 
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "host/terminal.h"
 #include "macreg/values.h"
 #include "registers/gateway.h"
 
@@ -125,19 +124,20 @@ void Session::remark(const std::string& text) const {
 
 void Session::ask(const std::string& what) const {
     if (common_.yes) return;
-    if (::isatty(STDIN_FILENO) == 0 || json())
+    if (!host::is_terminal(stdin) || json())
         throw UserError(what + "; nobody is there to be asked: say --yes if you mean it");
     fmt::print(stderr, "{}. Type yes to go on: ", what);
     std::fflush(stderr);
-    pollfd keyboard{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
-    while (::poll(&keyboard, 1, 100) <= 0) look_for_interruption();
+    while (!host::input_within(base::Milliseconds{100})) look_for_interruption();
     std::string answer;
     std::getline(std::cin, answer);
+    look_for_interruption();
+    if (answer.ends_with('\r')) answer.pop_back();
     if (answer != "yes") throw UserError("not confirmed, nothing was changed");
 }
 
 void Session::progress(const std::string& text) const {
-    if (json() || ::isatty(STDERR_FILENO) == 0) return;
+    if (json() || !host::is_terminal(stderr)) return;
     fmt::print(stderr, "\r\033[K{}", text);
     std::fflush(stderr);
 }
@@ -167,8 +167,7 @@ std::string output_file(const std::string& option) {
 }
 
 bool output_has_reader() {
-    pollfd output{.fd = STDOUT_FILENO, .events = 0, .revents = 0};
-    return ::poll(&output, 1, 0) <= 0 || (output.revents & (POLLERR | POLLHUP)) == 0;
+    return host::output_has_reader();
 }
 
 std::string counted(std::size_t count, const std::string& what) {

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/subcommands.h"
+#include "host/terminal.h"
 #include "macreg/values.h"
 
 namespace nplc::macreg::cli {
@@ -40,7 +40,7 @@ class Table {
           options_(options),
           registers_(std::move(registers)),
           model_(session.motor().model()),
-          drawn_over_(::isatty(STDOUT_FILENO) != 0 && !session.json()),
+          drawn_over_(host::is_terminal(stdout) && !session.json()),
           begun_(session.now()) {}
 
     void show(const Snapshot& snapshot) {

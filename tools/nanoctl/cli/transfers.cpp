@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <memory>
@@ -8,6 +7,7 @@
 #include "base/crc32.h"
 #include "cli/files.h"
 #include "cli/subcommands.h"
+#include "host/terminal.h"
 #include "nanoctl/transfer.h"
 #include "nanoctl/words.h"
 
@@ -27,7 +27,7 @@ class ProgressLine {
     ProgressLine(const char* verb, Session& session)
         : verb_(verb),
           session_(session),
-          shown_(::isatty(STDERR_FILENO) != 0 && !session.json()),
+          shown_(host::is_terminal(stderr) && !session.json()),
           begun_(session.now()) {}
     ~ProgressLine() {
         if (shown_) fmt::print(stderr, "\r\033[K");

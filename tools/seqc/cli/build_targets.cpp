@@ -8,6 +8,7 @@
 
 #include "cli/common.h"
 #include "formats/symbols_format.h"
+#include "host/paths.h"
 #include "seqc/intel_hex.h"
 #include "seqc/symbol_file.h"
 #include "sequencer/term.h"
@@ -31,7 +32,8 @@ std::optional<std::uint32_t> address_of(std::string_view text) {
 
 /// A pipe or a device takes the table and has no place beside it.
 bool is_device(const std::string& path) {
-    return whole_files::is_special(path) || fs::path(path).lexically_normal().string().starts_with("/dev/");
+    return whole_files::is_special(path) ||
+           host::name_of(host::path_of(path).lexically_normal()).starts_with("/dev/");
 }
 
 std::string overlap(const BuildTargets& targets, const BuildOptions& options) {
@@ -61,7 +63,7 @@ std::string overlap(const BuildTargets& targets, const BuildOptions& options) {
 /// Nobody asked for the symbols by name, so they must not replace what somebody else has written there.
 std::string foreign(const std::string& symbols) {
     std::error_code error;
-    if (symbols.empty() || !fs::is_regular_file(symbols, error)) return {};
+    if (symbols.empty() || !fs::is_regular_file(host::path_of(symbols), error)) return {};
     if (whole_files::read_file(symbols).text.find(kSymbolsFormat) != std::string::npos) return {};
     return fmt::format("'{}' is there and was not written by seqc: use --symbols FILE or --no-symbols",
                        symbols);
@@ -100,11 +102,12 @@ BuildTargets targets_of(const BuildOptions& options) {
     targets.hex = options.format == "hex" || (options.format.empty() && has_hex_extension(options.output));
     targets.table = options.output;
     if (targets.table.empty())
-        targets.table = fs::path(options.source).replace_extension(targets.hex ? ".hex" : ".bin").string();
+        targets.table =
+            host::name_of(host::path_of(options.source).replace_extension(targets.hex ? ".hex" : ".bin"));
     targets.listing = options.listing;
     targets.symbols = options.symbols;
     if (targets.symbols.empty() && !options.no_symbols && !is_device(targets.table))
-        targets.symbols = fs::path(targets.table).replace_extension(".sym").string();
+        targets.symbols = host::name_of(host::path_of(targets.table).replace_extension(".sym"));
     targets.problem = address_problem(options, targets);
     if (targets.problem.empty()) targets.problem = overlap(targets, options);
     if (targets.problem.empty() && options.symbols.empty()) targets.problem = foreign(targets.symbols);

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <unistd.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
+#include "host/paths.h"
+#include "host/terminal.h"
 #include "whole_files/whole_files.h"
 
 namespace nplc::seqc::cli {
@@ -23,7 +23,7 @@ Colour colour_of(std::FILE* stream) {
     const ColourChoice choice = colour_choice();
     if (choice != ColourChoice::automatic) return choice == ColourChoice::always ? Colour::on : Colour::off;
     const char* refused = std::getenv("NO_COLOR");
-    const bool wanted = (refused == nullptr || *refused == '\0') && ::isatty(::fileno(stream)) != 0;
+    const bool wanted = (refused == nullptr || *refused == '\0') && host::is_terminal(stream);
     return wanted ? Colour::on : Colour::off;
 }
 
@@ -44,7 +44,9 @@ void print_diagnostics(const Compilation& compilation, std::string_view source,
 
 bool is_same_file(const std::string& a, const std::string& b) {
     std::error_code error;
-    return fs::equivalent(a, b, error) || fs::path(a).lexically_normal() == fs::path(b).lexically_normal();
+    const fs::path first = host::path_of(a);
+    const fs::path second = host::path_of(b);
+    return fs::equivalent(first, second, error) || first.lexically_normal() == second.lexically_normal();
 }
 
 int print_or_write(const std::string& text, const std::string& output) {

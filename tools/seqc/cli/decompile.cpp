@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "cli/input.h"
 #include "cli/subcommands.h"
+#include "host/paths.h"
 
 namespace nplc::seqc::cli {
 namespace {
@@ -20,7 +20,7 @@ struct Options {
 
 int decompile(const Options& options) {
     DecompileOptions wanted;
-    wanted.origin = std::filesystem::path(options.table.file).filename().string();
+    wanted.origin = host::name_of(host::path_of(options.table.file).filename());
     if (!options.motor.empty()) {
         wanted.motor = registers::model_of(options.motor);
         if (!wanted.motor) {

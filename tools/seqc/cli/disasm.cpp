@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "cli/input.h"
 #include "cli/subcommands.h"
+#include "host/paths.h"
 
 namespace nplc::seqc::cli {
 namespace {
@@ -20,7 +20,7 @@ int disasm(const Options& options) {
     if (input.exit_code != kOk) return input.exit_code;
     if (!options.output.empty() && is_same_file(options.output, input.file))
         return file_problem(fmt::format("'{}' is the table itself: name another output", options.output));
-    const auto result = disassemble(input.table, std::filesystem::path(input.file).stem().string(),
+    const auto result = disassemble(input.table, host::name_of(host::path_of(input.file).stem()),
                                     input.symbols ? &*input.symbols : nullptr);
     return print_or_write(result.text, options.output);
 }

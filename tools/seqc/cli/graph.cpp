@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "cli/dot_process.h"
 #include "cli/subcommands.h"
 #include "cli/views_input.h"
+#include "host/paths.h"
 #include "views/graph.h"
 
 namespace nplc::seqc::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::array kFormats{"svg", "dot", "pdf", "png"};
 
@@ -32,7 +30,7 @@ bool is_format(const std::string& name) {
 std::string format_of(const Options& options) {
     if (!options.format.empty()) return options.format;
     if (options.output.empty() || options.output == "-") return "svg";
-    const std::string extension = fs::path(options.output).extension().string();
+    const std::string extension = host::name_of(host::path_of(options.output).extension());
     return !extension.empty() && is_format(extension.substr(1)) ? extension.substr(1) : "";
 }
 
@@ -49,7 +47,7 @@ int graph(const Options& options) {
     if (!options.output.empty() && is_same_file(options.output, options.table.file))
         return file_problem(fmt::format("'{}' is the file to draw: name another output", options.output));
     const std::string text =
-        graph_of(input.table, names_of(input), fs::path(options.table.file).stem().string());
+        graph_of(input.table, names_of(input), host::name_of(host::path_of(options.table.file).stem()));
     if (format == "dot") return print_or_write(text, options.output);
     const Rendering rendering = render_dot(text, format);
     return rendering.error.empty() ? print_or_write(rendering.bytes, options.output)

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 
+#include "host/paths.h"
 #include "seqc/intel_hex.h"
 #include "seqc/symbol_file.h"
 #include "sequencer/term.h"
@@ -16,7 +17,7 @@ namespace {
 using sequencer::kTermBytes;
 
 bool is_program(const std::string& file) {
-    const std::string extension = std::filesystem::path(file).extension().string();
+    const std::string extension = host::name_of(host::path_of(file).extension());
     return extension == ".seq" || extension == ".SEQ";
 }
 
@@ -75,7 +76,7 @@ void read_table_into(Input& input, const std::string& text) {
 void read_symbols_into(Input& input, const std::string& asked_for) {
     const std::string file = asked_for.empty() ? symbol_file_beside(input.file) : asked_for;
     std::error_code ignored;
-    if (asked_for.empty() && !std::filesystem::is_regular_file(file, ignored)) return;
+    if (asked_for.empty() && !std::filesystem::is_regular_file(host::path_of(file), ignored)) return;
     const whole_files::FileText text = whole_files::read_file(file);
     const SymbolReading reading = text.error.empty() ? read_symbols(text.text, input.table) : SymbolReading{};
     const std::string error = reading.error.empty() ? text.error : fmt::format("{}: {}", file, reading.error);

@@ -10,6 +10,7 @@
 #include "arguments/arguments.h"
 #include "cli/common.h"
 #include "cli/subcommands.h"
+#include "host/terminal.h"
 
 namespace {
 
@@ -29,6 +30,7 @@ void add_colour_option(nplc::arguments::App& app) {
 
 int main(int argc, char** argv) {
     using namespace nplc::seqc::cli;
+    nplc::host::prepare_streams();
     nplc::arguments::App app(
         "Compiles sequence programs into tables for a NanoPLC gateway, and tables back into programs.");
     app.require_subcommand(1);

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "decompile/draft.h"
 #include "decompile/layout.h"
 #include "decompile/naming.h"
 #include "decompile/vocabulary.h"
 #include "decompile/writer.h"
+#include "host/paths.h"
 #include "seqc/format.h"
 #include "sequencer/term.h"
 
@@ -144,7 +144,7 @@ class Decompiler {
         return result_;
     }
 
-    std::string stem() const { return std::filesystem::path(options_.origin).stem().string(); }
+    std::string stem() const { return host::name_of(host::path_of(options_.origin).stem()); }
 
     void count() {
         result_ = {};

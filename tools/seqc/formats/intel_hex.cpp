@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 
+#include "host/paths.h"
 #include "syntax/names.h"
 
 namespace nplc::seqc {
@@ -172,7 +172,7 @@ HexImage from_intel_hex(std::string_view text) {
 }
 
 bool has_hex_extension(std::string_view file_name) {
-    const std::string extension = upper(std::filesystem::path(file_name).extension().string());
+    const std::string extension = upper(host::name_of(host::path_of(file_name).extension()));
     return extension == ".HEX" || extension == ".IHX" || extension == ".IHEX";
 }
 

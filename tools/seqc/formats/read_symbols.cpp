@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "base/crc32.h"
 #include "formats/symbols_format.h"
+#include "host/paths.h"
 #include "seqc/symbol_file.h"
 #include "sequencer/term.h"
 #include "syntax/names.h"
@@ -224,7 +224,7 @@ SymbolReading read_symbols(std::string_view text, std::span<const std::uint8_t> 
 }
 
 std::string symbol_file_beside(std::string_view table_file) {
-    const std::string beside = std::filesystem::path(table_file).replace_extension(".sym").string();
+    const std::string beside = host::name_of(host::path_of(table_file).replace_extension(".sym"));
     return beside == table_file ? std::string() : beside;
 }
 

@@ -30,7 +30,7 @@ struct OpenedWire {
     bool never = false;  ///< the endpoint or the speed is written wrongly
 };
 
-/// An endpoint as hal_linux::ByteClient takes it.
+/// An endpoint as host::ByteClient takes it.
 OpenedWire open_wire(const std::string& endpoint, std::uint32_t baud);
 
 }  // namespace nplc::mactalk_client

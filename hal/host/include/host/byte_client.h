@@ -9,14 +9,15 @@
 
 #include "base/time.h"
 
-namespace nplc::hal_linux {
+namespace nplc::host {
 
-/// Our end of a line to a device or to a ByteServer:
+/// Our end of a line to a device or to another program:
 ///     /dev/ttyUSB0, or any other path    a serial line: 8 data bits, no parity, 1 stop bit, no handshake
-///     pty:PATH                           the same, of a ByteServer's pseudo-terminal
-///     unix:PATH                          a stream socket in the file system
+///     COM3                               the same on Windows
+///     pty:PATH                           the same, of a program's pseudo-terminal; not on Windows
+///     unix:PATH                          a stream socket in the file system; not on Windows
 ///     tcp:127.0.0.1:PORT                 a TCP socket of this machine, PORT 1..65535
-/// A terminal is held exclusively as long as this object lives, and its mode is put back afterwards.
+/// A serial line is held exclusively as long as this object lives, and its mode is put back afterwards.
 class ByteClient {
   public:
     struct Opened {
@@ -24,9 +25,11 @@ class ByteClient {
         std::string error;   ///< what went wrong and what to do, in one line; empty when it was opened
         bool never = false;  ///< no such endpoint can be: it, or the speed, is written wrongly
     };
-    /// `baud`: 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800 or 921600; sockets have
-    /// none.
+    /// `baud`: 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800 or 921600, on Windows what
+    /// the port takes; sockets have none.
     static Opened open(const std::string& endpoint, std::uint32_t baud);
+    /// For a person: what an endpoint may be on this system, "a serial line's path such as ...".
+    static std::string forms();
 
     virtual ~ByteClient() = default;
     ByteClient(const ByteClient&) = delete;
@@ -45,4 +48,4 @@ class ByteClient {
     ByteClient() = default;
 };
 
-}  // namespace nplc::hal_linux
+}  // namespace nplc::host

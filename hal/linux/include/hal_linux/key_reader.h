@@ -1,17 +1,10 @@
 #pragma once
 
 #include <chrono>
-#include <cstddef>
 #include <memory>
 #include <optional>
 
 namespace nplc::hal_linux {
-
-bool stdin_is_terminal();
-bool stdout_is_terminal();
-bool stderr_is_terminal();
-/// Of standard output; 80 if unknown.
-std::size_t terminal_columns();
 
 /// Single keys from standard input, without echo, while this object lives. If standard input is not a
 /// terminal there are no keys. Ctrl-C still raises SIGINT. The terminal's mode is put back at the end of this

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "host/byte_client.h"
+
+namespace nplc::hal_windows {
+
+/// `port`: COM1, COM23.
+host::ByteClient::Opened open_com_client(const std::string& port, std::uint32_t baud);
+/// `where`: 127.0.0.1:PORT; what is not of this machine is refused.
+host::ByteClient::Opened open_tcp_client(const std::string& where);
+
+/// Of the machine, monotonic.
+base::Instant steady_now();
+
+}  // namespace nplc::hal_windows
