@@ -9,9 +9,14 @@ namespace {
 
 std::atomic<bool> g_interrupted = false;
 
-/// In a thread of Windows' own. Not taken the second time, which ends the program.
-BOOL WINAPI on_event(DWORD /*event*/) {
-    return g_interrupted.exchange(true) ? FALSE : TRUE;
+constexpr DWORD kWindowsPatienceMs = 5'000;
+
+/// In a thread of Windows' own. Not taken the second time, which ends the program. What closes the console
+/// ends it when this returns: until then the program can leave line and motor as they were.
+BOOL WINAPI on_event(DWORD event) {
+    if (g_interrupted.exchange(true)) return FALSE;
+    if (event != CTRL_C_EVENT && event != CTRL_BREAK_EVENT) ::Sleep(kWindowsPatienceMs);
+    return TRUE;
 }
 
 }  // namespace
