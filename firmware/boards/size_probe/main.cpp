@@ -7,6 +7,9 @@
 #include "motor/jvl_motor.h"
 #include "ports/clock.h"
 #include "ports/storage.h"
+#include "protocol/midi_can.h"
+#include "protocol/midi_v24.h"
+#include "registers/midi_scale.h"
 
 namespace nplc {
 namespace {
@@ -96,6 +99,33 @@ gateway::TableKeeper tables(sequence, drive, flash, {.begin = 0, .slot_bytes = 5
 gateway::OwnRegisters registers(sequence, tables, settings);
 gateway::UserPort user_port(user_line, &motor_line, sequence, drive, registers, settings);
 
+/// What a driver of a MIDI module calls.
+class MidiTraffic {
+  public:
+    void ask(std::uint32_t speed, std::uint32_t acceleration) {
+        const auto* row = registers::midi::find_command(registers::midi::RAMP);
+        const auto ramp = registers::midi::ramp_of(speed, acceleration);
+        const auto period = registers::midi::period_of_speed(speed);
+        const auto torque = registers::midi::torque_of(chip.line, 1023, registers::midi::kMostTorque);
+        const auto data = registers::midi::pack(*row, ramp.value_or(torque.value_or(0)));
+        v24_.expect({.address = 1, .index = row->number, .data = data.value_or(period.value_or(1))});
+        for (const std::uint8_t byte : protocol::midi_v24::encode({.address = 1, .index = row->number}))
+            chip.line = byte;
+        const auto frame = protocol::midi_can::encode(can_);
+        for (const std::uint8_t byte : frame.data) chip.line = byte;
+    }
+    void hear(std::uint8_t byte) {
+        chip.line = static_cast<std::uint8_t>(v24_.receive(byte).value);
+        const auto answer = protocol::midi_can::decode_answer({.id = byte, .size = 8, .data = {byte}});
+        chip.line = protocol::midi_can::answers(answer, can_) ? 1 : 0;
+    }
+
+  private:
+    protocol::midi_v24::AnswerDecoder v24_;
+    protocol::midi_can::Request can_{.kind = protocol::midi_can::Request::Kind::command, .address = 1};
+};
+MidiTraffic midi_traffic;
+
 void start(base::Instant now) {
     settings.start({});
     static_cast<void>(sequence.change(gateway::settings_of(settings.values())));
@@ -113,5 +143,7 @@ void run_firmware() {
         const nplc::base::Instant now = nplc::chip_clock.now();
         nplc::sequence.poll(now);
         nplc::user_port.poll(now);
+        nplc::midi_traffic.ask(nplc::chip.microseconds, nplc::chip.microseconds);
+        nplc::midi_traffic.hear(nplc::chip.line);
     }
 }
