@@ -1,0 +1,163 @@
+#include "sim/midi_module.h"
+
+namespace nplc::sim {
+namespace {
+
+namespace midi = registers::midi;
+
+std::int32_t field(const midi::CommandRow& row, std::size_t number, std::uint32_t data) {
+    return midi::unpack(row.fields[number], data);
+}
+
+}  // namespace
+
+bool MidiModule::may_execute(const midi::CommandRow& row, std::uint32_t data) const {
+    if (!(options_.can ? row.on_can : row.on_v24)) return false;
+    if (!row.while_moving && moving()) return false;
+    if (!row.with_fault && trips_ != 0) return false;
+    if (row.number == midi::TORQUE && field(row, 0, data) > options_.imax) return false;
+    return midi::is_legal(row, data);
+}
+
+bool MidiModule::execute(std::uint8_t number, std::uint8_t sub_index, std::uint32_t data) {
+    const midi::CommandRow* row = midi::find_command(number);
+    if (row == nullptr || sub_index != 0 || !may_execute(*row, data))
+        return false;  // R: sub-index, unused numbers
+    switch (row->kind) {
+        case midi::Kind::initialisation:
+            factory_reset_ = number == midi::FACTORY;
+            wants_restart_ = true;
+            return true;
+        case midi::Kind::parameter:
+            return set_parameter(number, data);
+        case midi::Kind::motion:
+            break;
+    }
+    return armed_ && row->waits_for_sync ? prepare(number, data) : move(number, data);
+}
+
+bool MidiModule::set_parameter(std::uint8_t number, std::uint32_t data) {
+    const midi::CommandRow& row = *midi::find_command(number);
+    const std::int32_t value = row.fields[0].bits == 0 ? 0 : field(row, 0, data);
+    const MidiMemory before = memory_;
+    switch (number) {
+        case midi::STOP_TORQUE:
+            memory_.standby = value == 1;
+            break;
+        case midi::END_STOPS:
+            memory_.stops = static_cast<std::uint8_t>(value);
+            break;
+        case midi::REFERENCE:
+            reference_enabled_ = value == 1;
+            break;
+        case midi::ADDRESS:
+            memory_.address = static_cast<std::uint8_t>(value);
+            break;
+        case midi::UPPER_STOP:
+            memory_.upper_stop = value;
+            break;
+        case midi::LOWER_STOP:
+            memory_.lower_stop = value;
+            break;
+        case midi::ZERO_POSITION:
+            set_origin();
+            break;
+        case midi::TORQUE:
+            memory_.torque = static_cast<std::uint8_t>(value);
+            break;
+        case midi::SPEED:
+            memory_.period = static_cast<std::uint16_t>(value);
+            break;
+        case midi::UNSTALL:
+            memory_.unstall = static_cast<std::uint8_t>(value);
+            break;
+        case midi::RAMP:
+            memory_.ramp = static_cast<std::uint8_t>(value);
+            break;
+        case midi::BAUD:
+            memory_.baud_code = static_cast<std::uint8_t>(value);
+            wants_restart_ = true;
+            break;
+        default:
+            memory_.tolerance = static_cast<std::uint8_t>(value);
+            break;
+    }
+    if (memory_ != before) ++memory_writes_;
+    return true;
+}
+
+bool MidiModule::move(std::uint8_t number, std::uint32_t data) {
+    switch (number) {
+        case midi::WAIT_SYNC:
+            armed_ = true;
+            return true;
+        case midi::SYNC:
+            return start_prepared();
+        case midi::GO_TO:
+        case midi::GO_TO_ZERO:
+            go_to(number == midi::GO_TO ? static_cast<std::int32_t>(data) : 0);
+            return true;
+        case midi::RUN:
+            return run(data);
+        case midi::SEGMENT:
+        case midi::PAUSE:
+            return add_segment(number, data);
+        case midi::STOP:
+            if (mode_ == Mode::segments && profile_.running())
+                return false;  // 003 §VII 17h: only 13h, 14h, 15h
+            ramp_down();
+            return true;
+        case midi::EMERGENCY_STOP:
+            stop_hard();
+            return true;
+        case midi::POWER_ON:
+            powered_ = true;
+            return true;
+        default:
+            cut_power();
+            return true;
+    }
+}
+
+/// R: of several the last one counts.
+bool MidiModule::prepare(std::uint8_t number, std::uint32_t data) {
+    prepared_ = Prepared{number, data};
+    armed_ = false;
+    return true;
+}
+
+/// R: without anything prepared nothing happens, and nothing is refused.
+bool MidiModule::start_prepared() {
+    if (!on_ || !prepared_ || deaf()) return true;
+    const Prepared prepared = *prepared_;
+    prepared_.reset();
+    const midi::CommandRow& row = *midi::find_command(prepared.number);
+    return may_execute(row, prepared.data) && move(prepared.number, prepared.data);
+}
+
+/// 000 §VI 15h. R: refused during other motions.
+bool MidiModule::run(std::uint32_t data) {
+    const midi::CommandRow& row = *midi::find_command(midi::RUN);
+    const auto period = static_cast<std::uint16_t>(field(row, 1, data));
+    const bool running = mode_ == Mode::run && profile_.running();
+    if (moving() && !running) return false;
+    if (period == 0) {
+        ramp_down();
+        return true;
+    }
+    if (!running) begin_motion(Mode::run, field(row, 0, data) == midi::kTurnsLeft ? -1 : 1);
+    profile_.begin_run(period, memory_.ramp);
+    if (!running) schedule(profile_.interval());
+    return true;
+}
+
+/// 000 §VI 16h, 1Eh. R: refused during other motions.
+bool MidiModule::add_segment(std::uint8_t number, std::uint32_t data) {
+    const bool running = mode_ == Mode::segments && profile_.running();
+    if (moving() && !running) return false;
+    if (!segments_.push({number, data})) return false;
+    if (!running) next_segment();
+    return true;
+}
+
+}  // namespace nplc::sim

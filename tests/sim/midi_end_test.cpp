@@ -1,0 +1,317 @@
+#include <string>
+
+#include "midi_bench.h"
+#include "sim/can_bus.h"
+#include "sim/midi_can_end.h"
+#include "sim/midi_v24_end.h"
+
+namespace nplc::sim {
+namespace {
+
+namespace v24 = protocol::midi_v24;
+namespace can = protocol::midi_can;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+/// A module and its serial end, without the time of characters.
+class V24Bench {
+  public:
+    explicit V24Bench(const MidiOptions& options) : module(midi::Model::mac34_1, options) {}
+
+    /// What comes back, between Stx and Etx without them.
+    std::string say(const std::string& bytes) {
+        for (const char byte : bytes) end.receive(static_cast<std::uint8_t>(byte), false);
+        std::string heard;
+        while (const auto byte = end.transmit()) heard.push_back(static_cast<char>(*byte));
+        return heard;
+    }
+    std::string ask(const v24::Request& request) {
+        const v24::RequestBytes bytes = v24::encode(request);
+        return say({bytes.begin(), bytes.end()});
+    }
+
+    MidiBench module;
+    MidiV24End end{*module};
+};
+
+const std::string kDone = "\x06\x13\x1A";
+const std::string kRefused = "\x06\x13\x17";
+
+// 000 §II, §III; sums: 2A0h (reply 210h) and what the characters have above 30h.
+TEST(MidiV24End, TheManualsAnswersInBytes) {
+    V24Bench bench({.address = 1});
+    EXPECT_EQ(bench.say("\x02"
+                        "01401130000002710AF"
+                        "\x03"),
+              kDone);  // go to 10000: 2710h
+    EXPECT_EQ(bench.say("\x02"
+                        "01401130000002710AF"
+                        "\x03"),
+              kRefused);  // it moves
+    EXPECT_EQ(bench.say("\x02"
+                        "01401130000002710AD"
+                        "\x03"),
+              "\x15");  // wrong sum
+    EXPECT_EQ(bench.say("\x02"
+                        "01401040000000000A5"
+                        "\x03"),
+              kRefused);  // no such command
+    EXPECT_EQ(bench.say("\x02"
+                        "014012A0000000000B4"
+                        "\x03"),
+              kRefused);  // no such query
+    bench.module.run_out();
+    // 01 0 00002710: 210h + 1 + 2 + 7 + 1 = 21Bh.
+    EXPECT_EQ(bench.say("\x02"
+                        "01401200000000000A3"
+                        "\x03"),
+              "\x06\x13"
+              "\x02"
+              "0110100000027101B"
+              "\x03"
+              "\x1A");
+    // 01 8 80000000: 210h + 1 + 8 + 8 = 221h.
+    EXPECT_EQ(bench.say("\x02"
+                        "0140128AF00000000D2"
+                        "\x03"),
+              "\x06\x13"
+              "\x02"
+              "01101880000000"
+              "21"
+              "\x03"
+              "\x1A");
+}
+
+TEST(MidiV24End, OtherModulesMessagesAreNotAnswered) {
+    V24Bench bench({.address = 1});
+    EXPECT_EQ(bench.ask({.address = 2, .index = 0x13, .data = 1'000}), "");
+    EXPECT_FALSE(bench.module->moving());
+    std::string damaged =
+        "\x02"
+        "01402130000002710AA"
+        "\x03";
+    EXPECT_EQ(bench.say(damaged), "");
+}
+
+// 000 §IV: FFh is for all; R: 00 answers.
+TEST(MidiV24End, TheGeneralCommand) {
+    V24Bench zero({.address = 0});
+    V24Bench one({.address = 1});
+    const v24::Request go{.address = v24::kGeneral, .index = 0x13, .data = 1'000};
+    EXPECT_EQ(zero.ask(go), kDone);
+    EXPECT_EQ(one.ask(go), "");
+    EXPECT_TRUE(zero.module->moving());
+    EXPECT_TRUE(one.module->moving());
+    one.module.run_out();
+    EXPECT_EQ(one.ask({.address = v24::kGeneral, .index = 0x20}), "");
+}
+
+// 000 §VI 08h: kept, and holds for the next message.
+TEST(MidiV24End, ANewAddress) {
+    V24Bench bench({.address = 0});
+    EXPECT_EQ(bench.ask({.address = v24::kGeneral, .index = 0x08, .data = 5}), kDone);
+    EXPECT_EQ(bench.ask({.address = 0, .index = 0x20}), "");
+    EXPECT_EQ(bench.ask({.address = 5, .index = 0x09, .data = 7}), kDone);
+    bench.module->power_off();
+    bench.module->power_on();
+    bench.module.pass(seconds{2});
+    EXPECT_EQ(bench.ask({.address = 5, .index = 0x09, .data = 7}), kDone);
+    EXPECT_EQ(bench.ask({.address = 5, .index = 0x08, .data = 0x80}), kRefused);
+}
+
+// 000 §VI 00h, 01h: answered, then deaf for two seconds.
+TEST(MidiV24End, TwoDeafSeconds) {
+    for (const std::uint8_t index : {std::uint8_t{0x00}, std::uint8_t{0x01}}) {
+        V24Bench bench({.address = 0});
+        const v24::Request position{.index = 0x20};
+        EXPECT_EQ(bench.ask({.index = index}), kDone);
+        bench.module.pass(seconds{2} - kTick);
+        EXPECT_EQ(bench.ask(position), "");
+        bench.module.pass(kTick);
+        EXPECT_EQ(bench.ask(position).size(), 3u + 18u);
+    }
+    // A frame that begins in the two seconds is none.
+    V24Bench bench({.address = 0});
+    bench.ask({.index = 0});
+    const v24::RequestBytes bytes = v24::encode({.index = 0x20});
+    const std::string frame(bytes.begin(), bytes.end());
+    EXPECT_EQ(bench.say(frame.substr(0, 10)), "");
+    bench.module.pass(seconds{2});
+    EXPECT_EQ(bench.say(frame.substr(10)), "");
+    EXPECT_EQ(bench.say(frame).size(), 21u);
+}
+
+// 000 §VI 1Bh: kept; answered at the old rate, since the module restarts behind it.
+TEST(MidiV24End, ANewBaudRate) {
+    V24Bench bench({.address = 0});
+    const v24::RequestBytes bytes = v24::encode({.index = 0x1B, .data = 1});
+    for (const std::uint8_t byte : bytes) bench.end.receive(byte, false);
+    EXPECT_EQ(bench.module->baud(), 38'400U);
+    std::string heard;
+    while (const auto byte = bench.end.transmit()) {
+        EXPECT_EQ(bench.module->baud(), heard.size() < 2 ? 38'400U : 9'600U);
+        heard.push_back(static_cast<char>(*byte));
+    }
+    EXPECT_EQ(heard, kDone);
+    bench.module->power_off();
+    bench.module->power_on();
+    EXPECT_EQ(bench.module->baud(), 9'600U);
+}
+
+TEST(MidiV24End, AFramingErrorDropsTheFrame) {
+    V24Bench bench({.address = 0});
+    const v24::RequestBytes bytes = v24::encode({.index = 0x20});
+    for (std::size_t i = 0; i < bytes.size(); ++i) bench.end.receive(bytes[i], i == 7);
+    EXPECT_FALSE(bench.end.transmit());
+}
+
+/// Modules on a bus of 125 kbit/s with one master, in virtual time.
+class BusBench {
+  public:
+    explicit BusBench(std::initializer_list<std::uint8_t> addresses) {
+        for (const std::uint8_t address : addresses) {
+            modules.emplace_back(midi::Model::mac34_1, MidiOptions{.can = true, .address = address});
+        }
+        for (MidiModule& module : modules) ends.emplace_back(module);
+    }
+    void pass(Time time) {
+        for (const Time end = now + time; now < end;) {
+            now += std::chrono::microseconds{100};
+            for (std::size_t i = 0; i < modules.size(); ++i) {
+                modules[i].advance(now);
+                while (const auto frame = ends[i].transmit()) bus.send(*frame, static_cast<int>(i));
+            }
+            while (const auto heard_now = bus.take(now)) {
+                for (std::size_t i = 0; i < modules.size(); ++i) {
+                    if (heard_now->sender != static_cast<int>(i)) ends[i].receive(heard_now->frame);
+                }
+                if (heard_now->sender != kMaster) heard.push_back(heard_now->frame);
+            }
+        }
+    }
+    std::vector<can::Frame> ask(const can::Request& request, Time time = milliseconds{10}) {
+        heard.clear();
+        bus.send(can::encode(request), kMaster);
+        pass(time);
+        return heard;
+    }
+
+    static constexpr int kMaster = -1;
+    std::deque<MidiModule> modules;
+    std::deque<MidiCanEnd> ends;
+    CanBus bus{125'000};
+    std::vector<can::Frame> heard;
+    Time now{0};
+};
+
+using Ask = can::Request::Kind;
+
+// 003 §V.2, §V.6, §V.7, §VII 00h.
+TEST(MidiCanEnd, BootUpCommandsAndQueries) {
+    BusBench bench({1, 2});
+    bench.pass(milliseconds{10});
+    ASSERT_EQ(bench.heard.size(), 2u);
+    EXPECT_EQ(bench.heard[0], (can::Frame{0x701, 1, {0}}));
+    EXPECT_EQ(bench.heard[1], (can::Frame{0x702, 1, {0}}));
+    auto heard = bench.ask({Ask::command, 2, 0x2013, 0, 1'000});
+    ASSERT_EQ(heard.size(), 1u);
+    EXPECT_EQ(heard[0], (can::Frame{0x582, 8, {0x60, 0x13, 0x20, 0, 0, 0, 0, 0}}));
+    EXPECT_TRUE(bench.modules[1].moving());
+    EXPECT_FALSE(bench.modules[0].moving());
+    heard = bench.ask({Ask::command, 2, 0x2013, 0, 1'000});
+    ASSERT_EQ(heard.size(), 1u);
+    EXPECT_EQ(heard[0], (can::Frame{0x582, 8, {0x80, 0x13, 0x20, 0, 0, 0, 0, 0}}));
+    bench.pass(seconds{1});
+    heard = bench.ask({Ask::query, 2, 0x2000, 0, 0});
+    ASSERT_EQ(heard.size(), 1u);
+    EXPECT_EQ(heard[0], (can::Frame{0x582, 8, {0x42, 0, 0x20, 0, 0, 0, 0x03, 0xE8}}));
+    heard = bench.ask({Ask::query, 1, 0x2008, 0xAF, 0});  // Imax
+    ASSERT_EQ(heard.size(), 1u);
+    EXPECT_EQ(heard[0], (can::Frame{0x581, 8, {0x42, 8, 0x20, 0xAF, 0x80, 0, 0, 0}}));
+    for (const can::Request& bad :
+         {can::Request{Ask::command, 1, 0x2008, 0, 5}, can::Request{Ask::query, 1, 0x2009, 0, 0},
+          can::Request{Ask::command, 1, 0x1013, 0, 0}}) {
+        heard = bench.ask(bad);
+        ASSERT_EQ(heard.size(), 1u);
+        EXPECT_EQ(heard[0].data[0], 0x80);
+    }
+    EXPECT_TRUE(bench.ask({Ask::command, 3, 0x2013, 0, 5}).empty());
+}
+
+TEST(MidiCanEnd, AResetIsAnsweredAndBootsAfterTwoSeconds) {
+    BusBench bench({1});
+    bench.pass(milliseconds{10});
+    EXPECT_EQ(bench.ask({Ask::command, 1, 0x2000, 0, 0}).size(), 1u);
+    EXPECT_TRUE(bench.ask({Ask::query, 1, 0x2000, 0, 0}, milliseconds{1'980}).empty());
+    bench.pass(milliseconds{30});
+    ASSERT_EQ(bench.heard.size(), 1u);
+    EXPECT_EQ(bench.heard[0].id, 0x701);
+}
+
+// 003 §V.8: all act, address 1 answers.
+TEST(MidiCanEnd, TheGeneralMessage) {
+    BusBench bench({1, 2});
+    bench.pass(milliseconds{10});
+    const auto heard = bench.ask({Ask::command, can::kGeneral, 0x2013, 0, 1'000});
+    ASSERT_EQ(heard.size(), 1u);
+    EXPECT_EQ(heard[0].id, 0x581);
+    EXPECT_TRUE(bench.modules[0].moving());
+    EXPECT_TRUE(bench.modules[1].moving());
+}
+
+// 003 §V.4: two axes prepared, one frame starts both.
+TEST(MidiCanEnd, Sync) {
+    BusBench bench({1, 2});
+    bench.pass(milliseconds{10});
+    for (const std::uint8_t address : {std::uint8_t{1}, std::uint8_t{2}}) {
+        bench.ask({Ask::command, address, 0x2010, 0, 0});
+        bench.ask({Ask::command, address, 0x2013, 0, 10'000});
+    }
+    EXPECT_TRUE(bench.ask({.kind = Ask::sync}).empty());
+    bench.pass(milliseconds{300});
+    EXPECT_GT(bench.modules[0].position(), 0);
+    EXPECT_EQ(bench.modules[0].position(), bench.modules[1].position());
+}
+
+// 003 §V.5: valid and kept only at the end of the whole procedure, which a boot-up closes.
+TEST(MidiCanEnd, TheAddressByLmt) {
+    BusBench bench({1});
+    bench.pass(milliseconds{10});
+    EXPECT_TRUE(bench.ask({.kind = Ask::set_address, .data = 5}).empty());  // not in configuration mode
+    EXPECT_TRUE(bench.ask({.kind = Ask::configure}).empty());
+    auto heard = bench.ask({.kind = Ask::set_address, .data = 0x80});
+    ASSERT_EQ(heard.size(), 1u);
+    EXPECT_EQ(heard[0].data[1], 1);
+    heard = bench.ask({.kind = Ask::set_address, .data = 5});
+    ASSERT_EQ(heard.size(), 1u);
+    EXPECT_EQ(heard[0], (can::Frame{0x7E4, 8, {0x11, 0, 0, 0, 0, 0, 0, 0}}));
+    EXPECT_EQ(bench.modules[0].memory().address, 1);
+    heard = bench.ask({.kind = Ask::operate});
+    ASSERT_EQ(heard.size(), 1u);
+    EXPECT_EQ(heard[0], (can::Frame{0x705, 1, {0}}));
+    EXPECT_EQ(bench.modules[0].memory().address, 5);
+    EXPECT_EQ(bench.ask({Ask::query, 5, 0x2000, 0, 0}).size(), 1u);
+}
+
+// 47 bits and the data: 111 at 125 kbit/s are 888 us; the lowest identifier goes first.
+TEST(CanBus, TimeAndPriority) {
+    CanBus bus(125'000);
+    bus.send({.id = 0x700, .size = 8}, 0);
+    EXPECT_FALSE(bus.take(Time{0}));
+    bus.send({.id = 0x602, .size = 8}, 0);
+    bus.send({.id = 0x601, .size = 8}, 1);
+    bus.send({.id = 0x080}, 1);  // behind its sender's first
+    Time end{0};
+    for (const int id : {0x700, 0x601, 0x080, 0x602}) {
+        end += std::chrono::microseconds{id == 0x080 ? 376 : 888};
+        EXPECT_FALSE(bus.take(end - Time{1})) << id;
+        EXPECT_EQ(bus.next_event(), end) << id;
+        const auto heard = bus.take(end);
+        ASSERT_TRUE(heard) << id;
+        EXPECT_EQ(heard->frame.id, id);
+    }
+    EXPECT_TRUE(bus.is_idle());
+}
+
+}  // namespace
+}  // namespace nplc::sim
