@@ -6,7 +6,6 @@
 namespace nplc::sim {
 namespace {
 
-constexpr std::size_t kMostWaiting = 64 * 1024;
 /// A motor that pauses is asked again after this long.
 constexpr Time kLongestStep = std::chrono::microseconds{250};
 
@@ -20,29 +19,6 @@ Rack::Rack(const RackOptions& options) : fastmac_(options.fastmac_baud), mactalk
         units_.push_back({std::make_unique<MacMotor>(unit.model, motor)});
         units_.back().next_sample = units_.back().motor->sample_period();
     }
-}
-
-void Rack::Line::send(std::span<const std::uint8_t> bytes) {
-    const std::size_t room = kMostWaiting - std::min(kMostWaiting, waiting.size());
-    const auto taken = bytes.first(std::min(room, bytes.size()));
-    waiting.insert(waiting.end(), taken.begin(), taken.end());
-}
-
-void Rack::Line::start(Time now) {
-    if (waiting.empty() || !to_motor.free(now)) return;
-    to_motor.start(waiting.front(), now);
-    waiting.pop_front();
-}
-
-void Rack::Line::collect(Time now) {
-    while (const auto byte = from_motor.take(now)) received.push_back(byte->value);
-}
-
-Time Rack::Line::next_event(Time limit) const {
-    if (!waiting.empty()) limit = std::min(limit, to_motor.busy_until());
-    if (const auto arrival = to_motor.next_arrival()) limit = std::min(limit, *arrival);
-    if (const auto arrival = from_motor.next_arrival()) limit = std::min(limit, *arrival);
-    return limit;
 }
 
 Time Rack::next_event(Time limit) const {
@@ -71,26 +47,26 @@ void Rack::advance(Time to) {
 void Rack::serve_fastmac() {
     MacMotor& motor = *units_.front().motor;
     const base::Instant at(std::chrono::duration_cast<base::Microseconds>(now_));
-    while (const auto byte = fastmac_.to_motor.take(now_))
+    while (const auto byte = fastmac_.to_device.take(now_))
         motor.receive(byte->value, byte->framing_error, at);
-    if (fastmac_.from_motor.free(now_)) {
-        if (const auto byte = motor.transmit(at)) fastmac_.from_motor.start(*byte, now_);
+    if (fastmac_.from_device.free(now_)) {
+        if (const auto byte = motor.transmit(at)) fastmac_.from_device.start(*byte, now_);
     }
     fastmac_.collect(now_);
 }
 
 /// Units that answer at once, as to address 255, disturb each other: on the wires a 0 wins over a 1.
 void Rack::serve_mactalk() {
-    while (const auto byte = mactalk_.to_motor.take(now_)) {
+    while (const auto byte = mactalk_.to_device.take(now_)) {
         for (Unit& unit : units_) unit.motor->receive_mactalk(byte->value, byte->framing_error);
     }
-    if (mactalk_.from_motor.free(now_)) {
+    if (mactalk_.from_device.free(now_)) {
         std::optional<std::uint8_t> together;
         for (Unit& unit : units_) {
             const auto byte = unit.motor->transmit_mactalk();
             if (byte) together = static_cast<std::uint8_t>(together.value_or(0xFF) & *byte);
         }
-        if (together) mactalk_.from_motor.start(*together, now_);
+        if (together) mactalk_.from_device.start(*together, now_);
     }
     mactalk_.collect(now_);
 }

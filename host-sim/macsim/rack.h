@@ -1,13 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "sim/client_line.h"
 #include "sim/mac_motor.h"
-#include "sim/serial_line.h"
 
 namespace nplc::sim {
 
@@ -35,8 +34,8 @@ class Rack {
     void send_mactalk(std::span<const std::uint8_t> bytes) { mactalk_.send(bytes); }
     void advance(Time to);
     /// What has arrived at the client since the last call.
-    std::vector<std::uint8_t> received_fastmac() { return std::move(fastmac_.received); }
-    std::vector<std::uint8_t> received_mactalk() { return std::move(mactalk_.received); }
+    std::vector<std::uint8_t> received_fastmac() { return fastmac_.received(); }
+    std::vector<std::uint8_t> received_mactalk() { return mactalk_.received(); }
 
     std::size_t size() const { return units_.size(); }
     MacMotor& motor(std::size_t unit) { return *units_[unit].motor; }
@@ -47,26 +46,14 @@ class Rack {
         std::unique_ptr<MacMotor> motor;
         Time next_sample{0};
     };
-    struct Line {
-        explicit Line(std::uint32_t baud) : to_motor(baud, 1), from_motor(baud, 1) {}
-        void send(std::span<const std::uint8_t> bytes);
-        void start(Time now);
-        void collect(Time now);
-        Time next_event(Time limit) const;
-
-        LineDirection to_motor;
-        LineDirection from_motor;
-        std::deque<std::uint8_t> waiting;
-        std::vector<std::uint8_t> received;
-    };
 
     Time next_event(Time limit) const;
     void serve_fastmac();
     void serve_mactalk();
 
     std::vector<Unit> units_;
-    Line fastmac_;
-    Line mactalk_;
+    ClientLine fastmac_;
+    ClientLine mactalk_;
     Time now_{0};
 };
 

@@ -2,32 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 #include "flash_file.h"
+#include "sim/value_file.h"
 
 namespace nplc::sim {
 namespace {
-
-std::string open_server(const std::string& endpoint, std::unique_ptr<hal_linux::ByteServer>& server) {
-    if (endpoint.empty()) return {};
-    auto opened = hal_linux::ByteServer::open(endpoint);
-    server = std::move(opened.server);
-    return opened.error;
-}
-
-std::vector<std::uint8_t> read_all(hal_linux::ByteServer* server) {
-    std::vector<std::uint8_t> bytes;
-    if (server == nullptr) return bytes;
-    std::array<std::uint8_t, 4096> block{};
-    const std::size_t count = server->read(block);
-    bytes.assign(block.begin(), block.begin() + static_cast<std::ptrdiff_t>(count));
-    return bytes;
-}
-
-void write_all(hal_linux::ByteServer* server, const std::vector<std::uint8_t>& bytes) {
-    if (server != nullptr && !bytes.empty()) server->write(bytes);
-}
 
 std::string about(const MacMotor& motor) {
     return fmt::format("{} @{} mode {} P_IST {} V {:.0f} rpm ERR_STAT {:04X}",
@@ -39,8 +18,8 @@ std::string about(const MacMotor& motor) {
 
 Service::Service(const MacsimOptions& options, std::string& error) : rack_(options.rack) {
     error = open_flash(options);
-    if (error.empty()) error = open_server(options.fastmac, fastmac_);
-    if (error.empty()) error = open_server(options.mactalk, mactalk_);
+    if (error.empty()) error = fastmac_.open(options.fastmac);
+    if (error.empty()) error = mactalk_.open(options.mactalk);
 }
 
 std::string Service::open_flash(const MacsimOptions& options) {
@@ -50,7 +29,7 @@ std::string Service::open_flash(const MacsimOptions& options) {
             i == 0 ? options.flash : fmt::format("{}.{}", options.flash, options.rack.units[i].address);
         flash_.push_back({path});
         if (std::string error = load_flash(path, rack_.motor(i)); !error.empty()) return error;
-        if (std::string error = try_flash(path); !error.empty()) return error;
+        if (std::string error = try_values(path); !error.empty()) return error;
     }
     return {};
 }
@@ -65,19 +44,16 @@ std::string Service::keep_flash() {
 }
 
 std::string Service::advance(Time to) {
-    rack_.send_fastmac(read_all(fastmac_.get()));
-    rack_.send_mactalk(read_all(mactalk_.get()));
+    rack_.send_fastmac(fastmac_.read());
+    rack_.send_mactalk(mactalk_.read());
     rack_.advance(to);
-    write_all(fastmac_.get(), rack_.received_fastmac());
-    write_all(mactalk_.get(), rack_.received_mactalk());
+    fastmac_.write(rack_.received_fastmac());
+    mactalk_.write(rack_.received_mactalk());
     return keep_flash();
 }
 
 std::string Service::endpoints() const {
-    std::string text;
-    if (fastmac_) text += fmt::format("fastmac: {}\n", fastmac_->name());
-    if (mactalk_) text += fmt::format("mactalk: {}\n", mactalk_->name());
-    return text;
+    return fastmac_.described("fastmac") + mactalk_.described("mactalk");
 }
 
 std::string Service::status() const {

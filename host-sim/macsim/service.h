@@ -1,28 +1,28 @@
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "command_line.h"
-#include "hal_linux/byte_server.h"
 #include "rack.h"
+#include "sim/endpoint.h"
+#include "sim/served.h"
 
 namespace nplc::sim {
 
 /// The rack with its clients and its flash files. Time is given: `advance` does all that happens until then.
-class Service {
+class Service final : public Served {
   public:
     /// Opens everything; `error` says in one line what could not be.
     Service(const MacsimOptions& options, std::string& error);
 
     /// Bytes in, time on, bytes out, flash to its file. Answers what went wrong, or nothing.
-    std::string advance(Time to);
+    std::string advance(Time to) override;
 
     /// "fastmac: tcp:127.0.0.1:4001", a line each.
-    std::string endpoints() const;
+    std::string endpoints() const override;
     /// One line about the motors, for a terminal.
-    std::string status() const;
+    std::string status() const override;
 
   private:
     struct Flash {
@@ -33,8 +33,8 @@ class Service {
     std::string keep_flash();
 
     Rack rack_;
-    std::unique_ptr<hal_linux::ByteServer> fastmac_;
-    std::unique_ptr<hal_linux::ByteServer> mactalk_;
+    Endpoint fastmac_;
+    Endpoint mactalk_;
     std::vector<Flash> flash_;
 };
 

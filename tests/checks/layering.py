@@ -47,6 +47,18 @@ MODULES = [
     Module("host-sim", "sim", ("base", "ports", "protocol", "registers"), os=True),
     Module("host-sim/board", "sim", ANY, os=True, clock=True),
     Module(
+        "host-sim/served",
+        "sim",
+        ("base", "ports", "protocol", "registers", "host", "hal_linux"),
+        os=True,
+    ),
+    Module(
+        "host-sim/midisim",
+        None,
+        ("arguments", "base", "ports", "protocol", "registers", "host", "hal_linux", "sim"),
+        os=True,
+    ),
+    Module(
         "host-sim/macsim",
         None,
         ("arguments", "base", "ports", "protocol", "registers", "host", "hal_linux", "sim"),

@@ -5,18 +5,17 @@ usage: macsim_test.py PROGRAM
 """
 
 import os
-import select
 import signal
 import socket
 import subprocess
 import sys
-import tempfile
 import time
-import tty
 import unittest
 
+import device_case
+from device_case import LONG
+
 PROGRAM = ""
-LONG = 20  # seconds until something that must come is given up
 ACCEPT = bytes.fromhex("111111")
 
 
@@ -45,96 +44,20 @@ def value_in(answer):
     return int.from_bytes(answer[9:17:2], "little")
 
 
-class Terminal:
-    def __init__(self, path):
-        self.fd = os.open(path, os.O_RDWR | os.O_NOCTTY)
-        tty.setraw(self.fd)
-
-    def send(self, data):
-        os.write(self.fd, data)
-
-    def receive(self, seconds):
-        ready, _, _ = select.select([self.fd], [], [], seconds)
-        return os.read(self.fd, 4096) if ready else b""
-
-    def close(self):
-        os.close(self.fd)
-
-
-class Socket:
-    def __init__(self, family, address):
-        self.socket = socket.socket(family)
-        self.socket.connect(address)
-
-    def send(self, data):
-        self.socket.sendall(data)
-
-    def receive(self, seconds):
-        self.socket.settimeout(seconds)
-        try:
-            return self.socket.recv(4096)
-        except TimeoutError:
-            return b""
-
-    def close(self):
-        self.socket.close()
-
-
-class Case(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.running = []
-        self.clients = []
-
-    def tearDown(self):
-        for client in self.clients:
-            client.close()
-        for process in self.running:
-            process.kill()
-            process.communicate()
-        self.folder.cleanup()
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
-
+class Case(device_case.Case):
     def start(self, *arguments):
-        """Runs it until it is ready; answers the process and what it printed before."""
-        process = subprocess.Popen([PROGRAM, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.running.append(process)
-        lines = []
-        for line in process.stdout:
-            if line == "ready\n":
-                return process, lines
-            lines.append(line.rstrip("\n"))
-        self.fail(f"ended before it was ready: {process.communicate()}")
-
-    def kept(self, client):
-        self.clients.append(client)
-        return client
-
-    def ask(self, client, request, length):
-        """Sends, and collects so many bytes of answer."""
-        client.send(request)
-        return self.collect(client, length)
-
-    def collect(self, client, length):
-        answer = b""
-        end = time.monotonic() + LONG
-        while len(answer) < length and time.monotonic() < end:
-            answer += client.receive(0.1)
-        self.assertEqual(len(answer), length, answer.hex(" "))
-        return answer
+        return self.start_program(PROGRAM, *arguments)
 
 
 class MacTalk(Case):
     def on_all_endpoints(self):
         process, _ = self.start("--model", "MAC140", "--address", "8", "--mactalk", "pty:" + self.path("tty"))
-        yield process, Terminal(self.path("tty"))
+        yield process, device_case.Terminal(self.path("tty"))
         process, _ = self.start("--address", "8", "--mactalk", "unix:" + self.path("socket"))
-        yield process, Socket(socket.AF_UNIX, self.path("socket"))
+        yield process, device_case.Socket(socket.AF_UNIX, self.path("socket"))
         process, lines = self.start("--address", "8", "--mactalk", "tcp:127.0.0.1:0")
         port = int(lines[0].rsplit(":", 1)[1])
-        yield process, Socket(socket.AF_INET, ("127.0.0.1", port))
+        yield process, device_case.Socket(socket.AF_INET, ("127.0.0.1", port))
 
     def test_the_quick_guides_examples_on_every_endpoint(self):
         for process, client in self.on_all_endpoints():
@@ -149,7 +72,7 @@ class MacTalk(Case):
 
     def client(self, *arguments):
         self.start(*arguments, "--mactalk", "pty:" + self.path("tty"))
-        return self.kept(Terminal(self.path("tty")))
+        return self.kept(device_case.Terminal(self.path("tty")))
 
     def test_shapes_that_clients_send(self):
         client = self.client("--address", "254")
@@ -222,8 +145,8 @@ class FastMac(Case):
     def test_status_bytes_come_without_pause_and_a_command_is_taken(self):
         self.start("--model", "MAC140", "--fastmac", "pty:" + self.path("tty"), "--mactalk",
                    "unix:" + self.path("socket"))
-        motor = self.kept(Terminal(self.path("tty")))
-        person = self.kept(Socket(socket.AF_UNIX, self.path("socket")))
+        motor = self.kept(device_case.Terminal(self.path("tty")))
+        person = self.kept(device_case.Socket(socket.AF_UNIX, self.path("socket")))
         self.assertNotEqual(motor.receive(LONG), b"")
         self.ask(person, write_request(1, 66, 2500, 2), 3)
         motor.send(b"\xA9")  # toggle 1, velocity mode, V2 (001 §5.2.1.4: 01 01 001)
@@ -236,11 +159,7 @@ class FastMac(Case):
 
 class Mistakes(Case):
     def refused(self, *arguments, says):
-        done = subprocess.run([PROGRAM, *arguments], capture_output=True, timeout=LONG, check=False, text=True)
-        self.assertEqual(done.returncode, 2, arguments)
-        self.assertEqual(done.stdout, "", arguments)
-        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
-        self.assertIn(says, done.stderr)
+        self.refused_by(PROGRAM, *arguments, says=says)
 
     def test_of_the_command_line(self):
         end = ("--mactalk", "pty:" + self.path("x"))

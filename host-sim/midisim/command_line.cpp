@@ -1,0 +1,114 @@
+#include "command_line.h"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <stdexcept>
+
+#include "arguments/arguments.h"
+#include "sim/text.h"
+
+namespace nplc::sim {
+namespace {
+
+constexpr int kMaxAddress = 127;
+constexpr const char* kFooter =
+    "EP is pty:PATH (PATH becomes a link to the terminal), unix:PATH or tcp:127.0.0.1:PORT. Prints `ready` "
+    "when all are open.\nA client that is not there or does not read loses bytes, as on a serial line. "
+    "SIGINT and "
+    "SIGTERM end it cleanly; the modules keep their positions.\nExit code: 0 ended by a signal, 2 a mistake "
+    "in the "
+    "command line, or something cannot be opened or written.";
+
+std::int64_t whole(const std::string& option, const std::string& text, std::int64_t min, std::int64_t max) {
+    const auto value = parse_integer(text);
+    if (!value || *value < min || *value > max)
+        throw std::invalid_argument(
+            fmt::format("{} \"{}\": write a whole number {} to {}", option, text, min, max));
+    return *value;
+}
+
+registers::midi::Model model(const std::string& option, const std::string& text) {
+    if (const auto found = registers::midi::model_of(text)) return *found;
+    throw std::invalid_argument(fmt::format("{} \"{}\": write MAC23, MAC34-1 or MAC34-2", option, text));
+}
+
+std::uint8_t address(const std::string& option, const std::string& text) {
+    return static_cast<std::uint8_t>(whole(option, text, 0, kMaxAddress));
+}
+
+/// MODEL:ADDRESS
+MidiUnit unit(const std::string& text) {
+    const auto colon = text.find(':');
+    if (colon == std::string::npos)
+        throw std::invalid_argument(fmt::format("--unit \"{}\": write MODEL:ADDRESS, such as MAC23:2", text));
+    return {model("--unit", text.substr(0, colon)), address("--unit", text.substr(colon + 1))};
+}
+
+double speed(const std::string& text) {
+    const auto value = parse_decimal(text);
+    if (!value || !(*value >= 0.01 && *value <= 100))
+        throw std::invalid_argument(fmt::format("--speed \"{}\": write a number 0.01 to 100", text));
+    return *value;
+}
+
+std::uint32_t baud(const std::string& text) {
+    const auto value = parse_integer(text);
+    for (int code = 1; code <= 3; ++code) {
+        if (value == registers::midi::baud_of(code)) return registers::midi::baud_of(code);
+    }
+    throw std::invalid_argument(fmt::format("--baud \"{}\": write 9600, 19200 or 38400", text));
+}
+
+void check(const MidisimOptions& options) {
+    if (options.v24.empty()) throw std::invalid_argument("name --v24 EP: nobody could talk to the module");
+    std::set<int> addresses;
+    for (const MidiUnit& one : options.units) {
+        if (!addresses.insert(one.address).second)
+            throw std::invalid_argument(
+                fmt::format("address {} is given twice: each module on a line needs its own", one.address));
+    }
+}
+
+}  // namespace
+
+MidisimCommandLine parse_midisim(int argc, const char* const* argv) {
+    arguments::App app("Virtual MIDI modules in real time, for any program that talks to real ones",
+                       "midisim");
+    MidisimOptions options;
+    MidiUnit& first = options.units.front();
+    std::vector<MidiUnit> further;
+    app.set_version_flag("--version", std::string("midisim ") + NPLC_VERSION);
+    app.footer(kFooter);
+    app.add_option("--model", "MAC23, MAC34-1 or MAC34-2 (MAC34-1)")->each([&](const std::string& text) {
+        first.model = model("--model", text);
+    });
+    app.add_option("--address", "of the module while its EEPROM file has none, 0..127 (0)")
+        ->each([&](const std::string& text) { first.address = address("--address", text); });
+    app.add_option("--v24", options.v24, "where the serial line is")->type_name("EP");
+    app.add_option("--unit", "a further module on the same line; may be repeated")
+        ->type_name("MODEL:ADDRESS")
+        ->repeatable()
+        ->each([&](const std::string& text) { further.push_back(unit(text)); });
+    app.add_option("--eeprom", options.eeprom,
+                   "keep parameters and position in this file (a further module's: FILE.ADDRESS)")
+        ->type_name("FILE");
+    app.add_option("--baud",
+                   "rate of the client: 9600, 19200, 38400 (the first module's, also when it changes)")
+        ->each([&](const std::string& text) { options.baud = baud(text); });
+    app.add_option("--speed", "times real time, line included, 0.01..100 (1)")
+        ->each([&](const std::string& text) { options.speed = speed(text); });
+    try {
+        const arguments::Outcome outcome = app.parse(argc, argv);
+        if (outcome.kind == arguments::Outcome::Kind::told) return {};
+        if (outcome.kind == arguments::Outcome::Kind::wrong)
+            return {std::nullopt, outcome.error + " (see midisim --help)"};
+        options.units.insert(options.units.end(), further.begin(), further.end());
+        check(options);
+    } catch (const std::invalid_argument& error) {
+        return {std::nullopt, error.what()};
+    }
+    return {options, {}};
+}
+
+}  // namespace nplc::sim
