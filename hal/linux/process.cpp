@@ -50,6 +50,7 @@ Ended run(std::vector<std::string> words, const std::array<std::FILE*, 3>& files
         error = ::posix_spawn_file_actions_adddup2(&actions,
                                                    ::fileno(files[static_cast<std::size_t>(target)]), target);
     std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
     pid_t child = 0;

@@ -423,6 +423,7 @@ class Line(Case):
         for wrong in ("foo:bar", "tcp:nohost:99", "tcp:127.0.0.1:99999"):
             self.refused(2, "write ", "get", "1", port=wrong)
         self.refused(2, "12345 baud", "--baud", "12345", "get", "1", port=self.path("fastmac"))
+        self.refused(2, "--baud 0", "--baud", "0", "get", "1", port="tcp:127.0.0.1:9")
         alone = subprocess.run([MACREG, "get", "1"], capture_output=True, text=True, check=False,
                                env={key: value for key, value in os.environ.items() if key != "MACREG_PORT"})
         self.assertEqual(alone.returncode, 2)

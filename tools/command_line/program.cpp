@@ -95,6 +95,7 @@ std::unique_ptr<mactalk_client::Wire> open_port(const Common& common) {
     if (common.port.empty())
         throw UserError(
             fmt::format("no port; name one with --port or in the environment's {}", port_variable(common)));
+    if (common.baud == 0) throw UserError("--baud 0: no line has that speed; 19200 is the motors' own");
     auto opened = mactalk_client::open_wire(common.port, common.baud);
     if (opened.never) throw UserError(opened.error);
     if (opened.wire == nullptr)
