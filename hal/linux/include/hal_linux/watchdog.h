@@ -25,7 +25,7 @@ class ServiceWatchdog final : public ports::Watchdog {
     ServiceWatchdog(const ServiceWatchdog&) = delete;
     ServiceWatchdog& operator=(const ServiceWatchdog&) = delete;
 
-    bool has_service() const;
+    bool has_service() const { return socket_ >= 0; }
     /// WatchdogSec= of the unit: `feed` is wanted at least this often, or the service is killed. Nothing: no
     /// watchdog is wanted.
     std::optional<base::Microseconds> timeout() const { return timeout_; }
@@ -41,12 +41,13 @@ class ServiceWatchdog final : public ports::Watchdog {
     bool tell(const std::string& message);
 
     int socket_ = -1;
+    std::string place_{};
     std::optional<base::Microseconds> timeout_{};
-    base::Instant fed_{};
-    bool fed_once_ = false;
+    std::optional<base::Instant> fed_{};
 };
 
-/// The board's own. Destroyed without `disarm` it stays armed, and resets the board.
+/// The board's own. Destroyed without `disarm` it stays armed, and resets the board (of a driver that knows
+/// the magic close, as nearly all do).
 class DeviceWatchdog final : public ports::Watchdog {
   public:
     struct Opened {
@@ -72,8 +73,9 @@ class DeviceWatchdog final : public ports::Watchdog {
     DeviceWatchdog() = default;
 
     int device_ = -1;
+    std::string path_{};
     base::Microseconds timeout_{};
-    base::Instant fed_{};
+    std::optional<base::Instant> fed_{};
     bool has_reset_board_ = false;
 };
 
