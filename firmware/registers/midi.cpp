@@ -205,9 +205,10 @@ std::int32_t unpack(const Field& field, std::uint32_t data) {
 }
 
 std::optional<std::uint32_t> pack(const CommandRow& row, std::int32_t first, std::int32_t second) {
-    const std::int32_t values[] = {first, second};
+    const std::array values{first, second};
+    static_assert(std::tuple_size_v<decltype(values)> == std::tuple_size_v<decltype(row.fields)>);
     std::uint32_t data = 0;
-    for (std::size_t i = 0; i < row.fields.size(); ++i) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
         const Field& field = row.fields[i];
         if (!in_range(field, values[i])) return std::nullopt;
         data |= (static_cast<std::uint32_t>(values[i]) & mask_of(field)) << field.shift;

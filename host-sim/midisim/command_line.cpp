@@ -61,9 +61,21 @@ std::uint32_t baud(const std::string& text) {
 }
 
 void check(const MidisimOptions& options) {
-    if (options.v24.empty()) throw std::invalid_argument("name --v24 EP: nobody could talk to the module");
+    if (options.v24.empty() && options.can.empty())
+        throw std::invalid_argument("name --v24 EP or --can INTERFACE: nobody could talk to the module");
+    if (!options.v24.empty() && !options.can.empty())
+        throw std::invalid_argument("a module has one line: name --v24 or --can, not both");
+    if (!options.can.empty() && options.baud != 0)
+        throw std::invalid_argument(
+            "--baud belongs to --v24; a CAN interface has its bit rate from the system");
     std::set<int> addresses;
     for (const MidiUnit& one : options.units) {
+        const std::string_view name = registers::midi::facts_of(one.model).name;
+        if (!options.can.empty() && !registers::midi::facts_of(one.model).has_can)
+            throw std::invalid_argument(
+                fmt::format("there is no {} with CAN: write MAC34-1 or MAC34-2", name));
+        if (!options.can.empty() && one.address == 0)
+            throw std::invalid_argument("address 0 is for all on CAN: write 1 to 127");
         if (!addresses.insert(one.address).second)
             throw std::invalid_argument(
                 fmt::format("address {} is given twice: each module on a line needs its own", one.address));
@@ -77,15 +89,17 @@ MidisimCommandLine parse_midisim(int argc, const char* const* argv) {
                        "midisim");
     MidisimOptions options;
     MidiUnit& first = options.units.front();
+    std::optional<std::uint8_t> first_address;
     std::vector<MidiUnit> further;
     app.set_version_flag("--version", std::string("midisim ") + NPLC_VERSION);
     app.footer(kFooter);
     app.add_option("--model", "MAC23, MAC34-1 or MAC34-2 (MAC34-1)")->each([&](const std::string& text) {
         first.model = model("--model", text);
     });
-    app.add_option("--address", "of the module while its EEPROM file has none, 0..127 (0)")
-        ->each([&](const std::string& text) { first.address = address("--address", text); });
+    app.add_option("--address", "of the module while its EEPROM file has none, 0..127 (0, with --can 1)")
+        ->each([&](const std::string& text) { first_address = address("--address", text); });
     app.add_option("--v24", options.v24, "where the serial line is")->type_name("EP");
+    app.add_option("--can", options.can, "the CAN interface it is on, set up and up")->type_name("INTERFACE");
     app.add_option("--unit", "a further module on the same line; may be repeated")
         ->type_name("MODEL:ADDRESS")
         ->repeatable()
@@ -103,6 +117,10 @@ MidisimCommandLine parse_midisim(int argc, const char* const* argv) {
         if (outcome.kind == arguments::Outcome::Kind::told) return {};
         if (outcome.kind == arguments::Outcome::Kind::wrong)
             return {std::nullopt, outcome.error + " (see midisim --help)"};
+        if (first_address)
+            first.address = *first_address;
+        else if (!options.can.empty())
+            first.address = 1;  // from the factory
         options.units.insert(options.units.end(), further.begin(), further.end());
         check(options);
     } catch (const std::invalid_argument& error) {

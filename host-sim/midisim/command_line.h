@@ -10,7 +10,8 @@ namespace nplc::sim {
 
 struct MidisimOptions {
     std::vector<MidiUnit> units = {{}};
-    std::string v24;         ///< endpoint
+    std::string v24;         ///< endpoint, or empty: then `can` is not
+    std::string can;         ///< interface
     std::uint32_t baud = 0;  ///< of the client; 0: the first module's
     std::string eeprom;      ///< file of the first module; the others' with their address behind it
     double speed = 1;

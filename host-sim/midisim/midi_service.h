@@ -1,16 +1,38 @@
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "command_line.h"
+#include "hal_linux/socket_can.h"
+#include "midi_can_rack.h"
 #include "midi_rack.h"
 #include "sim/endpoint.h"
 #include "sim/served.h"
 
 namespace nplc::sim {
 
-/// The rack with its client and its EEPROM files. Time is given.
+/// What modules keep without power, a file each.
+class EepromFiles {
+  public:
+    using ModuleAt = std::function<MidiModule&(std::size_t)>;
+    /// Loads what is there. Functions answer what went wrong, in one line, or nothing.
+    std::string open(const MidisimOptions& options, const ModuleAt& module_at);
+    /// Saves what has changed.
+    std::string keep();
+
+  private:
+    struct File {
+        std::string path;
+        MidiModule* module = nullptr;
+        std::uint32_t written = 0;
+    };
+    std::vector<File> files_;
+};
+
+/// Modules on a serial line with a client and EEPROM files. Time is given.
 class MidiService final : public Served {
   public:
     /// Opens everything; `error` says in one line what could not be.
@@ -23,16 +45,26 @@ class MidiService final : public Served {
     std::string finish() override;
 
   private:
-    struct Eeprom {
-        std::string path;
-        std::uint32_t written = 0;
-    };
-    std::string open_files(const MidisimOptions& options);
-    std::string keep_files();
-
     MidiRack rack_;
     Endpoint v24_;
-    std::vector<Eeprom> files_;
+    EepromFiles files_;
+};
+
+/// Modules on a CAN interface of this machine.
+class MidiCanService final : public Served {
+  public:
+    MidiCanService(const MidisimOptions& options, std::string& error);
+
+    std::string advance(Time to) override;
+    std::string endpoints() const override { return "can: " + interface_ + "\n"; }
+    std::string status() const override;
+    std::string finish() override;
+
+  private:
+    std::string interface_;
+    std::unique_ptr<hal_linux::SocketCan> port_;
+    std::unique_ptr<MidiCanRack> rack_;
+    EepromFiles files_;
 };
 
 /// "MAC34-1 @0 P 1200 moves VMOT-OK TOP-ZERO status 00000000": the five LEDs by their names.

@@ -190,6 +190,11 @@ class Mistakes(Case):
         self.refused("--baud", "300", *end, says="9600, 19200 or 38400")
         self.refused("--wrong", *end, says="--wrong")
         self.refused("--v24", "nowhere", says="nowhere")
+        self.refused("--can", "can0", *end, says="not both")
+        self.refused("--can", "can0", "--baud", "9600", says="--v24")
+        self.refused("--can", "can0", "--model", "MAC23", says="MAC34-1")
+        self.refused("--can", "can0", "--address", "0", says="1 to 127")
+        self.refused("--can", "nocan77", says="nocan77")
         self.assertEqual(os.listdir(self.folder.name), [])
 
     def test_of_files(self):
