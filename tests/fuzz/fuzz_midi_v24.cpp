@@ -38,17 +38,19 @@ void feed_master(Bytes bytes, const Request& request) {
     AnswerDecoder decoder;
     decoder.expect(request);
     bool ack = false;
+    bool busy = false;
     for (std::size_t i = 0; i < bytes.size(); ++i) {
         ack = ack || bytes[i] == kAck;
+        busy = busy || (ack && bytes[i] == kXoff);
         const Answer answer = decoder.receive(bytes[i]);
         if (answer.kind == Answer::Kind::none) continue;
         require(!decoder.waiting());
         if (answer.kind == Answer::Kind::accepted)
-            require(ack && bytes[i] == kXon && !is_query(request.index));
-        if (answer.kind == Answer::Kind::refused) require(ack);
+            require(busy && bytes[i] == kXon && !is_query(request.index));
+        if (answer.kind == Answer::Kind::refused) require(busy);
         if (answer.kind == Answer::Kind::not_understood) require(bytes[i] == kNack);
         if (answer.kind == Answer::Kind::value) {
-            require(ack && bytes[i] == kXon && is_query(request.index));
+            require(busy && bytes[i] == kXon && is_query(request.index));
             const ReplyBytes reply = encode_reply(
                 {.address = request.address, .digit = digit_of(request.index), .data = answer.value});
             require(std::search(bytes.begin(), bytes.end(), reply.begin(), reply.end()) != bytes.end());
@@ -56,12 +58,13 @@ void feed_master(Bytes bytes, const Request& request) {
     }
     if (!ack) require(!decoder.acknowledged());
     decoder.expect(request);
-    Answer last = decoder.receive(kAck);
+    decoder.receive(kAck);
+    decoder.receive(kXoff);
     if (is_query(request.index)) {
         const Reply reply{.address = request.address, .digit = digit_of(request.index), .data = 7};
         for (const std::uint8_t byte : encode_reply(reply)) decoder.receive(byte);
     }
-    last = decoder.receive(kXon);
+    const Answer last = decoder.receive(kXon);
     require(last.kind == (is_query(request.index) ? Answer::Kind::value : Answer::Kind::accepted));
 }
 
