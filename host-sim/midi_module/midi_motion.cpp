@@ -66,13 +66,12 @@ void MidiModule::next_segment() {
     }
 }
 
-/// 000 §VI 17h.
+/// 000 §VI 17h. 003 §IV: catching up is ended by 18h only.
 void MidiModule::ramp_down() {
-    if (mode_ != Mode::position && mode_ != Mode::run) return;
-    const bool was_running = profile_.running();
+    if ((mode_ != Mode::position && mode_ != Mode::run) || !profile_.running()) return;
     profile_.stop();
     goal_ = wrapped(std::int64_t{set_point_} + direction_ * profile_.remaining());
-    if (was_running && !profile_.running()) end_motion();
+    if (!profile_.running()) end_motion();
 }
 
 /// 000 §VI 18h, and the end-stops: R: at once, with full braking, unless braking is cut. The position loop

@@ -347,5 +347,29 @@ TEST(MidiBusy, ALoadAboveTheTorqueStallsARun) {
     EXPECT_NEAR(bench->position(), 16'667, 1);  // 8 MHz / 480 a second; the speed, not the place, is held
 }
 
+// 003 §IV: 18h ends it; 17h does not.
+TEST(MidiBusy, AStopWithRampDoesNotEndTheCatchingUp) {
+    MidiBench bench;
+    bench->hold_shaft(true);
+    ASSERT_TRUE(bench.order(midi::GO_TO, 100));
+    bench.pass(seconds{1});
+    EXPECT_TRUE(bench.order(midi::STOP));
+    bench->hold_shaft(false);
+    bench.run_out();
+    EXPECT_EQ(bench->position(), 100);
+}
+
+// 003 §IV: -1073741824 to 1073741823.
+TEST(MidiMotion, ThePositionWrapsAtThirtyOneBits) {
+    MidiBench bench;
+    bench->turn_shaft(midi::kMaxPosition);
+    ASSERT_TRUE(bench.order(midi::SEGMENT, 3, 480));
+    bench.run_out();
+    EXPECT_EQ(bench->position(), midi::kMinPosition + 2);
+    ASSERT_TRUE(bench.order(midi::SEGMENT, -3, 480));
+    bench.run_out();
+    EXPECT_EQ(bench->position(), midi::kMaxPosition);
+}
+
 }  // namespace
 }  // namespace nplc::sim
