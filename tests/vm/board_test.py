@@ -41,11 +41,14 @@ class Phases:
         print(f"vm: {words} (after {time.monotonic() - self.start:.0f} s)", flush=True)
 
 
-def build(share, preset, programs, *sysroot):
-    """The programs, by their names in the share. Raises CannotBeHad without the libraries for them."""
+def build(share, preset, programs, *sysroot, targets=()):
+    """The programs, by their names in the share; `targets` instead of the preset's. Raises CannotBeHad without the libraries for them."""
     if subprocess.run([os.path.join(ROOT, "tools", "sysroot"), *sysroot, "arm64"], check=False).returncode != 0:
         raise board.CannotBeHad
-    for step in (["cmake", "--preset", preset], ["cmake", "--build", "--preset", preset, "--parallel", "2"]):
+    compiling = ["cmake", "--build", "--preset", preset, "--parallel", "2"]
+    if targets:
+        compiling += ["--target", *targets]
+    for step in (["cmake", "--preset", preset], compiling):
         done = subprocess.run(step, cwd=ROOT, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             sys.exit(f"{done.stdout}{done.stderr}\nvm: {' '.join(step)} failed")

@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+"""midisim on a real CAN interface: cansend as a foreign master on the other controller of the bus, candump's log held
+against frames of 003.
+
+usage: midisim_test.py
+
+Fetches and builds what is missing. 77: the virtual board is not to be had; the reason is printed.
+"""
+
+import sys
+import tempfile
+
+import board
+import board_test
+
+# Two modules; `ask` sends a frame and waits for the answer, `reach` asks again and again until it is that.
+SCRIPT = """
+export PATH=$PATH:/usr/bin
+for one in can0 can1; do /usr/bin/ip link set $one type can bitrate 125000 && /usr/bin/ip link set $one up || exit 1; done
+/usr/bin/candump -L can1 >log &
+until grep -q '^ *can1 ' /proc/net/can/rcvlist_all; do :; done
+./midisim --can can0 --unit MAC34-2:2 --eeprom eeprom >out 2>&1 &
+module=$!
+seen() { tries=0; until grep -q "$1" "$2"; do tries=$((tries + 1)); [ $tries -lt 3000 ] || { echo "no $1"; exit 1; }; done; }
+ask() { /usr/bin/cansend can1 "$1"; seen "$2" log; }
+reach() { tries=0; until grep -q "$2" log; do tries=$((tries + 1)); [ $tries -lt 3000 ] || { echo "no $2"; exit 1; }
+    /usr/bin/cansend can1 "$1"; done; }
+seen '^ready$' out
+seen '701#00' log
+seen '702#00' log
+ask 602#23132000000003E8 582#6013200000000000
+reach 602#4000200000000000 582#42002000000003E8
+ask 601#2310200000000000 581#6010200000000000
+ask 601#23132000FFFFFC18 581#6013200000000000
+/usr/bin/cansend can1 080#
+reach 601#4000200000000000 581#42002000FFFFFC18
+ask 601#400820AF00000000 581#420820AF80000000
+ask 602#2304200000000000 582#8004200000000000
+ask 600#2318200000000000 581#6018200000000000
+kill -TERM $module
+wait $module || { echo "midisim ended with $?"; cat out; exit 1; }
+grep -q '^position = -1000$' eeprom && grep -q '^position = 1000$' eeprom.2 || { cat eeprom*; exit 1; }
+"""
+
+# What is left of the log without the questions for positions: 003 §V.2, §V.4, §V.6 to §V.8, §VII.
+EXPECTED = """701#00 702#00
+602#23132000000003E8 582#6013200000000000
+601#2310200000000000 581#6010200000000000
+601#23132000FFFFFC18 581#6013200000000000
+080#
+601#400820AF00000000 581#420820AF80000000
+602#2304200000000000 582#8004200000000000
+600#2318200000000000 581#6018200000000000""".split()
+
+
+def is_position(frame):
+    return frame[4:12] in ("40002000", "42002000")
+
+
+def run(share):
+    board.prepare()
+    board_test.build(share, "board", {"midisim": "midisim"}, targets=["midisim"])
+    with board.Board(share, SCRIPT) as machine:
+        status = machine.finish()
+    with open(f"{share}/log", encoding="ascii") as file:
+        frames = [line.split()[2] for line in file]
+    seen = [frame for frame in frames if not is_position(frame)]
+    if seen != EXPECTED:
+        print(f"vm: the bus had {seen}\nand not {EXPECTED}")
+        return 1
+    return status
+
+
+def main():
+    with tempfile.TemporaryDirectory(prefix="share") as share:
+        try:
+            status = run(share)
+        except board.CannotBeHad:
+            print("vm: skipped, for packages cannot be downloaded (see above)")
+            return 77
+    print(f"vm: the board is off, with status {status}")
+    return 0 if status == 0 else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
