@@ -7,6 +7,7 @@ namespace {
 
 constexpr std::uint32_t kMinutePerRev = kTicksPerSecond * 60;
 constexpr std::uint16_t kLongest = 0xFFFF;
+constexpr auto kTwiceRamp = std::uint64_t{2} * kRampIncrements;
 
 /// measure = (value + offset) x numerator / denominator, a value in thousandths.
 struct Line {
@@ -79,7 +80,7 @@ std::optional<std::uint8_t> unstall_of_speed(std::uint32_t increments_per_second
 std::optional<std::uint8_t> ramp_of(std::uint32_t speed, std::uint32_t acceleration) {
     const std::uint64_t square = std::uint64_t{speed} * speed;
     const auto is_enough = [square, acceleration](unsigned ramp) {
-        return std::uint64_t{2 * kRampIncrements * ramp} * acceleration >= square;
+        return kTwiceRamp * ramp * acceleration >= square;
     };
     if (acceleration == 0 || !is_enough(0xFF)) return std::nullopt;
     unsigned below = 0;
@@ -92,7 +93,7 @@ std::optional<std::uint8_t> ramp_of(std::uint32_t speed, std::uint32_t accelerat
 }
 
 Ratio acceleration_of(std::uint8_t ramp, std::uint32_t speed) {
-    return Ratio{speed, 1} * (Ratio{speed, 1} / Ratio{2 * kRampIncrements * std::int64_t{ramp}, 1});
+    return Ratio{speed, 1} * (Ratio{speed, 1} / Ratio{static_cast<std::int64_t>(kTwiceRamp * ramp), 1});
 }
 
 std::optional<std::uint8_t> torque_of(std::uint32_t part, std::uint32_t whole, std::uint8_t imax) {
