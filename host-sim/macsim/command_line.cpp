@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "arguments/arguments.h"
-#include "sim/text.h"
+#include "sim/option_values.h"
 
 namespace nplc::sim {
 namespace {
@@ -19,14 +19,6 @@ constexpr const char* kFooter =
     "cannot "
     "be opened or written.";
 
-std::int64_t whole(const std::string& option, const std::string& text, std::int64_t min, std::int64_t max) {
-    const auto value = parse_integer(text);
-    if (!value || *value < min || *value > max)
-        throw std::invalid_argument(
-            fmt::format("{} \"{}\": write a whole number {} to {}", option, text, min, max));
-    return *value;
-}
-
 registers::Model model(const std::string& option, const std::string& text) {
     if (const auto found = registers::model_of(text)) return *found;
     throw std::invalid_argument(
@@ -35,18 +27,9 @@ registers::Model model(const std::string& option, const std::string& text) {
 
 /// MODEL:ADDRESS
 UnitOptions unit(const std::string& text) {
-    const auto colon = text.find(':');
-    if (colon == std::string::npos)
-        throw std::invalid_argument(fmt::format("--unit \"{}\": write MODEL:ADDRESS, such as MAC95:2", text));
-    return {model("--unit", text.substr(0, colon)),
-            static_cast<std::uint8_t>(whole("--unit", text.substr(colon + 1), 1, 254))};
-}
-
-double speed(const std::string& text) {
-    const auto value = parse_decimal(text);
-    if (!value || !(*value >= 0.01 && *value <= 100))
-        throw std::invalid_argument(fmt::format("--speed \"{}\": write a number 0.01 to 100", text));
-    return *value;
+    const UnitText parts = unit_value(text, "MAC95:2");
+    return {model("--unit", parts.model),
+            static_cast<std::uint8_t>(whole_value("--unit", parts.address, 1, 254))};
 }
 
 void check(const MacsimOptions& options) {
@@ -73,7 +56,7 @@ MacsimCommandLine parse_macsim(int argc, const char* const* argv) {
         ->each([&](const std::string& text) { first.model = model("--model", text); });
     app.add_option("--address", "of the motor on the MacTalk line, 1..254 (1)")
         ->each([&](const std::string& text) {
-            first.address = static_cast<std::uint8_t>(whole("--address", text, 1, 254));
+            first.address = static_cast<std::uint8_t>(whole_value("--address", text, 1, 254));
         });
     app.add_option("--fastmac", options.fastmac, "where FastMAC/FlexMAC is spoken")->type_name("EP");
     app.add_option("--mactalk", options.mactalk, "where MacTalk is spoken")->type_name("EP");
@@ -85,12 +68,13 @@ MacsimCommandLine parse_macsim(int argc, const char* const* argv) {
                    "keep the parameter flash in this file (a further unit's: FILE.ADDRESS)")
         ->type_name("FILE");
     app.add_option("--speed", "times real time, lines included, 0.01..100 (1)")
-        ->each([&](const std::string& text) { options.speed = speed(text); });
+        ->each([&](const std::string& text) { options.speed = speed_value(text); });
     app.add_option("--baud", "rate of the FastMAC line (19200)")->each([&](const std::string& text) {
-        options.rack.fastmac_baud = static_cast<std::uint32_t>(whole("--baud", text, 300, 1'000'000));
+        options.rack.fastmac_baud = static_cast<std::uint32_t>(whole_value("--baud", text, 300, 1'000'000));
     });
     app.add_option("--mactalk-baud", "rate of the MacTalk line (19200)")->each([&](const std::string& text) {
-        options.rack.mactalk_baud = static_cast<std::uint32_t>(whole("--mactalk-baud", text, 300, 1'000'000));
+        options.rack.mactalk_baud =
+            static_cast<std::uint32_t>(whole_value("--mactalk-baud", text, 300, 1'000'000));
     });
     app.add_flag("--old-codes", options.rack.old_register_codes, "the older FastMAC register codes");
     try {

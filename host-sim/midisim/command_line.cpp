@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "arguments/arguments.h"
+#include "sim/option_values.h"
 #include "sim/text.h"
 
 namespace nplc::sim {
@@ -20,36 +21,19 @@ constexpr const char* kFooter =
     "in the "
     "command line, or something cannot be opened or written.";
 
-std::int64_t whole(const std::string& option, const std::string& text, std::int64_t min, std::int64_t max) {
-    const auto value = parse_integer(text);
-    if (!value || *value < min || *value > max)
-        throw std::invalid_argument(
-            fmt::format("{} \"{}\": write a whole number {} to {}", option, text, min, max));
-    return *value;
-}
-
 registers::midi::Model model(const std::string& option, const std::string& text) {
     if (const auto found = registers::midi::model_of(text)) return *found;
     throw std::invalid_argument(fmt::format("{} \"{}\": write MAC23, MAC34-1 or MAC34-2", option, text));
 }
 
 std::uint8_t address(const std::string& option, const std::string& text) {
-    return static_cast<std::uint8_t>(whole(option, text, 0, kMaxAddress));
+    return static_cast<std::uint8_t>(whole_value(option, text, 0, kMaxAddress));
 }
 
 /// MODEL:ADDRESS
 MidiUnit unit(const std::string& text) {
-    const auto colon = text.find(':');
-    if (colon == std::string::npos)
-        throw std::invalid_argument(fmt::format("--unit \"{}\": write MODEL:ADDRESS, such as MAC23:2", text));
-    return {model("--unit", text.substr(0, colon)), address("--unit", text.substr(colon + 1))};
-}
-
-double speed(const std::string& text) {
-    const auto value = parse_decimal(text);
-    if (!value || !(*value >= 0.01 && *value <= 100))
-        throw std::invalid_argument(fmt::format("--speed \"{}\": write a number 0.01 to 100", text));
-    return *value;
+    const UnitText parts = unit_value(text, "MAC23:2");
+    return {model("--unit", parts.model), address("--unit", parts.address)};
 }
 
 std::uint32_t baud(const std::string& text) {
@@ -111,7 +95,7 @@ MidisimCommandLine parse_midisim(int argc, const char* const* argv) {
                    "rate of the client: 9600, 19200, 38400 (the first module's, also when it changes)")
         ->each([&](const std::string& text) { options.baud = baud(text); });
     app.add_option("--speed", "times real time, line included, 0.01..100 (1)")
-        ->each([&](const std::string& text) { options.speed = speed(text); });
+        ->each([&](const std::string& text) { options.speed = speed_value(text); });
     try {
         const arguments::Outcome outcome = app.parse(argc, argv);
         if (outcome.kind == arguments::Outcome::Kind::told) return {};
