@@ -1,3 +1,4 @@
+#include <cmath>
 #include <string>
 
 #include "midi_bench.h"
@@ -291,6 +292,52 @@ TEST(MidiCanEnd, TheAddressByLmt) {
     EXPECT_EQ(heard[0], (can::Frame{0x705, 1, {0}}));
     EXPECT_EQ(bench.modules[0].memory().address, 5);
     EXPECT_EQ(bench.ask({Ask::query, 5, 0x2000, 0, 0}).size(), 1u);
+}
+
+// 003 §VII 16h: a circle of 32 segments of 50 ms, radius 2000, by two axes. Whoever is refused tries again;
+// the inner radius of the polygon is 2000 cos(180 / 32 degrees) = 1990, and one axis runs some milliseconds
+// before the other.
+TEST(MidiCanEnd, TwoAxesDrawACircle) {
+    constexpr int kSegments = 32;
+    constexpr double kRadius = 2'000;
+    constexpr std::int64_t kTicks = 400'000;
+    BusBench bench({1, 2});
+    bench.pass(milliseconds{10});
+    const auto corner = [](int number, int axis) {
+        const double angle = number * 2 * M_PI / kSegments;
+        return std::lround(kRadius * (axis == 0 ? std::cos(angle) : std::sin(angle)));
+    };
+    int sent[2] = {0, 0};
+    int refused = 0;
+    double least = kRadius;
+    double most = kRadius;
+    std::int32_t left = 0;
+    for (int round = 0;
+         round < 1'000 && (sent[0] < kSegments || sent[1] < kSegments || bench.modules[1].moving());
+         ++round) {
+        for (int axis = 0; axis < 2; ++axis) {
+            if (sent[axis] == kSegments) continue;
+            const std::int64_t steps = corner(sent[axis] + 1, axis) - corner(sent[axis], axis);
+            const auto data = midi::pack(*midi::find_command(midi::SEGMENT), static_cast<std::int32_t>(steps),
+                                         static_cast<std::int32_t>(kTicks / std::abs(steps)));
+            ASSERT_TRUE(data);
+            const auto address = static_cast<std::uint8_t>(axis + 1);
+            const auto heard = bench.ask({Ask::command, address, 0x2016, 0, *data}, milliseconds{3});
+            ASSERT_EQ(heard.size(), 1u);
+            heard[0].data[0] == 0x60 ? ++sent[axis] : ++refused;
+        }
+        bench.pass(milliseconds{3});
+        const double radius = std::hypot(kRadius + bench.modules[0].position(), bench.modules[1].position());
+        least = std::min(least, radius);
+        most = std::max(most, radius);
+        left = std::min(left, bench.modules[0].position());
+    }
+    EXPECT_GT(refused, kSegments);
+    EXPECT_EQ(bench.modules[0].position(), 0);
+    EXPECT_EQ(bench.modules[1].position(), 0);
+    EXPECT_GT(least, 1'950);
+    EXPECT_LT(most, 2'040);
+    EXPECT_NEAR(left, -4'000, 10);
 }
 
 // 47 bits and the data: 111 at 125 kbit/s are 888 us; the lowest identifier goes first.
