@@ -22,6 +22,7 @@ class FileDescriptor {
     ~FileDescriptor() { close(); }
 
     int get() const { return number_; }
+    int release() { return std::exchange(number_, -1); }
     explicit operator bool() const { return number_ >= 0; }
     void close() {
         if (number_ >= 0) ::close(number_);

@@ -1,21 +1,15 @@
-#include <fcntl.h>
-#include <sys/file.h>
 #include <sys/ioctl.h>
-#include <sys/stat.h>
 #include <termios.h>
 
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 
 #include "descriptor_client.h"
+#include "terminal_port.h"
 
 namespace nplc::hal_linux {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Speed {
     std::uint32_t baud;
@@ -46,63 +40,6 @@ class TerminalClient final : public DescriptorClient {
     termios before_;
 };
 
-bool has_open(const fs::path& process, dev_t device) {
-    std::error_code error;
-    for (fs::directory_iterator entry(process / "fd", error), end; !error && entry != end;
-         entry.increment(error)) {
-        struct stat status {};
-        if (::stat(entry->path().c_str(), &status) == 0 && S_ISCHR(status.st_mode) &&
-            status.st_rdev == device)
-            return true;
-    }
-    return false;
-}
-
-/// "minicom (process 1234)"; empty if it is none that we may look into.
-std::string holder(dev_t device) {
-    std::error_code error;
-    for (fs::directory_iterator process("/proc", error), end; !error && process != end;
-         process.increment(error)) {
-        const std::string number = process->path().filename();
-        if (number.find_first_not_of("0123456789") != std::string::npos ||
-            number == std::to_string(::getpid()) || !has_open(process->path(), device))
-            continue;
-        std::string name = "a program";
-        std::ifstream(process->path() / "comm") >> name;
-        return name.append(" (process ").append(number).append(")");
-    }
-    return {};
-}
-
-std::string held(const std::string& name, const std::string& path) {
-    struct stat status {};
-    const std::string who = ::stat(path.c_str(), &status) == 0 ? holder(status.st_rdev) : std::string();
-    return name + ": " + (who.empty() ? "another program" : who) + " holds this port; end it first";
-}
-
-std::string cannot_open(const std::string& name, const std::string& path, int reason) {
-    switch (reason) {
-        case EBUSY:
-            return held(name, path);
-        case ENOENT:
-            return name + ": there is no such port; is the device connected, or its program running?";
-        case EACCES:
-            return name + ": you may not use this port; join the group that may (often dialout)";
-        default:
-            return name + ": cannot be opened: " + std::strerror(reason);
-    }
-}
-
-termios raw_mode(termios mode, speed_t speed) {
-    ::cfmakeraw(&mode);
-    ::cfsetspeed(&mode, speed);
-    mode.c_cflag |= static_cast<tcflag_t>(CLOCAL | CREAD);
-    mode.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS | PARENB);
-    mode.c_cc[VMIN] = 0;
-    mode.c_cc[VTIME] = 0;
-    return mode;
-}
-
 }  // namespace
 
 host::ByteClient::Opened open_terminal_client(const std::string& path, const std::string& name,
@@ -117,16 +54,16 @@ host::ByteClient::Opened open_terminal_client(const std::string& path, const std
                     " baud; take 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, "
                     "460800 or 921600",
                 true};
-    FileDescriptor terminal(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-    if (!terminal) return {nullptr, cannot_open(name, path, errno)};
+    ExclusivePort port = open_exclusively(path, name);
+    if (!port.error.empty()) return {nullptr, port.error};
+    const int terminal = port.descriptor.get();
     termios before{};
-    if (::tcgetattr(terminal.get(), &before) != 0) return {nullptr, name + ": this is not a serial line"};
-    if (::flock(terminal.get(), LOCK_EX | LOCK_NB) != 0) return {nullptr, held(name, path)};
+    if (::tcgetattr(terminal, &before) != 0) return {nullptr, name + ": this is not a serial line"};
     const termios mode = raw_mode(before, speed->code);
-    if (::ioctl(terminal.get(), TIOCEXCL) != 0 || ::tcsetattr(terminal.get(), TCSANOW, &mode) != 0)
+    if (::tcsetattr(terminal, TCSANOW, &mode) != 0)
         return {nullptr, name + ": cannot be set up: " + std::strerror(errno)};
-    ::tcflush(terminal.get(), TCIOFLUSH);
-    return {std::make_unique<TerminalClient>(std::move(terminal), name, before), {}};
+    ::tcflush(terminal, TCIOFLUSH);
+    return {std::make_unique<TerminalClient>(std::move(port.descriptor), name, before), {}};
 }
 
 }  // namespace nplc::hal_linux

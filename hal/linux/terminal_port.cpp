@@ -1,0 +1,88 @@
+#include "terminal_port.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace nplc::hal_linux {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has_open(const fs::path& process, dev_t device) {
+    std::error_code error;
+    for (fs::directory_iterator entry(process / "fd", error), end; !error && entry != end;
+         entry.increment(error)) {
+        struct stat status {};
+        if (::stat(entry->path().c_str(), &status) == 0 && S_ISCHR(status.st_mode) &&
+            status.st_rdev == device)
+            return true;
+    }
+    return false;
+}
+
+/// "minicom (process 1234)"; empty if it is none that we may look into.
+std::string holder(dev_t device) {
+    std::error_code error;
+    for (fs::directory_iterator process("/proc", error), end; !error && process != end;
+         process.increment(error)) {
+        const std::string number = process->path().filename();
+        if (number.find_first_not_of("0123456789") != std::string::npos ||
+            number == std::to_string(::getpid()) || !has_open(process->path(), device))
+            continue;
+        std::string name = "a program";
+        std::ifstream(process->path() / "comm") >> name;
+        return name.append(" (process ").append(number).append(")");
+    }
+    return {};
+}
+
+std::string held(const std::string& name, const std::string& path) {
+    struct stat status {};
+    const std::string who = ::stat(path.c_str(), &status) == 0 ? holder(status.st_rdev) : std::string();
+    return name + ": " + (who.empty() ? "another program" : who) + " holds this port; end it first";
+}
+
+std::string cannot_open(const std::string& name, const std::string& path, int reason) {
+    switch (reason) {
+        case EBUSY:
+            return held(name, path);
+        case ENOENT:
+            return name + ": there is no such port; is the device connected, or its program running?";
+        case EACCES:
+            return name + ": you may not use this port; join the group that may (often dialout)";
+        default:
+            return name + ": cannot be opened: " + std::strerror(reason);
+    }
+}
+
+}  // namespace
+
+termios raw_mode(termios mode, speed_t speed) {
+    ::cfmakeraw(&mode);
+    ::cfsetspeed(&mode, speed);
+    mode.c_cflag |= static_cast<tcflag_t>(CLOCAL | CREAD);
+    mode.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS | PARENB);
+    mode.c_cc[VMIN] = 0;
+    mode.c_cc[VTIME] = 0;
+    return mode;
+}
+
+ExclusivePort open_exclusively(const std::string& path, const std::string& name) {
+    FileDescriptor terminal(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+    if (!terminal) return {{}, cannot_open(name, path, errno)};
+    termios mode{};
+    if (::tcgetattr(terminal.get(), &mode) != 0) return {{}, name + ": this is not a serial line"};
+    if (::flock(terminal.get(), LOCK_EX | LOCK_NB) != 0) return {{}, held(name, path)};
+    if (::ioctl(terminal.get(), TIOCEXCL) != 0)
+        return {{}, name + ": cannot be set up: " + std::strerror(errno)};
+    return {std::move(terminal), {}};
+}
+
+}  // namespace nplc::hal_linux
