@@ -128,7 +128,7 @@ void MacMotor::show_v_ist_16(std::int32_t v_ist) {
 
 // 001 §3.2.120, §3.2.122
 void MacMotor::read_inputs() {
-    const std::int32_t voltage = analogue_register(model(), terminals_.millivolts(servo_.counts()));
+    const std::int32_t voltage = analogue_voltage_.of(model(), terminals_.millivolts(servo_.counts()));
     memory_.set(cell::ANINP, wrap32(std::int64_t{voltage} + memory_.get(cell::ANINP_OFFSET)));
     analogue_was_on_ = analogue_level_.on();
     analogue_level_.update(memory_.get(cell::ANINP));
@@ -145,8 +145,8 @@ void MacMotor::read_inputs() {
 
 bool MacMotor::brake_output() const {
     constexpr std::int32_t kManNoBrake = 0x80;
-    const bool wanted = (memory_.get(cell::CNTRL_BITS) & kManNoBrake) == 0;
-    return is_mac800(model()) && wanted && facts().drive == Drive::Kind::shorted;
+    return is_mac800(model()) && facts().drive == Drive::Kind::shorted &&
+           (memory_.get(cell::CNTRL_BITS) & kManNoBrake) == 0;
 }
 
 // 001 §3.2.163

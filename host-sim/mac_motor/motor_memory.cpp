@@ -42,12 +42,13 @@ constexpr std::int32_t with_low(std::int32_t value, std::uint16_t word) {
 }  // namespace
 
 std::uint32_t MotorMemory::read(std::uint8_t reg, bool longword) const {
-    if (mac800_) return static_cast<std::uint32_t>(values_[reg]) & (longword ? 0xFFFFFFFF : 0xFFFF);
+    if (mac800_) return static_cast<std::uint32_t>(value(reg)) & (longword ? 0xFFFFFFFF : 0xFFFF);
     const std::uint32_t low = word(reg);
     return longword ? low | static_cast<std::uint32_t>(word(reg + 1U)) << 16 : low;
 }
 
 void MotorMemory::write(std::uint8_t reg, std::uint32_t value, bool longword) {
+    cut_filters();
     const auto low = static_cast<std::uint16_t>(value);
     const auto next = static_cast<std::uint8_t>(reg + 1);
     if (mac800_) {
@@ -60,8 +61,20 @@ void MotorMemory::write(std::uint8_t reg, std::uint32_t value, bool longword) {
     if (setting) settings_written_.yes = true;
 }
 
+std::int32_t MotorMemory::value(std::size_t place) const {
+    if (filters_.newer && place == place_of(cell::FF_OUT)) return shown(cell::FF_OUT.kind, filters_.ff_out);
+    if (filters_.newer && place == place_of(cell::VB_OUT)) return shown(cell::VB_OUT.kind, filters_.vb_out);
+    return values_[place];
+}
+
+void MotorMemory::cut_filters() {
+    for (const Cell filter : {cell::FF_OUT, cell::VB_OUT})
+        values_[place_of(filter)] = value(place_of(filter));
+    filters_.newer = false;
+}
+
 std::uint16_t MotorMemory::word(std::size_t place) const {
-    return static_cast<std::uint16_t>(is_high_word(place) ? values_[place - 1] >> 16 : values_[place]);
+    return static_cast<std::uint16_t>(is_high_word(place) ? values_[place - 1] >> 16 : value(place));
 }
 
 void MotorMemory::set_word(std::size_t place, std::uint16_t word) {

@@ -172,8 +172,7 @@ Servo::Result Servo::carry_out(const Drive& drive, MotorMemory& memory) {
     drive_ = drive;
     torque_ = out.torque;
     memory.set(cell::VF_OUT, torque_);
-    memory.show(cell::FF_OUT, out.ff_out);
-    memory.show(cell::VB_OUT, out.vb_out);
+    memory.show_filters(out.ff_out, out.vb_out);
     return {out.torque, out.correction};
 }
 
@@ -247,7 +246,7 @@ void Servo::show_currents(MotorMemory& memory) const {
 // 001 §3.2.16, §3.2.18. R: leaky sums that come to rest at 10000 with what is borne for ever.
 void Servo::warm(double squares, double regenerated) {
     i2t_ += (squares * heat_of_square_ - i2t_) * copper_share_;
-    if (uit_ == 0 && regenerated == 0) return;
+    if (uit_ <= 0 && regenerated <= 0) return;
     uit_ += (regenerated * dumped_of_watt_ - uit_) * dump_share_;
 }
 

@@ -15,6 +15,14 @@ struct LostLink : MotorTest {
         motor.hear_times(2, 0x10);
         come_up(0x10);
     }
+    /// Forgets what was sent, and lets the motor come back.
+    void expect_nothing_late() {
+        line.take();
+        line.in_transmitter = 0;
+        restart();
+        motor.hear_times(10, 0x10);
+        EXPECT_TRUE(line.sent.empty());
+    }
 };
 
 TEST_F(LostLink, ReadsErrorAndNotInPosition) {
@@ -40,11 +48,7 @@ TEST_F(LostLink, OrdersThatWaitedWhenItWasLostAreGone) {
     driver.send(command(0x45));
     driver.send(command(0x46));
     for (int i = 0; i < 45; ++i) motor.silence();
-    line.take();
-    line.in_transmitter = 0;
-    restart();
-    motor.hear_times(10, 0x10);
-    EXPECT_TRUE(line.sent.empty());
+    expect_nothing_late();
     EXPECT_EQ(driver.counters().discarded, 2U);
 }
 
@@ -54,11 +58,7 @@ TEST_F(LostLink, APersonsWriteThatWaitedWhenItWasLostIsGone) {
     ASSERT_TRUE(driver.begin_access({.is_write = true, .reg = 5, .value = 1}));
     for (int i = 0; i < 45; ++i) motor.silence();
     EXPECT_EQ(driver.access_state(), AccessState::failed);
-    line.take();
-    line.in_transmitter = 0;
-    restart();
-    motor.hear_times(10, 0x10);
-    EXPECT_TRUE(line.sent.empty());
+    expect_nothing_late();
 }
 
 TEST_F(LostLink, APersonsWriteUnderWayWhenItWasLostIsNotFinishedLater) {
@@ -70,11 +70,7 @@ TEST_F(LostLink, APersonsWriteUnderWayWhenItWasLostIsNotFinishedLater) {
     for (int i = 0; i < 60; ++i) motor.silence();
     EXPECT_EQ(driver.link(), Link::down);
     EXPECT_EQ(driver.access_state(), AccessState::failed);
-    line.take();
-    line.in_transmitter = 0;
-    restart();
-    motor.hear_times(10, 0x10);
-    EXPECT_TRUE(line.sent.empty());
+    expect_nothing_late();
 }
 
 TEST_F(LostLink, ErrorStaysUntilResetErrorIsExecuted) {

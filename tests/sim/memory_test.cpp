@@ -104,6 +104,22 @@ TEST(Memory, TellsItOfMac800sNumbersToo) {
     }
 }
 
+// 001 §3.2.118, §3.2.119; 004 167, 168: the registers have no fraction, and end at the end of their range.
+TEST(Memory, CutsTheFiltersOutputsWhenALineReadsThem) {
+    MotorMemory small(registers::Model::mac140);
+    small.show_filters(-70.75, 1e6);
+    EXPECT_EQ(small.read(118, false), 0x10000U - 70);
+    EXPECT_EQ(small.read(119, false), 0x7FFFU);
+    EXPECT_EQ(small.read(118, true), 0x7FFFU << 16 | (0x10000U - 70));
+    small.write(119, 5, false);
+    EXPECT_EQ(small.read(118, false), 0x10000U - 70);
+    EXPECT_EQ(small.read(119, false), 5U);
+    MotorMemory big(registers::Model::mac800);
+    big.show_filters(-70.75, 1e6);
+    EXPECT_EQ(big.read(167, true), 0xFFFF'FFFFU - 69);
+    EXPECT_EQ(big.read(168, true), 1'000'000U);
+}
+
 TEST(Memory, ACopyMayHaveOtherSettings) {
     MotorMemory m(registers::Model::mac140);
     MotorMemory stored(registers::Model::mac140);

@@ -1,8 +1,9 @@
 # nplc_test(NAME SOURCES ... DEPENDS ... [TIER quick|full] [FAST])
 #
-# Makes program test_NAME of GoogleTest cases and gives every case to CTest as NAME.Suite.Case. Tier `quick` (the
-# default) is what one runs while working; `full` cases run in the full test run only. Tests are optimised little, which
-# halves the time to compile them; FAST ones, which compute much themselves, are optimised as the rest is.
+# Makes program test_NAME of GoogleTest cases and gives every case to CTest as NAME.Suite.Case; with sanitizers, where
+# each start takes long, all of them as one test NAME. Tier `quick` (the default) is what one runs while working; `full`
+# cases run in the full test run only. Tests are optimised little, which halves the time to compile them; FAST ones,
+# which compute much themselves, are optimised as the rest is.
 
 find_package(GTest)
 if(NOT GTest_FOUND)
@@ -30,6 +31,11 @@ function(nplc_test name)
     target_precompile_headers(test_${name} REUSE_FROM nplc_test_headers)
   endif()
   set_target_properties(test_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
+  if(NPLC_SANITIZE)
+    add_test(NAME ${name} COMMAND test_${name} --gtest_brief=1)
+    set_tests_properties(${name} PROPERTIES LABELS ${ARG_TIER} TIMEOUT 1200)
+    return()
+  endif()
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
     PROPERTIES LABELS ${ARG_TIER} TIMEOUT 600)
 endfunction()

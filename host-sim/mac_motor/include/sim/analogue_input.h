@@ -19,6 +19,22 @@ constexpr std::int32_t analogue_register(registers::Model model, std::int32_t mi
     return std::clamp(millivolts, -kFullScale, kFullScale) * analogue_full_scale(model) / kFullScale;
 }
 
+/// The same for a voltage that hardly ever changes.
+class AnalogueVoltage {
+  public:
+    std::int32_t of(registers::Model model, std::int32_t millivolts) {
+        if (millivolts != millivolts_) {
+            millivolts_ = millivolts;
+            register_ = analogue_register(model, millivolts);
+        }
+        return register_;
+    }
+
+  private:
+    std::int32_t millivolts_ = 0;
+    std::int32_t register_ = 0;
+};
+
 /// The analogue input as a logic level: on above 5.4 V, off below 4.4 V (001 §4.1.10; R: in homing too).
 class AnalogueLevel {
   public:

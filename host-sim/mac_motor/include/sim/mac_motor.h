@@ -273,6 +273,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     Terminals terminals_;
     Surroundings surroundings_;
     PulseInput pulse_input_;
+    AnalogueVoltage analogue_voltage_;
     AnalogueLevel analogue_level_;
     bool analogue_was_on_ = false;  // in the sample before
     Gear gear_;

@@ -108,15 +108,12 @@ class MotorMemory {
     /// For what the motor shows, no setting: the value without its fraction, at the end of the cell's range
     /// if it is beyond that. Answers what stands there.
     std::int32_t show(Cell cell, double value) {
-        constexpr double kMost = 2'000'000'000;
         const std::size_t place = place_of(cell);
-        if (place == kNowhere) return 0;
-        const bool wide = mac800_ || cell.kind == Cell::Kind::long_int;
-        return values_[place] = static_cast<std::int32_t>(wide ? within(value, kMost)
-                                                          : cell.kind == Cell::Kind::word
-                                                              ? within(value, 0, 0xFFFF)
-                                                              : within(value, -0x8000, 0x7FFF));
+        return place == kNowhere ? 0 : values_[place] = shown(cell.kind, value);
     }
+
+    /// The same for FF_OUT and VB_OUT, which only lines read: they are not cut before one does.
+    void show_filters(double ff_out, double vb_out) { filters_ = {ff_out, vb_out, true}; }
 
     /// As the line sees it: 16 bits, or with `longword` 32. MAC50-141: a longword is `reg` and the number
     /// after it. MAC800: a word is the register's low half.
@@ -150,13 +147,29 @@ class MotorMemory {
         if (kind == Cell::Kind::word) return static_cast<std::uint16_t>(value);
         return kind == Cell::Kind::integer ? static_cast<std::int16_t>(value) : value;
     }
+    std::int32_t shown(Cell::Kind kind, double value) const {
+        constexpr double kMost = 2'000'000'000;
+        const bool wide = mac800_ || kind == Cell::Kind::long_int;
+        return static_cast<std::int32_t>(wide                       ? within(value, kMost)
+                                         : kind == Cell::Kind::word ? within(value, 0, 0xFFFF)
+                                                                    : within(value, -0x8000, 0x7FFF));
+    }
+    void cut_filters();
     static constexpr std::size_t place_of(std::uint8_t number) { return number == 0 ? kNowhere : number; }
     std::size_t place_of(Cell cell) const { return mac800_ ? place_of(cell.big) : place_of(cell.small); }
+    std::int32_t value(std::size_t place) const;
     std::uint16_t word(std::size_t place) const;
     void set_word(std::size_t place, std::uint16_t word);
 
+    struct Filters {
+        double ff_out = 0;
+        double vb_out = 0;
+        bool newer = false;  ///< than what stands in values_
+    };
+
     registers::Model model_;
     bool mac800_;
+    Filters filters_;
     Written settings_written_;
     std::array<std::int32_t, kPlaces + 1> values_{};  // by number; a LongInt's second number is not used
 };

@@ -37,14 +37,12 @@ class Plant {
 
     /// Before the steps of a sample: the load as it is now.
     void take_load() {
+        if (taken_) return;
+        taken_ = true;
         const std::int32_t friction = std::max(load_.friction_torque + holding_, 0);
-        if (load_.inertia_256 != inertia_256_ || friction != friction_torque_) {
-            inertia_256_ = load_.inertia_256;
-            friction_torque_ = friction;
-            of_one_ = acceleration_of_one_ * 256 / std::max(inertia_256_ - elsewhere_256_, 1.0);
-            friction_ = friction * of_one_;
-            sticking_ = friction == 0 ? 0 : (friction + kStick) * of_one_;
-        }
+        of_one_ = acceleration_of_one_ * 256 / std::max(load_.inertia_256 - elsewhere_256_, 1.0);
+        friction_ = friction * of_one_;
+        sticking_ = friction == 0 ? 0 : (friction + kStick) * of_one_;
         pull_ = load_.torque;
         has_stops_ = load_.low_stop || load_.high_stop;
     }
@@ -56,12 +54,21 @@ class Plant {
     /// Encoder counts since the motor was built.
     std::int64_t counts() const { return (position_ + kCount / 2) >> kFractionBits; }
     /// The holding brake is on or off: a friction more.
-    void hold(bool on) { holding_ = on ? std::clamp(load_.brake_torque, 0, kStrongestBrake) : 0; }
+    void hold(bool on) {
+        const std::int32_t holding = on ? std::clamp(load_.brake_torque, 0, kStrongestBrake) : 0;
+        if (holding == holding_) return;
+        holding_ = holding;
+        taken_ = false;
+    }
     /// Counts a step.
     double velocity() const { return velocity_; }
 
-    /// May be changed at any time. A rigid stop that the shaft is beyond puts it back there.
-    Load& load() { return load_; }
+    /// May be changed at any time, asked for anew each time. A rigid stop that the shaft is beyond puts it
+    /// back there.
+    Load& load() {
+        taken_ = false;
+        return load_;
+    }
     const Load& load() const { return load_; }
 
   private:
@@ -101,13 +108,12 @@ class Plant {
     double slow_;    // below it the shaft sticks, counts/step
     double thrown_;  // of the velocity with which a spring throws, what is left after a step
     Load load_;
-    std::int32_t holding_ = 0;       // of the brake
-    std::int32_t inertia_256_ = -1;  // that of_one_ is for
-    std::int32_t friction_torque_ = -1;
-    double of_one_ = 0;    // of torque 1 on motor and load, counts/step^2
-    double friction_ = 0;  // counts/step^2
-    double sticking_ = 0;  // the same where the shaft is slow
-    double pull_ = 0;      // torque
+    std::int32_t holding_ = 0;  // of the brake
+    bool taken_ = false;        // what follows is of load_ and holding_
+    double of_one_ = 0;         // of torque 1 on motor and load, counts/step^2
+    double friction_ = 0;       // counts/step^2
+    double sticking_ = 0;       // the same where the shaft is slow
+    double pull_ = 0;           // torque
     bool has_stops_ = false;
     std::int64_t position_ = 0;  // 1/kCount counts
     double velocity_ = 0;        // counts/step

@@ -81,7 +81,7 @@ class Servo {
     [[gnu::noinline]] void set_voltages(const MotorMemory& memory, const Terminals& terminals);
     Regulator::Input regulator_input(const Drive& drive) const;
     std::int32_t unregulated_torque(const Drive& drive, const MotorMemory& memory);
-    [[gnu::flatten, gnu::noinline]] void run_outer(const MotorMemory& memory, const Terminals& terminals);
+    void run_outer(const MotorMemory& memory, const Terminals& terminals);
     std::int32_t analogue_torque(const MotorMemory& memory, const Terminals& terminals) const;
     void follow_offsets(MotorMemory& memory) const;
     void show_currents(MotorMemory& memory) const;
