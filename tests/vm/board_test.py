@@ -44,7 +44,8 @@ class Phases:
 
 
 def build(share, preset, programs, *sysroot, targets=()):
-    """The programs, by their names in the share; `targets` instead of the preset's. Raises CannotBeHad without the libraries for them."""
+    """The programs, by their names in the share; `targets` instead of the preset's. Raises CannotBeHad without the
+    libraries for them."""
     if subprocess.run([os.path.join(ROOT, "tools", "sysroot"), *sysroot, "arm64"], check=False).returncode != 0:
         raise board.CannotBeHad
     compiling = ["cmake", "--build", "--preset", preset, "--parallel", "2"]
