@@ -51,6 +51,7 @@ class Master {
   public:
     struct Counters {
         std::uint64_t questions = 0;  ///< sent, the repeats included
+        std::uint64_t answers = 0;    ///< whole ones
         std::uint64_t timeouts = 0;
         std::uint64_t stray_bytes = 0;  ///< received and part of no answer
     };
