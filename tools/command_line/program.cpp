@@ -127,6 +127,10 @@ bool goes_on() {
     return !host::was_interrupted();
 }
 
+bool output_has_reader() {
+    return host::output_has_reader();
+}
+
 void look_for_interruption() {
     if (!goes_on()) throw mactalk_client::Interrupted("interrupted");
 }

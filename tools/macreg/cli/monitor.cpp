@@ -7,7 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/subcommands.h"
+#include "cli/session.h"
 #include "macreg/words.h"
 #include "registers/gateway.h"
 #include "whole_files/whole_files.h"

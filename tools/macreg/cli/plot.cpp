@@ -5,7 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/subcommands.h"
+#include "cli/session.h"
 #include "host/paths.h"
 #include "whole_files/whole_files.h"
 

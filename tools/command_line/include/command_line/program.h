@@ -59,6 +59,10 @@ struct Common {
 /// --port (or the environment's PROGRAM_PORT), --baud, --patience, --json. `of_whom` is "the gateway".
 void add_line_options(arguments::App& app, Common& common, const std::string& of_whom);
 
+/// Adds a subcommand, or several of a kind; their work ends in the program's `Options::exit_code`.
+template <class Options>
+using Subcommand = void(arguments::App& app, Options& common);
+
 /// A subcommand that has the common options too.
 arguments::App& add_command(arguments::App& app, const std::string& name, const std::string& text);
 
@@ -76,6 +80,9 @@ void tell(const Common& common, const std::string& text, const Json& document);
 
 /// Until SIGINT or SIGTERM came. A second one ends the program at once.
 bool goes_on();
+
+/// False once who reads standard output is gone: what writes seldom learns of it here.
+bool output_has_reader();
 
 /// Throws mactalk_client::Interrupted if one came.
 void look_for_interruption();
