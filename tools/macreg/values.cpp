@@ -34,7 +34,12 @@ const Field* whole_field(const Register& reg, Model model) {
     return fields[0].width >= 16 ? &fields[0] : nullptr;
 }
 
+bool is_position(const Register& reg) {
+    return reg.unit == Unit::counts || reg.unit == Unit::counts_16;
+}
+
 std::string number_text(const Register& reg, Model model, std::int64_t raw) {
+    if (is_position(reg)) return std::string(registers::to_text(raw, reg, model, shown_unit(reg)).view());
     return std::string(registers::to_text(raw, reg, model).view());
 }
 
@@ -208,6 +213,26 @@ std::string names_text(const Register& reg, Model model, std::int64_t raw) {
         if (!one.empty()) text += (text.empty() ? "" : " ") + one;
     }
     return text;
+}
+
+std::string_view shown_unit(const Register& reg) {
+    if (is_position(reg)) return "counts";
+    const auto units = registers::units_of(reg.unit);
+    return units.empty() ? std::string_view() : units.front();
+}
+
+std::string long_value_text(const Register& reg, Model model, std::int64_t raw) {
+    const std::string text = value_text(reg, model, raw);
+    if (!is_position(reg) || raw == 0) return text;
+    return fmt::format("{} ({})", text, registers::to_text(raw, reg, model, "rev").view());
+}
+
+std::string bits_word(const Register& reg, Model model, std::int64_t raw) {
+    std::string word = raw == 0 ? "none" : names_text(reg, model, raw);
+    std::replace(word.begin(), word.end(), ' ', '+');
+    const TypedValue typed = typed_value(reg, model, word);
+    if (typed.error.empty() && typed.raw == raw) return word;
+    return fmt::format("0x{:X}", registers::bits_of(reg.format, raw));
 }
 
 std::string value_text(const Register& reg, Model model, std::int64_t raw) {
