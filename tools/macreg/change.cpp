@@ -222,7 +222,7 @@ std::string gateway_refusal(Motor& motor, Asked asked) {
     const bool runs = static_cast<gw::RunState>(status & gw::kRunState) != gw::RunState::stopped;
     if (runs && motor.master().read(gw::kDefaultAddress, kMotorWrites) < needed)
         return fmt::format(
-            "the gateway refuses it while its sequence is not stopped: `nanoctl stop` first, then "
+            "the gateway refuses it while its sequence runs or is held: `nanoctl stop` first, then "
             "this again. To allow it while it runs, after the stop `nanoctl settings set "
             "motor_writes={}`, then `nanoctl run`{}{}",
             needed, service ? "; besides, " : "", service ? kOwnLine : "");

@@ -182,10 +182,15 @@ void Master::no_answer(std::uint8_t address, unsigned attempts) const {
                                 attempts, attempts == 1 ? "" : "s", heard));
 }
 
-void Master::gone() const {
+void Master::gone() {
     const std::string& name = wire_.name();
     const bool socket = name.starts_with("unix:") || name.starts_with("tcp:");
     const bool silent = counters_.questions <= 1 && !heard_any_;
+    if (const std::string other = socket && silent ? wire_.other_client() : std::string(); !other.empty())
+        throw LineError(
+            LineError::Kind::port_gone,
+            fmt::format("{}: it serves one client at a time, and {} is connected; end that one first", name,
+                        other));
     throw LineError(
         LineError::Kind::port_gone,
         name + (socket && silent

@@ -104,6 +104,7 @@ Wish UiModel::browse(KeyPress key) {
         case Key::character:
             return browse_letter(key.character);
         case Key::backspace:
+        case Key::erase:
         case Key::none:
             break;
     }
@@ -176,7 +177,7 @@ void UiModel::ask_write() {
         if (!raw_of(reg.number)) return tell("read it first (r): the other bits stay as they are", true);
         return ask(Prompt::Kind::write, fmt::format("{}.{} := ", reg.name, fields()[field_].name));
     }
-    ask(Prompt::Kind::write, fmt::format("{} ({}) := ", reg.name, range_text(reg, model_)));
+    ask(Prompt::Kind::write, fmt::format("{} ({}) := ", reg.name, choice_text(reg, model_)));
 }
 
 Wish UiModel::answer_prompt(KeyPress key) {
@@ -187,6 +188,9 @@ Wish UiModel::answer_prompt(KeyPress key) {
             break;
         case Key::backspace:
             if (!prompt_.text.empty()) prompt_.text.pop_back();
+            break;
+        case Key::erase:
+            prompt_.text.clear();
             break;
         case Key::escape:
             if (searches) row_ = row_before_search_;

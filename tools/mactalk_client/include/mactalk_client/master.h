@@ -112,7 +112,7 @@ class Master {
     void settle(bool for_accept);
     base::Microseconds on_line(std::size_t bytes) const;
     [[noreturn]] void no_answer(std::uint8_t address, unsigned attempts) const;
-    [[noreturn]] void gone() const;
+    [[noreturn]] void gone();
 
     Wire& wire_;
     MasterOptions options_;
