@@ -441,6 +441,7 @@ class Line(Case):
         for wrong in ("foo:bar", "tcp:nohost:99", "tcp:127.0.0.1:99999"):
             self.refused(2, "write ", "get", "1", port=wrong)
         self.refused(2, "12345 baud", "--baud", "12345", "get", "1", port=self.path("fastmac"))
+        self.assertEqual(self.call("--baud", "0", "monitor", "--replay", "-").returncode, 2)
         for baud in ("0", "1", "12345"):
             self.refused(2, f"--baud {baud}", "--baud", baud, "get", "1", port="tcp:127.0.0.1:9")
         alone = subprocess.run([MACREG, "get", "1"], capture_output=True, text=True, check=False,
@@ -479,8 +480,9 @@ class Gateway(Case):
         self.assertEqual(self.value("T_SOLL", patience=1000), 1023)
         refused = self.reg("set", "P8", "4711", exit_code=1, patience=1000)
         self.assertIn("sequence runs", refused["reason"])
-        self.refused(1, "P_SOLL was not written: the gateway refuses it while its sequence runs", "--yes", "record",
-                     "P_IST", "--poll", "--samples", "3", "--move", "P_SOLL=+10", patience=1000)
+        refused = self.reg("--yes", "record", "P_IST", "--poll", "--samples", "3", "--move", "P_SOLL=+10", exit_code=1,
+                           patience=1000)
+        self.assertIn("P_SOLL was not written: the gateway refuses it while its sequence runs", refused["error"])
         found = [one["code"] for one in self.reg("why", patience=1000)["findings"]]
         self.assertIn("gateway_runs", found)
         self.refused(3, "gateway's, not a motor's", "--address", "128", "get", "1", patience=1000)

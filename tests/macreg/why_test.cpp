@@ -156,6 +156,11 @@ TEST(Why, AMotorWhosePlaceWasWrittenIsNotAtItsTarget) {
         ASSERT_NE(apart, nullptr) << codes(findings);
         EXPECT_NE(apart->remedy.find("`macreg set P_NEW 5000 CNTRL_BITS "), std::string::npos)
             << apart->remedy;
+        bench.put("P_NEW", 5000);
+        bench.put("CNTRL_BITS", bench.at("CNTRL_BITS") | (model == Model::mac800 ? 1 << 6 : 1 << 10));
+        bench.run(500ms);
+        EXPECT_NEAR(static_cast<double>(bench.at("P_IST")), 5000, 2) << "the shaft stood";
+        EXPECT_NE(find(judge(bench), "at_target"), nullptr);
     }
 }
 

@@ -96,7 +96,6 @@ std::unique_ptr<mactalk_client::Wire> open_port(const Common& common) {
     if (common.port.empty())
         throw UserError(
             fmt::format("no port; name one with --port or in the environment's {}", port_variable(common)));
-    if (common.baud == 0) throw UserError("--baud 0: no line has that speed; 19200 is the motors' own");
     // A serial line says by itself what it can; a socket would take anything for the time that messages take.
     const bool socket = common.port.starts_with("tcp:") || common.port.starts_with("unix:");
     if (socket && !store::is_standard_rate(common.baud))
@@ -113,7 +112,10 @@ std::unique_ptr<mactalk_client::Wire> open_port(const Common& common) {
 
 void guard(Common& common, const std::function<void()>& what) {
     host::note_interruptions();
-    try_to(common, what);
+    try_to(common, [&] {
+        if (common.baud == 0) throw UserError("--baud 0: no line has that speed; 19200 is the motors' own");
+        what();
+    });
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
         fmt::print(stderr, "{}: cannot write to standard output\n", common.program);
         common.exit_code = kUsageOrFile;

@@ -30,7 +30,7 @@ struct Options {
 
 /// What --move writes: a position or speed, or how far from the one that is set.
 struct Move {
-    enum class State : std::uint8_t { not_yet, sent, done };
+    enum class State : std::uint8_t { not_yet, refused, sent, done };
 
     const Register* reg = nullptr;
     std::int64_t raw = 0;
@@ -43,6 +43,8 @@ struct Move {
         switch (state) {
             case State::not_yet:
                 return fmt::format("; {} was not written, the motor was not moved", what);
+            case State::refused:
+                return "; the motor was not moved";
             case State::sent:
                 return fmt::format("; {} may have been written: THE MOTOR MAY MOVE", what);
             case State::done:
@@ -94,7 +96,7 @@ void carry_out(Motor& motor, Move& move) {
         if (error.kind() != mactalk_client::LineError::Kind::no_answer) throw;
         const std::string refusal = gateway_refusal(motor, Asked::write);
         if (refusal.empty()) throw;
-        move.state = Move::State::not_yet;
+        move.state = Move::State::refused;
         refuse(fmt::format("{} was not written: {}", move.reg->name, refusal));
     }
     move.state = Move::State::done;
@@ -248,7 +250,7 @@ void record(Session& session, const Options& options) {
     const auto ended = [&](const std::exception& error, int exit_code, const Json& details) {
         session.progress("");
         Json all = details;
-        if (move.reg != nullptr) all["moved"] = move.state != Move::State::not_yet;
+        if (move.reg != nullptr) all["moved"] = move.state >= Move::State::sent;
         throw command_line::Failure(exit_code, error.what() + move.words(motor.model()), all);
     };
     try {

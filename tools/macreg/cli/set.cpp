@@ -50,16 +50,41 @@ std::string line_of(const Assignment& one, Model model, const Outcome& outcome) 
                        long_value_text(*one.reg, model, outcome.before));
 }
 
+/// Not all of it was written.
+[[noreturn]] void broke_off(const std::string& why, int exit_code, const std::vector<Assignment>& all,
+                            std::size_t done, bool in_doubt) {
+    std::string written;
+    Json names = Json::array();
+    for (std::size_t i = 0; i < done; ++i) {
+        written += fmt::format("{}{}", written.empty() ? "" : ", ", all[i].reg->name);
+        names.push_back(all[i].reg->name);
+    }
+    std::string text = fmt::format("{}; {}", why, done == 0 ? "nothing was written" : "written: " + written);
+    if (in_doubt)
+        text = fmt::format("{}{}; {} may have been written or not", why,
+                           done == 0 ? "" : "; written: " + written, all[done].reg->name);
+    throw command_line::Failure(exit_code, text, {{"written", names}, {"of", all.size()}});
+}
+
 void set(Session& session, const Options& options) {
     const Model model = session.motor().model();
-    const auto [all, error] = read_assignments(model, options.words);
-    if (!error.empty()) throw UserError(error);
+    const auto [all, wrong] = read_assignments(model, options.words);
+    if (!wrong.empty()) throw UserError(wrong);
     look_for_danger(session, all, options.force);
     std::string text;
     Json done = Json::array();
-    for (const Assignment& one : all) {
-        look_for_interruption();
-        const Outcome outcome = change(session.motor(), *one.reg, one.raw);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Assignment& one = all[i];
+        if (!goes_on()) broke_off("interrupted", command_line::kInterrupted, all, i, false);
+        const Outcome outcome = [&] {
+            try {
+                return change(session.motor(), *one.reg, one.raw);
+            } catch (const mactalk_client::LineError& error) {
+                broke_off(error.what(), command_line::kNoAnswer, all, i, true);
+            } catch (const Doubtful& error) {
+                broke_off(error.what(), command_line::kNoAnswer, all, i, true);
+            }
+        }();
         Json document = value_document(*one.reg, model, outcome.after);
         document["before"] = outcome.before;
         if (!one.rounding.empty()) document["rounding"] = one.rounding;
