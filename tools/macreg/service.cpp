@@ -26,19 +26,22 @@ constexpr base::Milliseconds kRestartWait{5'000};
 constexpr base::Milliseconds kOrderWait{1'000};
 constexpr int kOrders = 3;
 
-/// A gateway that does not let 54h to 57h through says nothing; its registers do.
-[[noreturn]] void no_accept(Motor& motor, const LineError& error) {
+/// A gateway that does not let 54h to 57h through says nothing; its registers do. The motor has not heard of
+/// it.
+[[noreturn]] void no_accept(Motor& motor, const LineError& error, Trail& trail) {
     const std::string refusal =
         error.kind() == LineError::Kind::no_answer ? gateway_refusal(motor, Asked::service) : std::string();
-    if (!refusal.empty()) throw NotDone(refusal);
-    throw LineError(error.kind(), error.what());
+    if (refusal.empty()) throw LineError(error.kind(), error.what());
+    if (!trail.stopped) trail.ran_in.clear();
+    trail.in_safe_mode = false;
+    throw NotDone(refusal);
 }
 
-void go_to_init(Motor& motor) {
+void go_to_init(Motor& motor, Trail& trail) {
     try {
         motor.master().init_mode(motor.address());
     } catch (const LineError& error) {
-        no_accept(motor, error);
+        no_accept(motor, error, trail);
     }
 }
 
@@ -74,14 +77,14 @@ SafeMode::SafeMode(Motor& motor, bool stop, std::function<bool()> goes_on, Trail
                 fmt::format("the motor is in {} and would have to be stopped; stop it first, or say --stop",
                             mode_text(motor.model(), found)));
         trail.ran_in = mode_text(motor.model(), found);
-        go_to_init(motor);
+        go_to_init(motor, trail);
         wait_until_passive(motor, goes_on, trail);
     }
     trail.in_safe_mode = true;
     try {
         motor.master().safe_mode(motor.address());
     } catch (const LineError& error) {
-        no_accept(motor, error);
+        no_accept(motor, error, trail);
     }
 }
 
@@ -117,7 +120,7 @@ void Service::exit_safe() {
         throw NotDone(
             fmt::format("the motor is not in SAFE_MODE but in {}", mode_text(motor_.model(), mode())));
     trail_.in_safe_mode = true;
-    go_to_init(motor_);
+    go_to_init(motor_, trail_);
     if (mode() == kSafe) throw NotDone("the motor did not leave SAFE_MODE");
     trail_.in_safe_mode = false;
 }
