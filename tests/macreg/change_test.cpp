@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "bench.h"
+#include "store/settings.h"
 
 namespace nplc::macreg {
 namespace {
@@ -147,6 +148,10 @@ TEST_F(ChangeTest, WhatMovesByItselfIsTaken) {
     const Outcome outcome = set("P_IST", 0);
     EXPECT_TRUE(outcome.taken);
     EXPECT_NE(outcome.after, 0);
+}
+
+TEST(Gateway, ItsSettingHasTheNumberThatIsStored) {
+    EXPECT_EQ(kMotorWrites, registers::gateway::SETTINGS + static_cast<int>(store::Setting::motor_writes));
 }
 
 TEST_F(ChangeTest, AMotorThatDoesNotAnswerIsALineError) {

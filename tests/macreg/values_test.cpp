@@ -88,6 +88,10 @@ TEST(Values, FindsRegistersByNameAndNumber) {
     EXPECT_NE(find_register(Model::mac140, "V_SOL").error.find("did you mean V_SOLL"), std::string::npos);
     EXPECT_NE(find_register(Model::mac140, "4").error.find("upper word of register 3, P_SOLL"),
               std::string::npos);
+    // Of the other family's, no guess that is another register.
+    EXPECT_NE(find_register(Model::mac800, "KIC").error.find("but each of MAC50 to MAC141 has"),
+              std::string::npos);
+    EXPECT_NE(find_register(Model::mac800, "MYADDR").error.find("did you mean MY_ADDR"), std::string::npos);
     EXPECT_NE(find_register(Model::mac140, "ADDRESS").error.find("did you mean MYADDR"), std::string::npos);
     for (const char* silly : {"", "BAR", "FOO", "BAUD"})
         EXPECT_EQ(find_register(Model::mac140, silly).error.find("did you mean"), std::string::npos) << silly;

@@ -12,7 +12,6 @@
 #include "host/interruption.h"
 #include "host/terminal.h"
 #include "mactalk_client/master.h"
-#include "store/settings.h"
 
 namespace nplc::command_line {
 namespace {
@@ -98,11 +97,9 @@ std::unique_ptr<mactalk_client::Wire> open_port(const Common& common) {
             fmt::format("no port; name one with --port or in the environment's {}", port_variable(common)));
     // A serial line says by itself what it can; a socket would take anything for the time that messages take.
     const bool socket = common.port.starts_with("tcp:") || common.port.starts_with("unix:");
-    if (socket && !store::is_standard_rate(common.baud))
-        throw UserError(fmt::format(
-            "--baud {}: no line has that speed; take 1200, 2400, 4800, 9600, 19200, 38400, 57600, "
-            "115200, 230400, 460800 or 921600",
-            common.baud));
+    if (socket && std::find(kSpeeds.begin(), kSpeeds.end(), common.baud) == kSpeeds.end())
+        throw UserError(fmt::format("--baud {}: no line has that speed; take one of {}", common.baud,
+                                    fmt::join(kSpeeds, ", ")));
     auto opened = mactalk_client::open_wire(common.port, common.baud);
     if (opened.never) throw UserError(opened.error);
     if (opened.wire == nullptr)

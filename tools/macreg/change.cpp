@@ -8,7 +8,6 @@
 #include "macreg/values.h"
 #include "registers/details.h"
 #include "registers/gateway.h"
-#include "store/settings.h"
 
 namespace nplc::macreg {
 
@@ -207,8 +206,6 @@ std::string errors_text(Model model, std::int64_t err_stat) {
 
 std::string gateway_refusal(Motor& motor, Asked asked) {
     namespace gw = registers::gateway;
-    constexpr auto kMotorWrites =
-        static_cast<std::uint8_t>(gw::SETTINGS + static_cast<std::uint8_t>(store::Setting::motor_writes));
     constexpr const char* kOwnLine =
         "the gateway does not carry SAFE_MODE, flash and reset itself: they need the motor's own MacTalk "
         "line, "

@@ -196,6 +196,13 @@ std::optional<std::uint32_t> bits_by_name(const Register& reg, Model model, std:
     return any ? std::optional(bits) : std::nullopt;
 }
 
+/// The families write some names with and without underscores.
+std::string squeezed(std::string_view name) {
+    std::string letters = lower(name);
+    std::erase(letters, '_');
+    return letters;
+}
+
 /// The name that was meant: a letter in three may be wrong, or a part of it is another's.
 std::string nearest(Model model, std::string_view text) {
     constexpr std::size_t kMostWrong = 2;
@@ -324,7 +331,11 @@ NamedRegister find_register(Model model, std::string_view text) {
         return {nullptr, fmt::format("{} has no register {}; `macreg list` shows them", family, text)};
     }
     if (const Register* reg = registers::find(model, text)) return {reg, {}};
+    const Model other = model == Model::mac800 ? Model::mac140 : Model::mac800;
     const std::string near = nearest(model, text);
+    if (registers::find(other, text) != nullptr && squeezed(near) != squeezed(text))
+        return {nullptr, fmt::format("{} has no register '{}', but {} has; `macreg list` shows them", family,
+                                     text, other == Model::mac800 ? "MAC800" : "each of MAC50 to MAC141")};
     return {nullptr, fmt::format("{} has no register '{}'{}; `macreg list` shows them", family, text,
                                  near.empty() ? "" : fmt::format(", did you mean {}?", near))};
 }

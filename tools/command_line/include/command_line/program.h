@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -23,6 +24,11 @@ enum Exit : int {
 };
 
 using Json = nlohmann::ordered_json;
+
+/// Speeds that lines have, the usual one first. 001 and 002 know 19200 only; expansion modules and converters
+/// may be set otherwise.
+inline constexpr std::array<std::uint32_t, 11> kSpeeds{19'200, 9'600, 38'400,  57'600,  115'200, 4'800,
+                                                       2'400,  1'200, 230'400, 460'800, 921'600};
 
 /// One line for a person and the program's exit code. `details` go into the document of --json. Who throws
 /// one with details, or tells something, includes <nlohmann/json.hpp>.
