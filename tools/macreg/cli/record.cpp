@@ -77,13 +77,14 @@ Move read_move(Session& session, const std::string& text) {
     const std::int64_t mode = motor.read(registers::MODE_REG);
     constexpr std::int64_t kVelocity = 1;
     constexpr std::int64_t kPosition = 2;
+    std::string note;
     if (mode == 0 || mode == 15 || (mode == kVelocity && reg->number == registers::P_SOLL))
-        session.remark(
-            fmt::format("the motor is in {}, in which {} moves nothing", mode_text(model, mode), reg->name));
+        note = fmt::format("it is in {}, in which {} moves nothing", mode_text(model, mode), reg->name);
     if (mode == kPosition && reg->number == registers::V_SOLL)
-        session.remark("the motor is in P_MODE, in which V_SOLL is only the limit on the way to P_SOLL");
-    session.ask(fmt::format("{} becomes {} while it records: the motor may move", reg->name,
-                            long_value_text(*reg, model, raw)));
+        note = "it is in P_MODE, in which V_SOLL is only the limit on the way to P_SOLL";
+    if (session.common().yes && !note.empty()) session.remark("the motor: " + note);
+    session.ask(fmt::format("{} becomes {} while it records: the motor may move{}", reg->name,
+                            long_value_text(*reg, model, raw), note.empty() ? "" : " (" + note + ")"));
     return {reg, raw};
 }
 
