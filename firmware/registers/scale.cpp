@@ -121,7 +121,7 @@ Factor factor_of(Unit kind, Model model, string_view unit) {
 }
 
 constexpr string_view kLengths[] = {"rev", "counts"};
-constexpr string_view kSpeeds[] = {"rpm", "rev/s", "counts/s"};
+constexpr string_view kSpeeds[] = {"rpm", "rev/s", "counts/s", "counts/sample"};
 constexpr string_view kAccelerations[] = {"rpm/s", "rev/s2", "counts/s2"};
 constexpr string_view kTorques[] = {"%peak", "%nominal"};
 constexpr string_view kTimes[] = {"ms", "s", "samples"};

@@ -20,6 +20,10 @@ void note_interruptions() {
     std::signal(SIGPIPE, SIG_IGN);
 }
 
+void end_at_interruptions() {
+    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
+}
+
 bool was_interrupted() {
     return g_interrupted != 0;
 }

@@ -6,9 +6,11 @@
 
 #include <cerrno>
 #include <cstring>
+#include <functional>
 #include <memory>
 
 #include "descriptor_client.h"
+#include "port_holder.h"
 #include "socket_address.h"
 
 namespace nplc::hal_linux {
@@ -26,6 +28,16 @@ std::string cannot_connect(const std::string& name, int reason) {
             return name + ": cannot be connected: " + std::strerror(reason);
     }
 }
+
+class SocketClient final : public DescriptorClient {
+  public:
+    SocketClient(FileDescriptor descriptor, std::string name, std::function<std::string()> other_client)
+        : DescriptorClient(std::move(descriptor), std::move(name)), other_client_(std::move(other_client)) {}
+    std::string other_client() const override { return other_client_(); }
+
+  private:
+    std::function<std::string()> other_client_;
+};
 
 /// 0, or the reason.
 int join(int socket, const sockaddr* address, socklen_t size) {
@@ -49,7 +61,8 @@ host::ByteClient::Opened open_unix_client(const std::string& path) {
     const int reason =
         socket ? join(socket.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address) : errno;
     if (reason != 0) return {nullptr, cannot_connect(name, reason)};
-    return {std::make_unique<DescriptorClient>(std::move(socket), name), {}};
+    return {std::make_unique<SocketClient>(std::move(socket), name, [path] { return client_of_unix(path); }),
+            {}};
 }
 
 host::ByteClient::Opened open_tcp_client(const std::string& where) {
@@ -63,7 +76,9 @@ host::ByteClient::Opened open_tcp_client(const std::string& where) {
     if (reason != 0) return {nullptr, cannot_connect(name, reason)};
     const int on = 1;
     ::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    return {std::make_unique<DescriptorClient>(std::move(socket), name), {}};
+    const std::uint16_t port = ntohs(address->sin_port);
+    return {std::make_unique<SocketClient>(std::move(socket), name, [port] { return client_of_tcp(port); }),
+            {}};
 }
 
 }  // namespace nplc::hal_linux

@@ -7,40 +7,16 @@
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
+
+#include "port_holder.h"
 
 namespace nplc::hal_linux {
 namespace {
 
-namespace fs = std::filesystem;
-
-bool has_open(const fs::path& process, dev_t device) {
-    std::error_code error;
-    for (fs::directory_iterator entry(process / "fd", error), end; !error && entry != end;
-         entry.increment(error)) {
-        struct stat status {};
-        if (::stat(entry->path().c_str(), &status) == 0 && S_ISCHR(status.st_mode) &&
-            status.st_rdev == device)
-            return true;
-    }
-    return false;
-}
-
 /// "minicom (process 1234)"; empty if it is none that we may look into.
 std::string holder(dev_t device) {
-    std::error_code error;
-    for (fs::directory_iterator process("/proc", error), end; !error && process != end;
-         process.increment(error)) {
-        const std::string number = process->path().filename();
-        if (number.find_first_not_of("0123456789") != std::string::npos ||
-            number == std::to_string(::getpid()) || !has_open(process->path(), device))
-            continue;
-        std::string name = "a program";
-        std::ifstream(process->path() / "comm") >> name;
-        return name.append(" (process ").append(number).append(")");
-    }
-    return {};
+    return program_with(
+        [device](const struct stat& status) { return S_ISCHR(status.st_mode) && status.st_rdev == device; });
 }
 
 std::string held(const std::string& name, const std::string& path) {

@@ -8,6 +8,7 @@ namespace nplc::host {
 namespace {
 
 std::atomic<bool> g_interrupted = false;
+std::atomic<bool> g_noted = false;
 
 constexpr DWORD kWindowsPatienceMs = 5'000;
 
@@ -22,7 +23,11 @@ BOOL WINAPI on_event(DWORD event) {
 }  // namespace
 
 void note_interruptions() {
-    [[maybe_unused]] static const BOOL noted = ::SetConsoleCtrlHandler(on_event, TRUE);
+    if (!g_noted.exchange(true)) ::SetConsoleCtrlHandler(on_event, TRUE);
+}
+
+void end_at_interruptions() {
+    if (g_noted.exchange(false)) ::SetConsoleCtrlHandler(on_event, FALSE);
 }
 
 bool was_interrupted() {

@@ -281,7 +281,7 @@ class Files(Case):
         proxy = NoisyProxy(self.path("breaking"), self.path("port"), 0, 1, breaks_after=2200)
         self.addCleanup(proxy.close)
         answer = self.reg("load", "--stop", file, port="unix:" + self.path("breaking"), exit_code=3)
-        for words in ("were written", "may have been written or not", "ran in V_MODE and was told to stop",
+        for words in ("were written", "may have been written or not", "ran in V_MODE and was stopped",
                       "the flash is as it was"):
             self.assertIn(words, answer["error"])
         self.assertGreater(len(answer["written"]), 0)
@@ -289,6 +289,24 @@ class Files(Case):
         process = self.running[0]
         process.terminate()
         process.wait(LONG)
+
+    def test_ctrl_c_in_a_recording_tells_of_the_move(self):
+        self.motor()
+        self.reg("set", "MODE_REG", "P_MODE")
+        screen, end = pty.openpty()
+        process = subprocess.Popen([MACREG, "--port", self.endpoint, "--yes", "record", "P_IST", "-o", self.path("move.csv"),
+                                    "--move", "P_SOLL=+40960"], stdout=subprocess.DEVNULL, stderr=end)
+        self.running.append(process)
+        text = b""
+        while b"read " not in text:
+            text += os.read(screen, 1000)
+        process.send_signal(signal.SIGINT)
+        while b"had been written" not in text:
+            text += os.read(screen, 1000)
+        self.assertEqual(process.wait(LONG), 130)
+        self.assertIn(b"P_SOLL = 40960 counts had been written: THE MOTOR MAY STILL MOVE", text)
+        os.close(end)
+        os.close(screen)
 
     def test_ctrl_c_in_a_dump(self):
         self.motor("--mactalk-baud", "2400", endpoint="pty:" + self.path("tty"))
@@ -369,7 +387,7 @@ class Line(Case):
             motor = self.motor(endpoint=endpoint)
             watcher = self.start("watch", "P_IST")
             watcher.stdout.readline()
-            self.refused(3, "another one probably holds it", "get", "P_IST")
+            self.refused(3, f"macreg (process {watcher.pid}) is connected", "get", "P_IST")
             motor.kill()
             _, error = watcher.communicate(timeout=LONG)
             self.assertEqual(watcher.returncode, 3)
@@ -423,7 +441,9 @@ class Line(Case):
         for wrong in ("foo:bar", "tcp:nohost:99", "tcp:127.0.0.1:99999"):
             self.refused(2, "write ", "get", "1", port=wrong)
         self.refused(2, "12345 baud", "--baud", "12345", "get", "1", port=self.path("fastmac"))
-        self.refused(2, "--baud 0", "--baud", "0", "get", "1", port="tcp:127.0.0.1:9")
+        self.assertEqual(self.call("--baud", "0", "monitor", "--replay", "-").returncode, 2)
+        for baud in ("0", "1", "12345"):
+            self.refused(2, f"--baud {baud}", "--baud", baud, "get", "1", port="tcp:127.0.0.1:9")
         alone = subprocess.run([MACREG, "get", "1"], capture_output=True, text=True, check=False,
                                env={key: value for key, value in os.environ.items() if key != "MACREG_PORT"})
         self.assertEqual(alone.returncode, 2)
@@ -460,6 +480,9 @@ class Gateway(Case):
         self.assertEqual(self.value("T_SOLL", patience=1000), 1023)
         refused = self.reg("set", "P8", "4711", exit_code=1, patience=1000)
         self.assertIn("sequence runs", refused["reason"])
+        refused = self.reg("--yes", "record", "P_IST", "--poll", "--samples", "3", "--move", "P_SOLL=+10", exit_code=1,
+                           patience=1000)
+        self.assertIn("P_SOLL was not written: the gateway refuses it while its sequence runs", refused["error"])
         found = [one["code"] for one in self.reg("why", patience=1000)["findings"]]
         self.assertIn("gateway_runs", found)
         self.refused(3, "gateway's, not a motor's", "--address", "128", "get", "1", patience=1000)

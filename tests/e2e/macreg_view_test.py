@@ -101,7 +101,7 @@ class Recordings(Case):
         self.motor()
         target = self.path("none.csv")
         for code, words, arguments in (
-                (1, "name fewer, or use --poll", ["P_IST,P_SOLL,V_IST"]),
+                (2, "name fewer, or use --poll", ["P_IST,P_SOLL,V_IST"]),
                 (2, "has no register 'P_ISR', did you mean P_IST?", ["P_ISR"]),
                 (2, "is no condition", ["P_IST", "--when", "V_IST"]),
                 (1, "did not come true within 0.2 s", ["P_IST", "--when", "V_IST>100", "--within", "0.2"]),

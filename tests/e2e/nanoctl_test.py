@@ -429,6 +429,18 @@ class Words(Case):
         self.assertTrue(self.ctl("force", "OUT2=1")["outputs_kept_safe"])
         self.assertIn("the safe state keeps the outputs", self.call("force").stdout)
 
+    def test_watch_and_kept_forces_end_with_who_reads_them(self):
+        self.start()
+        for arguments in (("watch", "--interval", "60000"), ("force", "IN0=1", "--keep")):
+            process = subprocess.Popen([NANOCTL, "--port", self.endpoint, "--patience", "500", *arguments],
+                                       stdout=subprocess.PIPE, text=True)
+            self.running.append(process)
+            process.stdout.readline()
+            process.stdout.close()
+            self.assertEqual(process.wait(LONG), 0)
+            self.running.remove(process)
+        self.assertFalse(self.ctl("status")["forced_inputs"])
+
     def test_terms_are_counted_as_seqc_does(self):
         self.start()
         terms = os.path.getsize(self.table) // 8 - 1

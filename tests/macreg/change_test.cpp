@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "bench.h"
+#include "store/settings.h"
 
 namespace nplc::macreg {
 namespace {
@@ -58,6 +59,71 @@ TEST_F(ChangeTest, AnErrorWhoseCauseStaysCannotBeCleared) {
     expect_refused(set("ERR_STAT", 0), "still there");
 }
 
+// 001 §3.2.35: RELPOSPFNC (10) and DIS_P_LIM (14) are settings among the errors; 7 is PLIM_ERR.
+TEST_F(ChangeTest, ClearingErrorsKeepsTheSettingsBesideThem) {
+    EXPECT_EQ(clear_errors_command(registers::Model::mac140, 1 << 14 | 1 << 10 | 1 << 7 | 1 << 4),
+              "macreg set ERR_STAT RELPOSPFNC+DIS_P_LIM");
+    EXPECT_EQ(clear_errors_command(registers::Model::mac140, 1 << 7), "macreg set ERR_STAT none");
+    EXPECT_EQ(clear_errors_command(registers::Model::mac800, 1 << 14 | 1 << 13),
+              "macreg set ERR_STAT DIS_P_LIM");
+    bench.sim.overload();
+    bench.run(100ms);
+    bench.put("ERR_STAT", bench.at("ERR_STAT") | 1 << 10);
+    expect_refused(set("MODE_REG", 2), "`macreg set ERR_STAT RELPOSPFNC`");
+    const Outcome outcome = set("ERR_STAT", 0);
+    EXPECT_TRUE(outcome.taken);
+    EXPECT_NE(outcome.remark.find("RELPOSPFNC was a setting and is off now"), std::string::npos)
+        << outcome.remark;
+}
+
+// 004: OLD_FILT_ERR is what the motor finds, and cannot be set.
+TEST_F(ChangeTest, AnErrorThatTheMotorDoesNotFindCannotBeSet) {
+    Bench large(registers::Model::mac800);
+    const Outcome outcome = change(large.motor, large.reg("ERR_STAT"), 1 << 16);
+    expect_refused(outcome, "cleared at once");
+}
+
+// 001 §3.2.163: of P_SOLL, P_IST and P_FNC only one is written, and P_MODE goes by the other two.
+TEST_F(ChangeTest, APlaceWrittenAloneIsWarnedOf) {
+    bench.put("CNTRL_BITS", 3);
+    bench.put("P_SOLL", 122'000);
+    bench.put("P_IST", 122'000);
+    bench.put("P_FNC", 16 * 122'000);
+    const Outcome outcome = set("P_IST", 0);
+    EXPECT_TRUE(outcome.taken);
+    EXPECT_NE(outcome.remark.find("`macreg set P_NEW 0 CNTRL_BITS USERINTF=COMMUNICATION+MAN_RESYNC`"),
+              std::string::npos)
+        << outcome.remark;
+    EXPECT_NE(outcome.remark.find("AUTO_RESYNC"), std::string::npos);
+    set("P_NEW", 0);
+    EXPECT_TRUE(set("CNTRL_BITS", 3 | 1 << 10).taken);
+    bench.run(50ms);
+    EXPECT_EQ(bench.at("P_FNC"), 0);
+    EXPECT_EQ(bench.at("P_SOLL"), 0);
+    EXPECT_EQ(bench.at("CNTRL_BITS") & 0x1FFF, 3);
+    EXPECT_EQ(set("P_IST", 0).remark, "");
+    bench.put("CNTRL_BITS", 3 | 1 << 9);  // AUTO_RESYNC, 001 §3.2.36
+    EXPECT_EQ(set("P_IST", 5000).remark, "");
+}
+
+// 001 §4.4.8 to §4.4.11, §3.2.22: modes for tests turn the shaft without regulation. 004: reserved.
+TEST_F(ChangeTest, TestModesAreDangerous) {
+    using registers::Model;
+    for (const Model model : {Model::mac140, Model::mac800}) {
+        const registers::Register& mode = *registers::find(model, registers::MODE_REG);
+        const registers::Register& start = *registers::find(model, registers::STARTMODE);
+        for (const int raw : {7, 8, 9, 10}) {
+            EXPECT_NE(danger(model, mode, raw).find("tests"), std::string::npos) << raw;
+            EXPECT_NE(danger(model, start, raw).find("after every reset"), std::string::npos) << raw;
+        }
+        for (const int raw : {0, 1, 2, 3, 11, 12, 21}) EXPECT_EQ(danger(model, mode, raw), "") << raw;
+    }
+    EXPECT_NE(danger(Model::mac140, bench.reg("MODE_REG"), 22), "");
+    EXPECT_NE(danger(Model::mac140, bench.reg("MODE_REG"), 23), "");
+    EXPECT_NE(danger(Model::mac140, bench.reg("U_MIN_SUP"), 1), "");
+    EXPECT_EQ(danger(Model::mac140, bench.reg("V_SOLL"), 9), "");
+}
+
 TEST_F(ChangeTest, ReadOnlyIsToldAsSuch) {
     bench.put("MODE_REG", 1);
     bench.run(500ms);
@@ -82,6 +148,10 @@ TEST_F(ChangeTest, WhatMovesByItselfIsTaken) {
     const Outcome outcome = set("P_IST", 0);
     EXPECT_TRUE(outcome.taken);
     EXPECT_NE(outcome.after, 0);
+}
+
+TEST(Gateway, ItsSettingHasTheNumberThatIsStored) {
+    EXPECT_EQ(kMotorWrites, registers::gateway::SETTINGS + static_cast<int>(store::Setting::motor_writes));
 }
 
 TEST_F(ChangeTest, AMotorThatDoesNotAnswerIsALineError) {

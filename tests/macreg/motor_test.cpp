@@ -80,6 +80,30 @@ TEST(Motor, NoiseCostsRepeatsAndNoValue) {
     }
 }
 
+// A block has 139 characters (001 §5.1): at 1 % a character no more than a quarter of them comes whole.
+TEST(Motor, ABlockThatComesDamagedIsReadInParts) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        Bench bench(seed % 2 == 0 ? Model::mac140 : Model::mac800, seed);
+        bench.wire.set_faults({.damage = 0.01});
+        std::vector<const registers::Register*> all;
+        for (const auto& reg : bench.motor.map()) all.push_back(&reg);
+        mactalk_client::Master patient(bench.wire, {.attempts = 10});
+        Motor motor(patient, kAddress, bench.motor.model());
+        EXPECT_NO_THROW(EXPECT_EQ(motor.read_block(all).values().size(), all.size())) << "seed " << seed;
+    }
+}
+
+TEST(Motor, AfterGoodAnswersTheSpeedIsNotBlamed) {
+    Bench bench;
+    bench.motor.read("V_SOLL");
+    bench.wire.set_faults({.damage = 0.05});
+    try {
+        for (;;) bench.motor.read("V_SOLL");
+    } catch (const mactalk_client::LineError& error) {
+        EXPECT_NE(std::string(error.what()).find("damaged: check wiring"), std::string::npos) << error.what();
+    }
+}
+
 // After a frame cut short by a pause the next whole one is understood.
 TEST(Motor, IsInStepAgainWithinOneFrame) {
     Bench bench;

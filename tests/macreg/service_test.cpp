@@ -134,6 +134,21 @@ TEST_F(ServiceTest, ABrokenSaveTellsWhatBecameOfTheFlash) {
     EXPECT_GT(written, 0);
 }
 
+TEST_F(ServiceTest, AMotorThatDoesNotStopIsNotCalledStopped) {
+    bench.sim.plant().load().inertia_256 = 256 * 200;
+    bench.put("A_SOLL", 2);
+    bench.put("V_SOLL", 4000);
+    bench.put("MODE_REG", 1);
+    bench.run(3000ms);
+    bench.sim.plant().load().torque = 1023;  // drives on
+    service.allow_stop();
+    EXPECT_THROW(service.reset(), NotDone);
+    const std::string text = service.left_behind();
+    EXPECT_NE(text.find("HAS NOT STOPPED"), std::string::npos) << text;
+    EXPECT_NE(text.find("V_IST "), std::string::npos) << text;
+    EXPECT_EQ(text.find("starts again"), std::string::npos) << text;
+}
+
 TEST_F(ServiceTest, AnInterruptionAfterTheStopSaysSo) {
     bench.put("MODE_REG", 1);
     bench.run(500ms);
@@ -141,8 +156,7 @@ TEST_F(ServiceTest, AnInterruptionAfterTheStopSaysSo) {
     looks = 1;  // the first look is while it stops
     EXPECT_THROW(service.reset(), Interrupted);
     EXPECT_NE(service.left_behind().find("the motor was not reset"), std::string::npos);
-    EXPECT_NE(service.left_behind().find("ran in V_MODE and was told to stop"), std::string::npos)
-        << service.left_behind();
+    EXPECT_NE(service.left_behind().find("HAS NOT STOPPED"), std::string::npos) << service.left_behind();
 }
 
 }  // namespace

@@ -56,6 +56,23 @@ TEST_F(UiTest, ArrowsSelectAndStopAtTheEnds) {
     EXPECT_EQ(model.visible().front(), &model.selected());
 }
 
+TEST_F(UiTest, CtrlUClearsWhatStandsInThePrompt) {
+    type("s");
+    EXPECT_NE(model.prompt().text, "");
+    key(Key::erase);
+    EXPECT_EQ(model.prompt().text, "");
+    EXPECT_EQ(enter("V_IST").text, "V_IST");
+}
+
+TEST_F(UiTest, TestModesWantAYes) {
+    select("MODE_REG");
+    type("w");
+    EXPECT_NE(model.prompt().label.find("0 to 24"), std::string::npos) << model.prompt().label;
+    EXPECT_EQ(enter("TESTA_MODE").kind, Kind::none);
+    EXPECT_EQ(model.prompt().kind, Prompt::Kind::confirm);
+    EXPECT_EQ(enter("yes").kind, Kind::write);
+}
+
 TEST_F(UiTest, SearchFindsNamesNumbersAndTitles) {
     type("/");
     type("v_i");

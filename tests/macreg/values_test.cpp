@@ -44,6 +44,9 @@ TEST(Values, SaysWhatIsWrong) {
                                                  {"V_SOLL", "raw:", "no value"},
                                                  {"V_SOLL", "1 2", "no value"},
                                                  {"MODE_REG", "FAST", "no value"},
+                                                 {"MODE_REG", "GEAR_MODE", "did you mean GP_MODE?"},
+                                                 {"MODE_REG", "P-MODE", "did you mean P_MODE?"},
+                                                 {"ERR_STAT", "RELPOS", "`macreg list ERR_STAT`"},
                                                  {"CNTRL_BITS", "HICLK+FOO", "no value"},
                                                  {"GEARF1", "3 rpm", "plain number"},
                                                  {"V_SOLL", "1,5rpm", "'1,5' is no number"},
@@ -61,6 +64,22 @@ TEST(Values, ShownNamesGiveTheSameBitsAgain) {
     EXPECT_EQ(value_text(reg("ERR_STAT"), Model::mac140, 0x12), "FLW_ERR IN_POS");
     EXPECT_EQ(typed("ERR_STAT", "FLW_ERR IN_POS").raw, 0x12);
     EXPECT_EQ(value_text(reg("V_SOLL"), Model::mac140, 1600), "762.94 rpm");
+    EXPECT_EQ(value_text(*registers::find(Model::mac800, "MODE_REG"), Model::mac800, 15), "SAFE_MODE");
+    EXPECT_EQ(bits_word(reg("ERR_STAT"), Model::mac140, 0x4400), "RELPOSPFNC+DIS_P_LIM");
+    EXPECT_EQ(bits_word(reg("ERR_STAT"), Model::mac140, 0), "none");
+    EXPECT_EQ(bits_word(reg("ERR_STAT"), Model::mac140, 0x8001), "0x8001") << "bit 15 has no name";
+    EXPECT_EQ(bits_word(*registers::find(Model::mac800, "CNTRL_BITS"), Model::mac800, -1), "0xFFFFFFFF");
+}
+
+// Counts tell single steps apart; 4096 of them are a turn, P_FNC's steps are sixteenths (001 §3.2.8).
+TEST(Values, PositionsAreShownInCountsAndWhereThereIsRoomInTurnsToo) {
+    EXPECT_EQ(value_text(reg("P_IST"), Model::mac140, 20'480), "20480 counts");
+    EXPECT_TRUE(long_value_text(reg("P_IST"), Model::mac140, 20'480).starts_with("20480 counts (5"));
+    EXPECT_EQ(long_value_text(reg("P_IST"), Model::mac140, 0), "0 counts");
+    EXPECT_TRUE(long_value_text(reg("P_FNC"), Model::mac140, 16 * 4096).ends_with(" rev)"));
+    EXPECT_EQ(long_value_text(reg("V_SOLL"), Model::mac140, 1600), "762.94 rpm");
+    EXPECT_EQ(typed("V_SOLL", "100 rev/s").error.find("counts/sample"), std::string::npos);
+    EXPECT_NE(typed("V_SOLL", "3 V").error.find("counts/sample"), std::string::npos);
 }
 
 TEST(Values, FindsRegistersByNameAndNumber) {
@@ -69,6 +88,10 @@ TEST(Values, FindsRegistersByNameAndNumber) {
     EXPECT_NE(find_register(Model::mac140, "V_SOL").error.find("did you mean V_SOLL"), std::string::npos);
     EXPECT_NE(find_register(Model::mac140, "4").error.find("upper word of register 3, P_SOLL"),
               std::string::npos);
+    // Of the other family's, no guess that is another register.
+    EXPECT_NE(find_register(Model::mac800, "KIC").error.find("but each of MAC50 to MAC141 has"),
+              std::string::npos);
+    EXPECT_NE(find_register(Model::mac800, "MYADDR").error.find("did you mean MY_ADDR"), std::string::npos);
     EXPECT_NE(find_register(Model::mac140, "ADDRESS").error.find("did you mean MYADDR"), std::string::npos);
     for (const char* silly : {"", "BAR", "FOO", "BAUD"})
         EXPECT_EQ(find_register(Model::mac140, silly).error.find("did you mean"), std::string::npos) << silly;

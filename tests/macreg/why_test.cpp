@@ -4,264 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <functional>
 #include <set>
 
-#include "bench.h"
+#include "causes.h"
 #include "registers/gateway.h"
 
 namespace nplc::macreg {
 namespace {
-
-using namespace std::chrono_literals;
-using registers::Model;
-
-struct Case {
-    const char* code;
-    std::function<void(Bench&)> condition;
-    Severity severity = Severity::stops;
-    base::Milliseconds for_time{600};
-    Model model = Model::mac140;
-};
-
-/// Pins free for pulses: 001 §3.2.36, counts from a reset on.
-void free_pulse_pins(Bench& bench) {
-    bench.put("CNTRL_BITS", 0);
-    bench.sim.store_registers();
-    bench.sim.power_cycle();
-}
-
-void mode(Bench& bench, std::int64_t number) {
-    bench.put("MODE_REG", number);
-}
-
-void block_shaft(Bench& bench) {
-    bench.sim.plant().load().high_stop = sim::MechanicalStop{.counts = 0};
-    bench.sim.plant().load().low_stop = sim::MechanicalStop{.counts = 0};
-}
-
-/// Holds ERR_STAT's bit as if its cause were there; the motor is passive.
-Case error(const char* code, unsigned bit, Model model = Model::mac140) {
-    return {code, [bit](Bench& bench) { bench.put("ERR_STAT", 1 << bit); }, Severity::stops, 300ms, model};
-}
-
-const std::vector<Case>& cases() {
-    static const std::vector<Case> kCases{
-        {"passive", [](Bench&) {}},
-        {"safe_mode", [](Bench& b) { b.sim.enter_safe_mode(); }},
-        {"mode_unknown", [](Bench&) {}},  // told apart below: a motor refuses such a mode
-        {"test_mode", [](Bench& b) { mode(b, 7); }},
-        {"stop_mode",
-         [](Bench& b) {  // a heavy load that turns on
-             mode(b, 1);
-             b.put("V_SOLL", 4000);
-             b.sim.plant().load().inertia_256 = 256 * 200;
-             b.put("A_SOLL", 2);
-             b.run(3000ms);
-             b.sim.plant().load().torque = 1023;
-             mode(b, 11);
-         },
-         Severity::hinders, 50ms},
-        {"error_i2t_err", [](Bench& b) { b.sim.overload(); }},
-        {"error_flw_err",
-         [](Bench& b) {
-             b.put("FLWERRMAX", 100);
-             block_shaft(b);
-             mode(b, 1);
-         }},
-        {"error_fnc_err",
-         [](Bench& b) {
-             b.put("FNCERRMAX", 100);
-             block_shaft(b);
-             b.put("P_SOLL", 100'000);
-             mode(b, 2);
-         }},
-        error("error_uit_err", 3),
-        {"error_plim_err",
-         [](Bench& b) {
-             b.put("MAX_P_IST", 1000);
-             mode(b, 1);
-         }},
-        {"error_uv_err",
-         [](Bench& b) {
-             b.put("U_MIN_SUP", 5000);
-             b.put("UV_HANDLE", 1);
-         }},
-        error("error_degc_err", 8, Model::mac800),
-        error("error_ov_err", 11, Model::mac800),
-        error("error_ipeak_err", 12, Model::mac800),
-        error("error_speed_err", 13, Model::mac800),
-        {"error_index_err", [](Bench& b) { b.sim.surroundings().encoder_broken = true; }, Severity::stops,
-         300ms, Model::mac800},
-        {"error_old_filt_err", [](Bench& b) { b.put("KVFX6", 0); }, Severity::stops, 300ms, Model::mac800},
-        {"error_u24v_err", [](Bench& b) { b.sim.surroundings().logic_millivolts = 12'000; }, Severity::stops,
-         300ms, Model::mac800},
-        {"undervoltage", [](Bench& b) { b.put("U_MIN_SUP", 5000); }},
-        {"undervoltage_recent",
-         [](Bench& b) {
-             b.put("U_MIN_SUP", 5000);
-             b.run(50ms);
-             b.put("U_MIN_SUP", 10);
-         },
-         Severity::hinders, 50ms},
-        {"i2t_near",
-         [](Bench& b) {
-             b.put("I2TLIM", 110);
-             b.put("I2T", 100);
-         },
-         Severity::hinders, 0ms},
-        {"heat_limit_zero", [](Bench& b) { b.put("I2TLIM", 0); }},
-        {"current_range", [](Bench& b) { b.put("ERR_STAT", 1 << 11); }, Severity::hinders},
-        {"frame_errors", [](Bench& b) { b.put("ERR_STAT", 1 << 8); }, Severity::hinders, 0ms},
-        {"torque_zero",
-         [](Bench& b) {
-             b.put("T_SOLL", 0);
-             mode(b, 1);
-         }},
-        {"velocity_zero",
-         [](Bench& b) {
-             b.put("V_SOLL", 0);
-             mode(b, 1);
-         }},
-        {"velocity_tiny",
-         [](Bench& b) {
-             b.put("V_SOLL", 1);
-             mode(b, 1);
-         },
-         Severity::hinders},
-        {"acceleration_zero",
-         [](Bench& b) {
-             b.put("A_SOLL", 0);
-             mode(b, 1);
-         }},
-        {"load_factor_zero",
-         [](Bench& b) {
-             b.put("KVOUT", 0);
-             mode(b, 1);
-         }},
-        {"amplitude_zero",
-         [](Bench& b) {
-             b.put("AMPLITUDE", 0);
-             mode(b, 1);
-         }},
-        {"regulator_zero",
-         [](Bench& b) {
-             for (const char* name : {"KVFX1", "KVFX2", "KVFX3", "KVFX4"}) b.put(name, 0);
-             mode(b, 1);
-         }},
-        {"profile_filter_zero",
-         [](Bench& b) {
-             for (const char* name : {"KFF0", "KFF1", "KFF2", "KFF3"}) b.put(name, 0);
-             mode(b, 1);
-         }},
-        {"current_regulator_zero",
-         [](Bench& b) {
-             for (const char* name : {"KIFX1", "KIFX2"}) b.put(name, 0);
-             mode(b, 1);
-         }},
-        {"blocked",
-         [](Bench& b) {
-             block_shaft(b);
-             mode(b, 1);
-         }},
-        {"torque_too_small",
-         [](Bench& b) {
-             b.put("T_SOLL", 100);
-             b.sim.plant().load().friction_torque = 400;
-             mode(b, 1);
-         }},
-        {"at_target", [](Bench& b) { mode(b, 2); }},
-        {"target_outside_limits",
-         [](Bench& b) {
-             b.put("MIN_P_IST", -100'000);
-             b.put("MAX_P_IST", 100'000);
-             b.put("V_SOLL", 0);
-             b.put("P_SOLL", 200'000);
-             mode(b, 2);
-         },
-         Severity::hinders},
-        {"limits_swapped",
-         [](Bench& b) {
-             b.put("MIN_P_IST", 100);
-             b.put("MAX_P_IST", -100);
-         }},
-        {"gear_zero",
-         [](Bench& b) {
-             free_pulse_pins(b);
-             b.sim.terminals().set_pulse_rate(10'000);
-             b.put("GEARF1", 0);
-             mode(b, 3);
-         }},
-        {"gear_denominator_zero",
-         [](Bench& b) {
-             free_pulse_pins(b);
-             b.sim.terminals().set_pulse_rate(10'000);
-             b.put("GEARF2", 0);
-             mode(b, 3);
-         }},
-        {"no_pulses",
-         [](Bench& b) {
-             free_pulse_pins(b);
-             mode(b, 3);
-         }},
-        {"pulse_pins_taken",
-         [](Bench& b) {
-             b.sim.terminals().set_pulse_rate(10'000);
-             mode(b, 24);
-         }},
-        {"analogue_zero", [](Bench& b) { mode(b, 5); }},
-        {"analogue_zero", [](Bench& b) { mode(b, 4); }},
-        {"analogue_dead_band",
-         [](Bench& b) {
-             b.sim.terminals().set_analogue(500);
-             mode(b, 16);
-         }},
-        {"analogue_torque_zero", [](Bench& b) { mode(b, 17); }},
-        {"waits_for_level", [](Bench& b) { mode(b, 20); }},
-        {"waits_for_voltage", [](Bench& b) { mode(b, 21); }},
-        {"coil_setup",
-         [](Bench& b) {
-             free_pulse_pins(b);
-             b.sim.terminals().set_pulse_rate(10'000);
-             mode(b, 19);
-         }},
-        {"coil_waits",
-         [](Bench& b) {
-             free_pulse_pins(b);
-             b.sim.terminals().set_pulse_rate(10'000);
-             for (const auto& [name, raw] : {std::pair{"P1", 1000}, {"P2", 2000}, {"P3", 5000}, {"P4", 6000}})
-                 b.put(name, raw);
-             mode(b, 19);
-         },
-         Severity::hinders},
-        {"home_velocity_zero",
-         [](Bench& b) {
-             b.put("V_HOME", 0);
-             mode(b, 12);
-         }},
-        {"home_torque_zero",
-         [](Bench& b) {
-             b.put("T_HOME", 0);
-             mode(b, 12);
-         }},
-        {"homing_stop",
-         [](Bench& b) {
-             b.put("V_HOME", 0);
-             mode(b, 12);
-         },
-         Severity::hinders},
-        {"homing_switch",
-         [](Bench& b) {
-             b.put("V_HOME", 0);
-             mode(b, 13);
-         },
-         Severity::hinders},
-        {"pointer_stuck", [](Bench& b) { b.put("A_REG_P", 5); }, Severity::hinders},
-        {"fastmac_owns", [](Bench&) {}, Severity::tells},
-        {"moves", [](Bench& b) { mode(b, 1); }, Severity::tells},
-    };
-    return kCases;
-}
 
 const Finding* find(const std::vector<Finding>& findings, std::string_view code) {
     const auto found =
@@ -346,6 +95,119 @@ TEST(Why, AMotorThatTurnsIsNotAccused) {
         EXPECT_EQ(findings.front().code, "moves");
         for (const Finding& one : findings) EXPECT_EQ(one.severity, Severity::tells) << one.code;
     }
+}
+
+Condition turning(Model model, std::int64_t mode, std::int64_t v_soll, std::int64_t before,
+                  std::int64_t now) {
+    Condition condition{.model = model};
+    for (auto* snapshot : {&condition.before, &condition.now}) {
+        snapshot->set(registers::MODE_REG, mode, {});
+        snapshot->set(registers::V_SOLL, v_soll, {});
+    }
+    condition.before.set(registers::V_IST, before, {});
+    condition.now.set(registers::V_IST, now, {});
+    condition.now.set(registers::P_IST, 100 * now, {});
+    return condition;
+}
+
+// 001 §3.2.5, §3.2.12: V_SOLL 419 is 200 rpm, V_IST 1017 is 7759 rpm. 004: 554 and 1344.
+TEST(Why, ARunawayIsToldFirst) {
+    for (const auto& [model, v_soll, v_ist] :
+         {std::tuple{Model::mac140, 419, 1017}, std::tuple{Model::mac800, 554, 1344}}) {
+        for (const int mode : {1, 2, 11}) {
+            for (const int sign : {1, -1}) {
+                const auto findings = why(turning(model, mode, v_soll, sign * v_ist, sign * v_ist));
+                EXPECT_EQ(findings.front().code, "runaway") << codes(findings);
+                EXPECT_EQ(find(findings, "moves"), nullptr);
+                EXPECT_TRUE(findings.front().sentence.starts_with("CUT ITS POWER"));
+            }
+        }
+        EXPECT_EQ(find(why(turning(model, 1, 16 * v_ist, v_ist, v_ist)), "runaway"), nullptr) << "as asked";
+        EXPECT_EQ(find(why(turning(model, 1, v_soll, v_ist, v_ist * 3 / 4)), "runaway"), nullptr) << "brakes";
+        EXPECT_EQ(find(why(turning(model, 0, v_soll, v_ist, v_ist)), "runaway"), nullptr) << "passive";
+    }
+}
+
+TEST(Why, AMotorOnItsWayToALowerVelocityDoesNotRunAway) {
+    for (const Model model : {Model::mac140, Model::mac800}) {
+        Bench bench(model);
+        bench.put("V_SOLL", 6000);
+        mode(bench, 1);
+        bench.run(2000ms);
+        bench.put("A_SOLL", 1);
+        bench.put("V_SOLL", 500);
+        bench.run(200ms);
+        const auto findings = judge(bench);
+        EXPECT_EQ(findings.front().code, "moves") << codes(findings);
+    }
+}
+
+// 001 §3.2.163: the profile is at its target, the shaft is not where the target says.
+TEST(Why, AMotorWhosePlaceWasWrittenIsNotAtItsTarget) {
+    for (const Model model : {Model::mac140, Model::mac800}) {
+        Bench bench(model);
+        mode(bench, 2);
+        bench.run(300ms);
+        bench.put("P_IST", 5000);
+        bench.run(300ms);
+        const auto findings = judge(bench);
+        EXPECT_EQ(find(findings, "at_target"), nullptr) << codes(findings);
+        const Finding* apart = find(findings, "profile_apart");
+        ASSERT_NE(apart, nullptr) << codes(findings);
+        EXPECT_NE(apart->remedy.find("`macreg set P_NEW 5000 CNTRL_BITS "), std::string::npos)
+            << apart->remedy;
+        bench.put("P_NEW", 5000);
+        bench.put("CNTRL_BITS", bench.at("CNTRL_BITS") | (model == Model::mac800 ? 1 << 6 : 1 << 10));
+        bench.run(500ms);
+        EXPECT_NEAR(static_cast<double>(bench.at("P_IST")), 5000, 2) << "the shaft stood";
+        EXPECT_NE(find(judge(bench), "at_target"), nullptr);
+    }
+}
+
+// FLWERR lies between profile and shaft (001 §4.4.3).
+TEST(Why, AShaftThatIsHeldShortOfItsTargetIsNotAtIt) {
+    Condition condition;
+    condition.now.set(registers::MODE_REG, 2, {});
+    condition.now.set(registers::P_SOLL, 1000, {});
+    condition.now.set(registers::P_FNC, 16 * 1000, {});
+    condition.now.set(registers::P_IST, 900, {});
+    condition.now.set(registers::FLWERR, 100, {});
+    const auto findings = why(condition);
+    EXPECT_NE(find(findings, "lags"), nullptr) << codes(findings);
+    EXPECT_EQ(find(findings, "at_target"), nullptr);
+    condition.now.set(registers::P_IST, 999, {});
+    condition.now.set(registers::FLWERR, 1, {});
+    EXPECT_NE(find(why(condition), "at_target"), nullptr);
+}
+
+// A target that is 29.8 turns away is told before P_MODE is chosen.
+TEST(Why, ThePassiveMotorsWayToItsTargetIsTold) {
+    Bench bench;
+    bench.put("CNTRL_BITS", 3);
+    bench.put("P_FNC", 16 * 122'061);
+    bench.run(100ms);
+    const Finding* passive = nullptr;
+    const auto findings = judge(bench);
+    passive = find(findings, "passive");
+    ASSERT_NE(passive, nullptr);
+    // 122061 / 4096 = 29.80
+    EXPECT_NE(passive->remedy.find("turns -122061"), std::string::npos) << passive->remedy;
+    EXPECT_NE(passive->remedy.find("(-29.80"), std::string::npos) << passive->remedy;
+}
+
+TEST(Why, ALimitThatIsWrongIsSuspectedBeforeASupplyThatIsThere) {
+    Bench bench;
+    bench.put("U_MIN_SUP", 5000);
+    bench.run(200ms);
+    const auto findings = judge(bench);
+    const Finding* low = find(findings, "undervoltage");
+    ASSERT_NE(low, nullptr);
+    EXPECT_NE(low->remedy.find("macreg set U_MIN_SUP "), std::string::npos) << low->remedy;
+    Condition off;
+    off.now.set(registers::ERR_STAT, 1 << 13, {});
+    const auto without = why(off);
+    ASSERT_NE(find(without, "undervoltage"), nullptr);
+    EXPECT_EQ(find(without, "undervoltage")->remedy.find("U_MIN_SUP"), std::string::npos);
 }
 
 // Registers alone: a motor refuses such a mode.

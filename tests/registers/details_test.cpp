@@ -120,8 +120,8 @@ TEST(Values, Modes) {
     EXPECT_NE(named(mode, 256), nullptr);
     EXPECT_EQ(named(mode, 25), nullptr);
     const Field& large = fields_of(Model::mac800, MODE_REG)[0];
-    EXPECT_NE(named(large, 21), nullptr);  // 004 register 2: 0..14, 16..21
-    EXPECT_EQ(named(large, 15), nullptr);
+    EXPECT_NE(named(large, 21), nullptr);            // 004 register 2: 0..14, 16..21
+    EXPECT_EQ(named(large, 15)->name, "SAFE_MODE");  // 54h leads there (001 §5.1)
     EXPECT_EQ(named(large, 22), nullptr);
 }
 

@@ -95,7 +95,11 @@ std::unique_ptr<mactalk_client::Wire> open_port(const Common& common) {
     if (common.port.empty())
         throw UserError(
             fmt::format("no port; name one with --port or in the environment's {}", port_variable(common)));
-    if (common.baud == 0) throw UserError("--baud 0: no line has that speed; 19200 is the motors' own");
+    // A serial line says by itself what it can; a socket would take anything for the time that messages take.
+    const bool socket = common.port.starts_with("tcp:") || common.port.starts_with("unix:");
+    if (socket && std::find(kSpeeds.begin(), kSpeeds.end(), common.baud) == kSpeeds.end())
+        throw UserError(fmt::format("--baud {}: no line has that speed; take one of {}", common.baud,
+                                    fmt::join(kSpeeds, ", ")));
     auto opened = mactalk_client::open_wire(common.port, common.baud);
     if (opened.never) throw UserError(opened.error);
     if (opened.wire == nullptr)
@@ -105,7 +109,10 @@ std::unique_ptr<mactalk_client::Wire> open_port(const Common& common) {
 
 void guard(Common& common, const std::function<void()>& what) {
     host::note_interruptions();
-    try_to(common, what);
+    try_to(common, [&] {
+        if (common.baud == 0) throw UserError("--baud 0: no line has that speed; 19200 is the motors' own");
+        what();
+    });
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
         fmt::print(stderr, "{}: cannot write to standard output\n", common.program);
         common.exit_code = kUsageOrFile;
@@ -125,6 +132,10 @@ void tell(const Common& common, const std::string& text, const Json& document) {
 
 bool goes_on() {
     return !host::was_interrupted();
+}
+
+bool output_has_reader() {
+    return host::output_has_reader();
 }
 
 void look_for_interruption() {

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+
+#include "macreg/parameters.h"
 #include "macreg/values.h"
+#include "registers/details.h"
 #include "registers/gateway.h"
 
 namespace nplc::macreg {
@@ -17,6 +21,7 @@ namespace {
 constexpr std::int64_t kStopMode = 11;
 constexpr std::int64_t kSafeMode = 15;
 constexpr std::int64_t kLastMode = 24;
+constexpr std::int64_t kLastModeOfMac800 = 21;
 constexpr std::int64_t kDefaults = 256;
 
 /// Bits that the motor clears when it has done what they ask for, or sets by itself (001 §3.2.36, 004).
@@ -26,8 +31,32 @@ std::int64_t passing_bits(Model model, const Register& reg) {
     return model == Model::mac800 ? 0b100'0011 : 0b1110'0100'1100'0000;
 }
 
+/// Counts between two reads of a place that mean nothing.
+constexpr std::int64_t kNoise = 8;
+
 /// 001 §3.2.36: looked at after a reset only.
 constexpr std::int64_t kAtResetOnly = 0b1'1111;
+
+constexpr const char* kUpset = "a wrong value may damage the motor or upset its control";
+
+std::int64_t mask(Model model, std::uint8_t number, std::string_view bit) {
+    const registers::Field* field = registers::field_of(model, number, bit);
+    return field != nullptr ? static_cast<std::int64_t>(registers::mask_of(*field)) : 0;
+}
+
+/// `small` is the bit's name in 001, `large` in 004.
+std::int64_t control_bit(Model model, std::string_view small, std::string_view large) {
+    return mask(model, registers::CNTRL_BITS, model == Model::mac800 ? large : small);
+}
+
+std::int64_t last_mode(Model model) {
+    return model == Model::mac800 ? kLastModeOfMac800 : kLastMode;
+}
+
+bool is_mode(Model model, const Register& reg) {
+    // R: a MAC800's START_MODE may carry more than the mode.
+    return reg.number == registers::MODE_REG || (reg.name == "STARTMODE" && model != Model::mac800);
+}
 
 bool is_pointer(const Register& reg) {
     return reg.number >= registers::P_REG_P && reg.number <= registers::Z_REG_P;
@@ -43,12 +72,13 @@ std::string why_mode(Motor& motor, std::int64_t wanted, std::int64_t now) {
     if (now == kSafeMode && wanted != kSafeMode)
         return "the motor is in SAFE_MODE and leaves it by `macreg safe exit` only (001 §4.4.16)";
     if (wanted == kSafeMode) return "SAFE_MODE is entered by `macreg safe enter` only (001 §4.4.16)";
-    const std::string errors = errors_text(motor.model(), motor.read(registers::ERR_STAT));
+    const std::int64_t status = motor.read(registers::ERR_STAT);
+    const std::string errors = errors_text(motor.model(), status);
     if (!errors.empty())
         return fmt::format(
             "{}: the motor stays passive until the error is cleared; mend its cause (`macreg why`), then "
-            "`macreg set ERR_STAT none`",
-            errors);
+            "`{}`",
+            errors, clear_errors_command(motor.model(), status));
     if (now == kStopMode)
         return "the motor brakes in STOP_MODE first; the new mode follows when it is slower than 300 rpm";
     return "the motor has no such mode, or left it again by itself; `macreg why` tells more";
@@ -61,8 +91,13 @@ std::string why_not(Motor& motor, const Register& reg, std::int64_t wanted, std:
         motor.read(registers::ERR_STAT) >> (motor.model() == Model::mac800 ? 10 : 13) & 1)
         return "the supply is too low and UV_HANDLE lets undervoltage set V_SOLL to 0; mend the supply";
     if (is_pointer(reg)) return "there is no register of that number to select";
-    if (reg.number == registers::ERR_STAT)
-        return "what causes the error is still there, so the motor sets it again; `macreg why` tells more";
+    if (reg.number == registers::ERR_STAT) {
+        const std::int64_t stays = now & ~wanted & ~passing_bits(motor.model(), reg);
+        return stays != 0
+                   ? "what causes the error is still there, so the motor sets it again; `macreg why` tells "
+                     "more"
+                   : "the motor keeps these bits by its own state: what it does not find is cleared at once";
+    }
     if (reg.access == Access::motor_writes)
         return "the motor writes it too; whoever speaks FastMAC to it (a gateway's sequence, a PLC) may have "
                "set it";
@@ -71,12 +106,44 @@ std::string why_not(Motor& motor, const Register& reg, std::int64_t wanted, std:
 
 Outcome refused_or_lost(Motor& motor, std::int64_t before, const LineError& error) {
     Outcome outcome{.before = before, .after = before, .taken = false};
-    outcome.why = error.kind() == LineError::Kind::no_answer ? gateway_refusal(motor) : "";
+    outcome.why = error.kind() == LineError::Kind::no_answer ? gateway_refusal(motor, Asked::write) : "";
     if (outcome.why.empty()) throw LineError(error.kind(), error.what());
     return outcome;
 }
 
-void add_remark(Outcome& outcome, const Motor& motor, const Register& reg, std::int64_t raw) {
+/// 001 §3.2.163: P_IST alone is the shaft's place under another name; where P_MODE goes is P_SOLL - P_FNC.
+std::string apart_remark(Motor& motor) {
+    const Model model = motor.model();
+    const std::int64_t place = motor.read(registers::P_IST);
+    const std::int64_t profile = motor.read(registers::P_FNC);
+    const std::int64_t apart =
+        static_cast<std::int32_t>(profile - 16 * (place + motor.read(registers::FLWERR)));
+    const std::int64_t way = static_cast<std::int32_t>(16 * motor.read(registers::P_SOLL) - profile);
+    if (std::abs(apart) < 16 * kNoise) return {};
+    const Register& counts_16 = *motor.find(registers::P_FNC);
+    const std::int64_t control = motor.read(registers::CNTRL_BITS);
+    const bool large = model == Model::mac800;
+    return fmt::format(
+        "{} is another place, {}: P_MODE would turn {} from here to P_SOLL. To give P_SOLL, P_IST and {} one "
+        "value: `{}`; {} in CNTRL_BITS takes {} from P_IST whenever the motor is passive",
+        counts_16.name, long_value_text(counts_16, model, profile), long_value_text(counts_16, model, way),
+        counts_16.name, resynchronise_command(model, control, place), large ? "SYNCPOSAUTO" : "AUTO_RESYNC",
+        counts_16.name);
+}
+
+void add_remark(Outcome& outcome, Motor& motor, const Register& reg, std::int64_t raw) {
+    const Model model = motor.model();
+    if (reg.number == registers::P_IST) {
+        const std::string apart = apart_remark(motor);
+        if (!apart.empty()) outcome.remark += (outcome.remark.empty() ? "" : "; ") + apart;
+    }
+    if (reg.number == registers::ERR_STAT) {
+        const auto settings = static_cast<std::int64_t>(setting_bits(model, reg));
+        if (const std::int64_t lost = outcome.before & ~raw & settings; lost != 0)
+            outcome.remark =
+                fmt::format("{} was a setting and is off now; clearing errors alone leaves it: `{}`",
+                            bits_word(reg, model, lost), clear_errors_command(model, outcome.before));
+    }
     if (reg.number == registers::CNTRL_BITS && motor.model() != Model::mac800 &&
         ((outcome.before ^ raw) & kAtResetOnly) != 0)
         outcome.remark =
@@ -87,15 +154,43 @@ void add_remark(Outcome& outcome, const Motor& motor, const Register& reg, std::
 }  // namespace
 
 std::string no_mode(Model model, const Register& reg, std::int64_t raw) {
-    const bool is_mode =
-        reg.number == registers::MODE_REG || (reg.name == "STARTMODE" && model != Model::mac800);
-    if (!is_mode || (raw >= 0 && raw <= kLastMode)) return {};
+    if (!is_mode(model, reg) || (raw >= 0 && raw <= last_mode(model))) return {};
     if (reg.number == registers::MODE_REG && raw >= kDefaults)
         return "MODE_REG: 256 to 258 rewrite flash and registers; `macreg flash save`, `macreg flash "
                "defaults` and "
                "`macreg flash reload` do that, and ask first";
-    return fmt::format("{}: {} is no mode; modes are 0 to {} (`macreg list {}`)", reg.name, raw, kLastMode,
-                       reg.name);
+    return fmt::format("{}: {} is no mode; modes are 0 to {} (`macreg list {}`)", reg.name, raw,
+                       last_mode(model), reg.name);
+}
+
+std::string danger(Model model, const Register& reg, std::int64_t raw) {
+    if (reg.dangerous) return kUpset;
+    const bool starts = reg.number == registers::STARTMODE;
+    if (reg.number != registers::MODE_REG && !starts) return {};
+    // STOP_MODE (11) stops the motor, and everybody may do that.
+    if (!(raw >= 7 && raw <= 10) && raw != 22 && raw != 23) return {};
+    const std::string name = value_text(*registers::find(model, registers::MODE_REG), model, raw);
+    return fmt::format("{} is for the maker's tests{}: the shaft may turn, without limit of velocity{}", name,
+                       model == Model::mac800 ? ", and what it does is not described" : "",
+                       starts ? ", after every reset" : "");
+}
+
+std::string clear_errors_command(Model model, std::int64_t err_stat) {
+    const Register& reg = *registers::find(model, registers::ERR_STAT);
+    return "macreg set ERR_STAT " + bits_word(reg, model, err_stat & setting_bits(model, reg));
+}
+
+std::string control_command(Model model, std::int64_t now, std::int64_t set, std::int64_t clear) {
+    const Register& reg = *registers::find(model, registers::CNTRL_BITS);
+    const std::int64_t settings = now & setting_bits(model, reg);
+    return "macreg set CNTRL_BITS " + bits_word(reg, model, (settings & ~clear) | set);
+}
+
+std::string resynchronise_command(Model model, std::int64_t control_bits, std::int64_t p_ist) {
+    const std::string bits =
+        control_command(model, control_bits, control_bit(model, "MAN_RESYNC", "SYNCPOSMAN"),
+                        control_bit(model, "REL_RESYNC", "SYNCPOSREL"));
+    return fmt::format("macreg set P_NEW {} {}", p_ist, bits.substr(std::string_view("macreg set ").size()));
 }
 
 std::uint32_t error_bits(Model model) {
@@ -109,19 +204,29 @@ std::string errors_text(Model model, std::int64_t err_stat) {
     return "ERR_STAT has " + names_text(reg, model, errors);
 }
 
-std::string gateway_refusal(Motor& motor) {
+std::string gateway_refusal(Motor& motor, Asked asked) {
     namespace gw = registers::gateway;
+    constexpr const char* kOwnLine =
+        "the gateway does not carry SAFE_MODE, flash and reset itself: they need the motor's own MacTalk "
+        "line, "
+        "wired to the board's second serial port or to this computer";
     if (!motor.is_behind_gateway()) return {};
     const std::uint32_t status = motor.master().read(gw::kDefaultAddress, gw::STATUS);
     if ((status & gw::kLinkDelivers) == 0)
         return "the gateway's link to the motor does not work; `nanoctl status` tells more";
-    if (static_cast<gw::RunState>(status & gw::kRunState) != gw::RunState::stopped)
-        return "the gateway refuses it while its sequence runs; `nanoctl stop`, or allow it with `nanoctl "
-               "settings set "
-               "motor_writes=1` (writes) or 2 (safe mode, flash, reset too)";
-    return "the gateway does not let it through: safe mode, flash, reset and recording need the motor's own "
-           "MacTalk "
-           "line, wired to the board's second serial port or to this computer";
+    const bool service = asked == Asked::service;
+    const unsigned needed = service ? 2 : 1;
+    const bool runs = static_cast<gw::RunState>(status & gw::kRunState) != gw::RunState::stopped;
+    if (runs && motor.master().read(gw::kDefaultAddress, kMotorWrites) < needed)
+        return fmt::format(
+            "the gateway refuses it while its sequence runs or is held: `nanoctl stop` first, then "
+            "this again. To allow it while it runs, after the stop `nanoctl settings set "
+            "motor_writes={}`, then `nanoctl run`{}{}",
+            needed, service ? "; besides, " : "", service ? kOwnLine : "");
+    if (service) return kOwnLine;
+    return "the motor did not accept it from the gateway; `nanoctl status` tells more of the link, `macreg "
+           "why` "
+           "of the motor";
 }
 
 Outcome change(Motor& motor, const Register& reg, std::int64_t raw) {
@@ -134,7 +239,7 @@ Outcome change(Motor& motor, const Register& reg, std::int64_t raw) {
         if (reg.name != "MYADDR" && reg.name != "MY_ADDR")
             return refused_or_lost(motor, outcome.before, error);
     } catch (const Doubtful&) {
-        outcome.why = gateway_refusal(motor);
+        outcome.why = gateway_refusal(motor, Asked::write);
         if (outcome.why.empty()) throw;
         return {.before = outcome.before, .after = outcome.before, .taken = false, .why = outcome.why};
     }

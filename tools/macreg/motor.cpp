@@ -19,6 +19,9 @@ using registers::Register;
 namespace {
 
 constexpr std::uint32_t kLargeMotor = 1U << 15;  // PROG_VERSION, 004
+/// A block that was damaged so often is read register by register: a tenth of the bytes at a time.
+constexpr unsigned kBlockAttempts = 2;
+constexpr unsigned kGatewayAttempts = 10;
 /// A block costs as many characters on the line as five single reads.
 constexpr std::size_t kWorthABlock = 5;
 
@@ -77,18 +80,25 @@ void Motor::store(Snapshot& snapshot, std::uint8_t first, std::span<const std::u
 }
 
 Snapshot Motor::read_block(std::uint8_t first) {
-    Snapshot snapshot(now());
-    const auto once = gateway_.value_or(false) ? std::nullopt : master_.try_read_block(address_, first);
-    if (once) {
-        store(snapshot, first, *once);
-    } else if (is_behind_gateway()) {
-        for (const Register& reg : map()) {
-            const bool inside = reg.number >= first && reg.number < first + block_numbers(model_);
-            if (inside) snapshot.set(reg.number, read(reg), now());
-        }
-    } else {
-        store(snapshot, first, master_.read_block(address_, first));
+    std::vector<const Register*> inside;
+    for (const Register& reg : map()) {
+        const bool fits = reg.number >= first && reg.number + registers::cells_of(model_, reg).count <=
+                                                     first + block_numbers(model_);
+        if (fits) inside.push_back(&reg);
     }
+    return read_near(first, inside);
+}
+
+Snapshot Motor::read_near(std::uint8_t first, std::span<const Register* const> wanted) {
+    Snapshot snapshot(now());
+    for (unsigned i = 0; i < kBlockAttempts && !gateway_.value_or(false); ++i) {
+        if (const auto block = master_.try_read_block(address_, first)) {
+            store(snapshot, first, *block);
+            return snapshot;
+        }
+        static_cast<void>(is_behind_gateway());
+    }
+    for (const Register* reg : wanted) snapshot.set(reg->number, read(*reg), now());
     return snapshot;
 }
 
@@ -108,7 +118,7 @@ Snapshot Motor::read_block(std::span<const Register* const> wanted) {
             ++next;
             continue;
         }
-        const Snapshot block = read_block(first);
+        const Snapshot block = read_near(first, std::span(&*next, static_cast<std::size_t>(end - next)));
         for (; next != end; ++next) snapshot.set((*next)->number, block.at((*next)->number), block.time());
     }
     return snapshot;
@@ -136,8 +146,13 @@ bool Motor::is_behind_gateway() {
     if (gateway_) return *gateway_;
     gateway_ = false;
     if (address_ == gw::kDefaultAddress) return false;
-    const auto block = master_.try_read_block(gw::kDefaultAddress, gw::IDENTITY);
-    gateway_ = block && base::load_u32(block->data()) == gw::kIdentity;
+    // Who is not there is silent; what came damaged may have been a gateway's answer.
+    for (unsigned i = 0; i < kGatewayAttempts && !*gateway_; ++i) {
+        const std::uint64_t strays = master_.counters().stray_bytes;
+        const auto block = master_.try_read_block(gw::kDefaultAddress, gw::IDENTITY);
+        gateway_ = block && base::load_u32(block->data()) == gw::kIdentity;
+        if (block || master_.counters().stray_bytes == strays) break;
+    }
     return *gateway_;
 }
 

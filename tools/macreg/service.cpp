@@ -26,25 +26,30 @@ constexpr base::Milliseconds kRestartWait{5'000};
 constexpr base::Milliseconds kOrderWait{1'000};
 constexpr int kOrders = 3;
 
-/// A gateway that does not let 54h to 57h through says nothing; its registers do.
-[[noreturn]] void no_accept(Motor& motor, const LineError& error) {
+/// A gateway that does not let 54h to 57h through says nothing; its registers do. The motor has not heard of
+/// it.
+[[noreturn]] void no_accept(Motor& motor, const LineError& error, Trail& trail) {
     const std::string refusal =
-        error.kind() == LineError::Kind::no_answer ? gateway_refusal(motor) : std::string();
-    if (!refusal.empty()) throw NotDone(refusal);
-    throw LineError(error.kind(), error.what());
+        error.kind() == LineError::Kind::no_answer ? gateway_refusal(motor, Asked::service) : std::string();
+    if (refusal.empty()) throw LineError(error.kind(), error.what());
+    if (!trail.stopped) trail.ran_in.clear();
+    trail.in_safe_mode = false;
+    throw NotDone(refusal);
 }
 
-void go_to_init(Motor& motor) {
+void go_to_init(Motor& motor, Trail& trail) {
     try {
         motor.master().init_mode(motor.address());
     } catch (const LineError& error) {
-        no_accept(motor, error);
+        no_accept(motor, error, trail);
     }
 }
 
-void wait_until_passive(Motor& motor, const std::function<bool()>& goes_on) {
+void wait_until_passive(Motor& motor, const std::function<bool()>& goes_on, Trail& trail) {
     const base::Instant end = motor.now() + kStopWait;
+    const registers::Register& speed = *motor.find(registers::V_IST);
     while (motor.read(registers::MODE_REG) != kInit) {
+        trail.turns = fmt::format("{} {}", speed.name, value_text(speed, motor.model(), motor.read(speed)));
         if (goes_on && !goes_on()) throw Interrupted("interrupted");
         if (motor.now() >= end)
             throw NotDone(
@@ -52,6 +57,7 @@ void wait_until_passive(Motor& motor, const std::function<bool()>& goes_on) {
                 "driving its shaft, or does a sequence start it again?");
         motor.master().pause(kLook);
     }
+    trail.stopped = true;
 }
 
 }  // namespace
@@ -71,14 +77,14 @@ SafeMode::SafeMode(Motor& motor, bool stop, std::function<bool()> goes_on, Trail
                 fmt::format("the motor is in {} and would have to be stopped; stop it first, or say --stop",
                             mode_text(motor.model(), found)));
         trail.ran_in = mode_text(motor.model(), found);
-        go_to_init(motor);
-        wait_until_passive(motor, goes_on);
+        go_to_init(motor, trail);
+        wait_until_passive(motor, goes_on, trail);
     }
     trail.in_safe_mode = true;
     try {
         motor.master().safe_mode(motor.address());
     } catch (const LineError& error) {
-        no_accept(motor, error);
+        no_accept(motor, error, trail);
     }
 }
 
@@ -114,7 +120,7 @@ void Service::exit_safe() {
         throw NotDone(
             fmt::format("the motor is not in SAFE_MODE but in {}", mode_text(motor_.model(), mode())));
     trail_.in_safe_mode = true;
-    go_to_init(motor_);
+    go_to_init(motor_, trail_);
     if (mode() == kSafe) throw NotDone("the motor did not leave SAFE_MODE");
     trail_.in_safe_mode = false;
 }
@@ -194,8 +200,18 @@ void Service::order_parameters(std::int64_t code, const char* what) {
         trail_.order = Trail::Order::done;
         return;
     }
-    const std::string refusal = gateway_refusal(motor_);
+    const std::string refusal = gateway_refusal(motor_, Asked::service);
     throw NotDone(refusal.empty() ? fmt::format("the motor did not accept to {}", what) : refusal);
+}
+
+std::string Service::stop_words() const {
+    if (trail_.stopped)
+        return fmt::format("the motor ran in {} and was stopped: it starts again only when MODE_REG is set",
+                           trail_.ran_in);
+    return fmt::format(
+        "the motor ran in {} and was told to stop, but HAS NOT STOPPED as far as is known{}: if "
+        "it must stand, cut its power",
+        trail_.ran_in, trail_.turns.empty() ? "" : " (" + trail_.turns + ")");
 }
 
 std::string Service::left_behind() const {
@@ -241,9 +257,7 @@ std::string Service::left_behind() const {
                                                             : words.done;
     const auto add = [&](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
     const bool resets = task_ == Task::save || task_ == Task::defaults || task_ == Task::reset;
-    if (!trail_.ran_in.empty() && !(resets && trail_.order == Trail::Order::done))
-        add(fmt::format("the motor ran in {} and was told to stop: it starts again only when MODE_REG is set",
-                        trail_.ran_in));
+    if (!trail_.ran_in.empty() && !(resets && trail_.order == Trail::Order::done)) add(stop_words());
     if (trail_.in_safe_mode)
         add("the motor may be in SAFE_MODE, deaf to FastMAC: see `macreg get MODE_REG`; `macreg safe exit` "
             "takes "

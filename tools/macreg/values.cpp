@@ -34,7 +34,12 @@ const Field* whole_field(const Register& reg, Model model) {
     return fields[0].width >= 16 ? &fields[0] : nullptr;
 }
 
+bool is_position(const Register& reg) {
+    return reg.unit == Unit::counts || reg.unit == Unit::counts_16;
+}
+
 std::string number_text(const Register& reg, Model model, std::int64_t raw) {
+    if (is_position(reg)) return std::string(registers::to_text(raw, reg, model, shown_unit(reg)).view());
     return std::string(registers::to_text(raw, reg, model).view());
 }
 
@@ -61,6 +66,51 @@ std::string_view malformed_number(const Register& reg, Model model, std::string_
     return {};
 }
 
+std::size_t distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0]++;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, changed});
+        }
+    }
+    return row[b.size()];
+}
+
+/// How many letters in a row both have.
+std::size_t in_common(std::string_view a, std::string_view b) {
+    std::size_t most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        for (std::size_t length = most + 1; i + length <= a.size(); ++length) {
+            if (b.find(a.substr(i, length)) == std::string_view::npos) break;
+            most = length;
+        }
+    }
+    return most;
+}
+
+/// "did you mean GP_MODE? If not, " of a mode or bit whose name has a part in common with what was typed.
+std::string meant(const Register& reg, Model model, std::string_view text) {
+    const std::string typed = lower(text);
+    constexpr std::size_t kMostWrong = 3;
+    std::string best;
+    std::size_t least = std::min(kMostWrong, typed.size() / 2) + 1;
+    const auto look = [&](std::string_view name) {
+        const std::size_t steps = distance(typed, lower(name));
+        if (steps >= least) return;
+        least = steps;
+        best = name;
+    };
+    for (const Field& field : registers::fields_of(model, reg.number)) {
+        if (field.width == 1) look(field.name);
+        for (const auto& one : field.values) look(one.name);
+    }
+    return best.empty() ? std::string() : fmt::format("did you mean {}? If not, ", best);
+}
+
 std::string why_not(TextError error, const Register& reg, Model model, std::string_view text) {
     if (const auto number = malformed_number(reg, model, text); !number.empty())
         return fmt::format(
@@ -84,8 +134,10 @@ std::string why_not(TextError error, const Register& reg, Model model, std::stri
         case TextError::too_long:
             return fmt::format("'{}' has too many digits for {}", text, reg.name);
         default:
-            return fmt::format("'{}' is no value of {}; write a number with or without unit, 0x1F, or raw:31",
-                               text, reg.name);
+            return fmt::format("'{}' is no value of {}; {}write {}", text, reg.name, meant(reg, model, text),
+                               whole_field(reg, model) != nullptr || reg.unit == Unit::bits
+                                   ? fmt::format("a name or number (`macreg list {}`)", reg.name)
+                                   : "a number with or without unit, 0x1F, or raw:31");
     }
 }
 
@@ -144,30 +196,11 @@ std::optional<std::uint32_t> bits_by_name(const Register& reg, Model model, std:
     return any ? std::optional(bits) : std::nullopt;
 }
 
-std::size_t distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0]++;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, changed});
-        }
-    }
-    return row[b.size()];
-}
-
-/// How many letters in a row both have.
-std::size_t in_common(std::string_view a, std::string_view b) {
-    std::size_t most = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        for (std::size_t length = most + 1; i + length <= a.size(); ++length) {
-            if (b.find(a.substr(i, length)) == std::string_view::npos) break;
-            most = length;
-        }
-    }
-    return most;
+/// The families write some names with and without underscores.
+std::string squeezed(std::string_view name) {
+    std::string letters = lower(name);
+    std::erase(letters, '_');
+    return letters;
 }
 
 /// The name that was meant: a letter in three may be wrong, or a part of it is another's.
@@ -210,14 +243,46 @@ std::string names_text(const Register& reg, Model model, std::int64_t raw) {
     return text;
 }
 
+std::string_view shown_unit(const Register& reg) {
+    if (is_position(reg)) return "counts";
+    const auto units = registers::units_of(reg.unit);
+    return units.empty() ? std::string_view() : units.front();
+}
+
+std::string long_value_text(const Register& reg, Model model, std::int64_t raw) {
+    const std::string text = value_text(reg, model, raw);
+    if (!is_position(reg) || raw == 0) return text;
+    return fmt::format("{} ({})", text, registers::to_text(raw, reg, model, "rev").view());
+}
+
+std::string bits_word(const Register& reg, Model model, std::int64_t raw) {
+    std::string word = raw == 0 ? "none" : names_text(reg, model, raw);
+    std::replace(word.begin(), word.end(), ' ', '+');
+    const TypedValue typed = typed_value(reg, model, word);
+    if (typed.error.empty() && typed.raw == raw) return word;
+    return fmt::format("0x{:X}", registers::bits_of(reg.format, raw));
+}
+
 std::string value_text(const Register& reg, Model model, std::int64_t raw) {
     const std::string names = names_text(reg, model, raw);
     if (names.empty() && raw == 0 && reg.unit == Unit::bits) return "none";
     return names.empty() ? number_text(reg, model, raw) : names;
 }
 
+std::string choice_text(const Register& reg, Model model) {
+    constexpr std::int64_t kFirstOrder = 256;  // 256 to 258 act on the flash (001 §4.4.16)
+    if (reg.number != registers::MODE_REG || reg.max < kFirstOrder) return range_text(reg, model);
+    std::int64_t last = 0;
+    for (const auto& one : whole_field(reg, model)->values) {
+        if (one.value < kFirstOrder) last = std::max<std::int64_t>(last, one.value);
+    }
+    return fmt::format("0 to {}", last);
+}
+
 std::string range_text(const Register& reg, Model model) {
     const std::string raw = fmt::format("{} to {}", reg.min, reg.max);
+    constexpr std::int64_t kMost = 0x7FFF'FFFF;
+    if (reg.min <= -kMost && reg.max >= kMost) return "any number of 32 bits, signed";
     if (reg.unit == Unit::none || reg.unit == Unit::bits) {
         if (registers::one_in(reg.format) == 1) return raw;
     }
@@ -266,7 +331,11 @@ NamedRegister find_register(Model model, std::string_view text) {
         return {nullptr, fmt::format("{} has no register {}; `macreg list` shows them", family, text)};
     }
     if (const Register* reg = registers::find(model, text)) return {reg, {}};
+    const Model other = model == Model::mac800 ? Model::mac140 : Model::mac800;
     const std::string near = nearest(model, text);
+    if (registers::find(other, text) != nullptr && squeezed(near) != squeezed(text))
+        return {nullptr, fmt::format("{} has no register '{}', but {} has; `macreg list` shows them", family,
+                                     text, other == Model::mac800 ? "MAC800" : "each of MAC50 to MAC141")};
     return {nullptr, fmt::format("{} has no register '{}'{}; `macreg list` shows them", family, text,
                                  near.empty() ? "" : fmt::format(", did you mean {}?", near))};
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/bytes.h"
+#include "macreg/change.h"
 #include "macreg/values.h"
 #include "registers/gateway.h"
 #include "why_parts.h"
@@ -106,17 +107,23 @@ void judge_torque(const Facts& facts, Findings& findings) {
          seen, "Free the shaft, or allow more torque: `macreg set T_SOLL 100%` if the machine may take it."});
 }
 
+std::string restore_words(const Facts& facts) {
+    return fmt::format(
+        "Bring the parameters back: those in the flash by {}, or a file of an earlier dump; as the last "
+        "resort {}, "
+        "which loses all that was set.",
+        facts.service("macreg flash reload"), facts.service("macreg flash defaults"));
+}
+
 bool all_zero(const Facts& facts, std::initializer_list<std::string_view> names) {
     return std::all_of(names.begin(), names.end(),
                        [&](std::string_view name) { return !facts.knows(name) || facts.at(name) == 0; });
 }
 
 void judge_regulator(const Facts& facts, Findings& findings) {
-    constexpr const char* kRestore =
-        "Bring the parameters back: `macreg load` of a good file, or `macreg flash reload`, or `macreg flash "
-        "defaults`.";
     const auto add = [&](const char* code, std::string_view first, std::string sentence) {
-        findings.push_back({code, Severity::stops, std::move(sentence), {facts.number(first)}, kRestore});
+        findings.push_back(
+            {code, Severity::stops, std::move(sentence), {facts.number(first)}, restore_words(facts)});
     };
     if (facts.is_driven() && facts.at(KVOUT) == 0)
         findings.push_back(
@@ -149,9 +156,10 @@ void judge_pointers(const Facts& facts, Findings& findings) {
              fmt::format("{} is {}, and there is no register of that number: nothing was selected.", name,
                          facts.at(number)),
              {number},
-             fmt::format("`macreg set {} 1` selects the first register; 8 is the most for P and V, 4 "
-                         "for the others.",
-                         name)});
+             fmt::format(
+                 "`macreg set {} 0` ends it, and nothing is selected; 8 is the most for P and V, 4 for the "
+                 "others.",
+                 name)});
     }
 }
 
@@ -164,7 +172,10 @@ void judge_link(const Facts& facts, Findings& findings) {
              "The user interface is set to FastMAC: whoever is wired to it (an expansion module, a PLC) may "
              "set modes and targets at any time.",
              {CNTRL_BITS},
-             "If values change by themselves, stop that one first, or use `macreg safe enter`."});
+             fmt::format(
+                 "If values change by themselves, stop that one first; {} makes the motor passive and "
+                 "deaf to it.",
+                 facts.service("macreg safe enter"))});
 }
 
 Finding unknown(const Facts& facts) {
@@ -175,18 +186,36 @@ Finding unknown(const Facts& facts) {
                         "there.",
                         facts.text(MODE_REG)),
             {MODE_REG, P_SOLL, P_IST, V_SOLL, A_SOLL, T_SOLL, V_IST, facts.number("VF_OUT"), ERR_STAT},
-            "Watch what it does: `macreg watch MODE_REG P_SOLL P_FNC P_IST V_IST VF_OUT FLWERR`."};
+            fmt::format("Watch what it does: `macreg watch MODE_REG P_SOLL {} P_IST V_IST VF_OUT FLWERR`.",
+                        registers::find(facts.model(), P_FNC)->name)};
 }
 
 Finding moving(const Facts& facts) {
+    if (facts.runs_away()) {
+        const std::uint8_t asked = facts.homes() ? V_HOME : V_SOLL;
+        return {
+            "runaway",
+            Severity::stops,
+            fmt::format("CUT ITS POWER: the motor turns much faster than {} asks for ({}, {}), and does not "
+                        "slow down.",
+                        facts.text(MODE_REG), facts.text(V_IST), facts.text(asked)),
+            {MODE_REG, V_IST, asked, P_IST, FLWERR, facts.number("VF_OUT")},
+            "A stop by the line may not stop it. Then find out what drives it: a load, or filters, signs and "
+            "rotor angle that make the regulator drive the wrong way (parameters of another motor)."};
+    }
+    if (facts.is_passive())
+        return {"moves",
+                Severity::tells,
+                fmt::format("The shaft turns although the motor is passive ({}): something else turns it.",
+                            facts.text(V_IST)),
+                {V_IST, P_IST},
+                "Look what drives the shaft: a hanging load, a belt, or the way of a motor that was switched "
+                "off."};
     return {"moves",
             Severity::tells,
-            facts.mode() == kInit || facts.mode() == kSafe
-                ? fmt::format("The shaft turns although the motor is passive ({}): something else turns it.",
-                              facts.text(V_IST))
-                : fmt::format("It moves: {}.", facts.text(V_IST)),
+            fmt::format("It moves: {}.", facts.text(V_IST)),
             {V_IST, P_IST},
-            "Nothing to mend in the motor; if the machine stands, look at the coupling."};
+            "If that is as wanted, there is nothing to mend; if the machine stands, look at the coupling."};
 }
 
 }  // namespace
@@ -194,11 +223,32 @@ Finding moving(const Facts& facts) {
 std::string Facts::text(std::uint8_t number) const {
     const registers::Register* reg = registers::find(model(), number);
     return reg == nullptr ? std::string()
-                          : fmt::format("{} {}", reg->name, value_text(*reg, model(), at(number)));
+                          : fmt::format("{} {}", reg->name, long_value_text(*reg, model(), at(number)));
+}
+
+std::string Facts::service(std::string_view command) const {
+    return fmt::format("`{}{}`", command, is_passive() ? "" : " --stop");
 }
 
 bool Facts::moves() const {
     return std::abs(at(P_IST) - before(P_IST)) >= kMotion && (at(V_IST) != 0 || before(V_IST) != 0);
+}
+
+bool Facts::runs_away() const {
+    // The pulse input is another source of velocity there (001 §3.2.5).
+    if (!is_driven() || mode() == kAnalogueVelocityGear || mode() == kGearFollow || mode() == kCoil)
+        return false;
+    const std::int64_t now = 16 * std::abs(at(V_IST));
+    const std::int64_t before_that = 16 * std::abs(before(V_IST));
+    constexpr std::int64_t kNoise = 16 * 2;
+    if (now < before_that - std::max(kNoise, before_that / 32)) return false;  // it brakes
+    const std::int64_t asked = mode() == kStop ? 0 : std::abs(at(homes() ? V_HOME : V_SOLL));
+    // The profile may be on its way down still: P_FNC's pace is what it asks for now.
+    const std::int64_t pace = std::abs(static_cast<std::int32_t>(at(P_FNC) - before(P_FNC)));
+    const std::int64_t way = 16 * std::abs(static_cast<std::int32_t>(at(P_IST) - before(P_IST)));
+    const bool follows = mode() != kStop && way <= pace + pace / 4;
+    const std::int64_t margin = large() ? 831 : 629;  // 300 rpm: 2.77056 and 2.09715 a rpm
+    return !follows && now > 2 * asked + margin;
 }
 
 bool Facts::gears() const {
@@ -251,7 +301,7 @@ std::vector<Finding> why(const Condition& condition) {
     judge_pointers(facts, findings);
     judge_link(facts, findings);
     const auto says_why = [](const Finding& one) {
-        return one.severity != Severity::tells || one.code == "moves";
+        return one.severity != Severity::tells || one.code == "moves" || one.code == "runaway";
     };
     if (std::none_of(findings.begin(), findings.end(), says_why)) findings.push_back(unknown(facts));
     std::stable_sort(findings.begin(), findings.end(),

@@ -13,7 +13,10 @@ using enum registers::Number;
 
 namespace {
 
-constexpr const char* kThenClear = " Then clear it: `macreg set ERR_STAT none`, and choose the mode again.";
+/// ERR_STAT's settings stay.
+std::string clear(const Facts& facts) {
+    return "`" + clear_errors_command(facts.model(), facts.at(ERR_STAT)) + "`";
+}
 
 /// One error bit: what it means for the owner, and what mends it.
 struct Error {
@@ -42,7 +45,7 @@ constexpr Error kErrors[] = {
      {"FNCERR", "FNCERRMAX", "T_SOLL", "A_SOLL"}},
     {"PLIM_ERR",
      "The shaft left its position limits (MIN_P_IST, MAX_P_IST) and the motor made itself passive.",
-     "Turn the shaft back inside, or widen the limits, or write P_IST anew; both limits 0 is none.",
+     "Turn the shaft back inside, or widen the limits; both 0 is none.",
      {"P_IST", "MIN_P_IST", "MAX_P_IST"}},
     {"UV_ERR",
      "The supply voltage was too low.",
@@ -70,7 +73,7 @@ constexpr Error kErrors[] = {
      {}},
     {"OLD_FILT_ERR",
      "The filters' parameters are not valid.",
-     "Load the right parameters, or `macreg flash defaults`.",
+     "Load the right parameters; as the last resort `macreg flash defaults`, which loses all that was set.",
      {}},
     {"U24V_ERR", "The control supply was too low.", "Mend the 24 V supply.", {"U_24V"}},
 };
@@ -95,6 +98,17 @@ bool is_set(const Facts& facts, std::string_view bit) {
            (static_cast<std::uint32_t>(facts.at(ERR_STAT)) & registers::mask_of(*field)) != 0;
 }
 
+/// A supply that is there may be measured against a limit that is wrong.
+std::string supply_remedy(const Facts& facts) {
+    constexpr std::int64_t kPlausible = 223;  // 12 V, a step is 53.7 mV (001 §3.2.151)
+    const std::string mend = "Switch the power supply on; check voltage, fuse and cross-section.";
+    if (facts.large() || facts.at("U_SUPPLY") < kPlausible) return mend;
+    return fmt::format(
+        "If {} is what the supply is to give, the limit is wrong: `macreg set U_MIN_SUP {}V --force`. If "
+        "not: {}",
+        facts.text("U_SUPPLY"), facts.at("U_SUPPLY") * 537 / 10'000 * 3 / 4, mend);
+}
+
 void judge_supply(const Facts& facts, Findings& findings) {
     if (!is_set(facts, "UV_DETECT")) return;
     const std::string_view name = facts.large() ? "U_BUS" : "U_SUPPLY";
@@ -114,7 +128,7 @@ void judge_supply(const Facts& facts, Findings& findings) {
     findings.push_back(
         {"undervoltage", Severity::stops,
          fmt::format("The motor's supply is too low: {}, below what is allowed{}.", facts.text(name), least),
-         seen, "Switch the power supply on; check voltage, fuse and cross-section."});
+         seen, supply_remedy(facts)});
 }
 
 bool is_near(std::int64_t value, std::int64_t limit) {
@@ -142,14 +156,26 @@ void judge_heat(const Facts& facts, Findings& findings) {
                             fmt::format("The motor is nearly too hot: {}.", facts.text("DEGC")),
                             {facts.number("DEGC"), facts.number("DEGCMAX")},
                             "Less torque, or cooling."});
-    if (facts.at(I2TLIM) == 0 || facts.at(UITLIM) == 0)
+    const std::string back = fmt::format(
+        "The right value is the maker's, the manuals name none: {} brings back what the flash has, a "
+        "file of an earlier dump what it was.",
+        facts.service("macreg flash reload"));
+    if (facts.at(I2TLIM) == 0)
         findings.push_back(
             {"heat_limit_zero",
              Severity::stops,
-             "I2TLIM, the limit of the windings' heat, is 0: the motor makes itself passive at the first "
-             "current.",
+             "I2TLIM, the limit of the windings' heat, is 0: any current is too much, and the motor "
+             "makes itself passive (I2T_ERR).",
              {I2TLIM, I2T},
-             "Bring the parameters back: `macreg load` of a good file, or `macreg flash defaults`."});
+             back});
+    if (facts.at(UITLIM) == 0)
+        findings.push_back(
+            {"brake_limit_zero",
+             Severity::stops,
+             "UITLIM, the limit of the brake chopper's heat, is 0: the motor makes itself passive as "
+             "soon as it brakes (UIT_ERR).",
+             {UITLIM, UIT},
+             back});
 }
 
 }  // namespace
@@ -158,9 +184,10 @@ void judge_errors(const Facts& facts, Findings& findings) {
     judge_supply(facts, findings);
     for (const Error& error : kErrors) {
         if (!is_set(facts, error.name)) continue;
-        findings.push_back({code_of(error.name), Severity::stops,
-                            fmt::format("{}: {}", error.name, error.sentence),
-                            numbers(facts, error.registers), std::string(error.remedy) + kThenClear});
+        findings.push_back(
+            {code_of(error.name), Severity::stops, fmt::format("{}: {}", error.name, error.sentence),
+             numbers(facts, error.registers),
+             fmt::format("{} Then clear it: {}, and choose the mode again.", error.remedy, clear(facts))});
     }
     judge_heat(facts, findings);
     if (is_set(facts, "IX_ERR"))
@@ -171,7 +198,7 @@ void judge_errors(const Facts& facts, Findings& findings) {
              "or the "
              "supply too high.",
              {ERR_STAT, facts.number("AMPLITUDE")},
-             "Bring the filters' parameters back; less A_SOLL. Clear it with `macreg set ERR_STAT none`."});
+             fmt::format("Bring the filters' parameters back; less A_SOLL. Clear it: {}.", clear(facts))});
     if (is_set(facts, "FRAME_ERR_TX"))
         findings.push_back({"frame_errors",
                             Severity::hinders,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "macreg/change.h"
+#include "macreg/values.h"
 #include "why_parts.h"
 
 namespace nplc::macreg {
@@ -13,10 +14,21 @@ namespace {
 
 /// 001 §4.1.10: high above 5.4 V, low below 4.4 V. Between them it stays what it was; this is the middle.
 constexpr std::int64_t kHighPercent = 49;
+constexpr std::int64_t kUserInterface = 3;  // of CNTRL_BITS on MAC50 to MAC141
+/// Counts by which a motor at its target may be off: more than its regulator leaves, less than one sees.
+constexpr std::int64_t kApart = 64;
 
 void add(Findings& findings, const char* code, Severity severity, std::string sentence,
          std::vector<std::uint8_t> registers, std::string remedy) {
     findings.push_back({code, severity, std::move(sentence), std::move(registers), std::move(remedy)});
+}
+
+/// Where P_MODE would turn to from here (001 §4.4.3), for one who is about to choose it.
+std::string way_words(const Facts& facts) {
+    const registers::Register& profile = *registers::find(facts.model(), P_FNC);
+    const auto way = static_cast<std::int32_t>(16 * facts.at(P_SOLL) - facts.at(P_FNC));
+    if (way == 0) return " (it is at P_SOLL and will stand)";
+    return fmt::format(" (it turns {} at once, to P_SOLL)", long_value_text(profile, facts.model(), way));
 }
 
 void judge_passive(const Facts& facts, Findings& findings) {
@@ -28,9 +40,11 @@ void judge_passive(const Facts& facts, Findings& findings) {
     } else if (mode == kInit) {
         const bool error = (static_cast<std::uint32_t>(facts.at(ERR_STAT)) & error_bits(facts.model())) != 0;
         const char* sentence = "The motor is in INIT_MODE: passive, nobody told it to move.";
-        std::string remedy =
-            fmt::format("`macreg set MODE_REG P_MODE` (or V_MODE ...); {} is the mode after power-up.",
-                        registers::find(facts.model(), STARTMODE)->name);
+        std::string remedy = fmt::format(
+            "`macreg set MODE_REG P_MODE`{}, `macreg set MODE_REG V_MODE` turns it at once ({}); {} is the "
+            "mode "
+            "after power-up.",
+            way_words(facts), facts.text(V_SOLL), registers::find(facts.model(), STARTMODE)->name);
         if (facts.gateway()) {
             sentence = "The motor is in INIT_MODE, passive: the gateway's sequence has not told it to move.";
             remedy =
@@ -39,7 +53,8 @@ void judge_passive(const Facts& facts, Findings& findings) {
         }
         if (error) {
             sentence = "The motor is in INIT_MODE, passive, because of the error.";
-            remedy = "When the error is cleared: `macreg set MODE_REG P_MODE` (or V_MODE ...).";
+            remedy =
+                fmt::format("When the error is cleared: `macreg set MODE_REG P_MODE`{}.", way_words(facts));
         }
         add(findings, "passive", Severity::stops, sentence, {MODE_REG, STARTMODE}, remedy);
     } else if (mode == kStop) {
@@ -96,7 +111,30 @@ void judge_target(const Facts& facts, Findings& findings) {
     // P_FNC, not P_IST, is where the profile is: FLWERR lies between (001 §4.4.3).
     const auto distance = static_cast<std::int32_t>(16 * facts.at(P_SOLL) - facts.at(P_FNC));
     if (distance != 0 || facts.moves()) return;
-    std::string remedy = "`macreg set P_SOLL ...`, or P_REG_P for one of P1 to P8.";
+    const std::int64_t off = static_cast<std::int32_t>(facts.at(P_SOLL) - facts.at(FLWERR) - facts.at(P_IST));
+    if (std::abs(off) > kApart) {
+        const registers::Register& profile = *registers::find(facts.model(), P_FNC);
+        return add(
+            findings, "profile_apart", Severity::stops,
+            fmt::format(
+                "The motor's profile has reached the target ({}), but by P_IST the shaft is elsewhere ({}): "
+                "{} and P_IST count from different places. P_IST was written alone, or positions were "
+                "chosen relatively (RELPOSPFNC).",
+                facts.text(P_SOLL), facts.text(P_IST), profile.name),
+            {P_SOLL, P_FNC, P_IST, FLWERR},
+            fmt::format(
+                "It will not go there by itself. To go on from here with one count for all: `{}`; the "
+                "shaft does not turn by it.",
+                resynchronise_command(facts.model(), facts.at(CNTRL_BITS), facts.at(P_IST))));
+    }
+    if (std::abs(facts.at(FLWERR)) > kApart)
+        return add(
+            findings, "lags", Severity::stops,
+            fmt::format("The motor's profile has reached the target ({}), but the shaft stands {} from it.",
+                        facts.text(P_SOLL), facts.text(FLWERR)),
+            {P_SOLL, P_IST, FLWERR, T_SOLL, facts.number("VF_OUT")},
+            "Something holds the shaft, or T_SOLL is too small for it: free it, or allow more torque.");
+    std::string remedy = "Give it another target: P_SOLL, or P_REG_P for one of P1 to P8.";
     const char* code = "at_target";
     if (facts.mode() == kAnalogue2Position) {
         code = "waits_for_level";
@@ -142,13 +180,18 @@ void judge_gear(const Facts& facts, Findings& findings) {
             "The motor is to follow pulses, but the pins of the pulse input serve something else (USERINTF "
             "is not 00).",
             {CNTRL_BITS, facts.number("V_EXT")},
-            "`macreg set CNTRL_BITS ...` with USERINTF=INPUT, then `macreg flash save`: it counts from "
-            "a reset on.");
+            fmt::format(
+                "`{}`, then {}: it counts from a reset on. The pins are FastMAC's then no more: a PLC or a "
+                "gateway that is wired to them loses the motor.",
+                control_command(facts.model(), facts.at(CNTRL_BITS), 0, kUserInterface),
+                facts.service("macreg flash save")));
     else
         add(findings, "no_pulses", Severity::stops,
             "The motor is to follow pulses, and none come (V_EXT is 0).", {facts.number("V_EXT"), CNTRL_BITS},
-            "Turn the master; check the wiring and the format (PULSEDIR: pulse and direction, else "
-            "quadrature).");
+            facts.large()
+                ? "Turn the master; check the wiring."
+                : "Turn the master; check the wiring and the format (PULSEDIR: pulse and direction, else "
+                  "quadrature).");
 }
 
 void judge_coil(const Facts& facts, Findings& findings) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 #include "macreg/why.h"
@@ -58,6 +59,11 @@ class Facts {
     std::string text(std::string_view name) const { return text(number(name)); }
 
     bool moves() const;
+    /// It turns much faster than its mode asks for, and is not slowing down.
+    bool runs_away() const;
+    bool is_passive() const { return mode() == kInit || mode() == kSafe; }
+    /// "`macreg flash save --stop`": what wants a passive motor would be refused otherwise.
+    std::string service(std::string_view command) const;
     bool homes() const { return mode() >= kHome1 && mode() <= kHome3; }
     bool gears() const;
     bool positions() const;

@@ -124,6 +124,7 @@ std::optional<Master::Reply> Master::ask_once(const Question& question) {
         for (std::size_t i = 0; i < count; ++i) {
             const auto reply = decoder.receive(bytes[i]);
             if (!reply || (question.reg != 0 && reply->reg != question.reg)) continue;
+            ++counters_.answers;
             const std::size_t used = answer_bytes(question.answer, question.data_bytes);
             counters_.stray_bytes += heard_ - std::min<std::uint64_t>(heard_, used);
             return reply;
@@ -170,17 +171,26 @@ base::Microseconds Master::on_line(std::size_t bytes) const {
 
 void Master::no_answer(std::uint8_t address, unsigned attempts) const {
     const std::string heard =
-        heard_ == 0 ? std::string("is it switched on, and are address and speed right?")
-                    : fmt::format("{} bytes came that are no answer: is the speed right?", heard_);
+        counters_.answers > 0 && counters_.stray_bytes > 0
+            ? std::string(
+                  "others were answered, some came damaged: check wiring, shield and ground of the line")
+        : counters_.answers > 0 ? std::string("others were answered: was it switched off or unplugged?")
+        : heard_ == 0           ? std::string("is it switched on, and are address and speed right?")
+                      : fmt::format("{} bytes came that are no answer: is the speed right?", heard_);
     throw LineError(LineError::Kind::no_answer,
                     fmt::format("{}: no answer from address {}, asked {} time{}; {}", wire_.name(), address,
                                 attempts, attempts == 1 ? "" : "s", heard));
 }
 
-void Master::gone() const {
+void Master::gone() {
     const std::string& name = wire_.name();
     const bool socket = name.starts_with("unix:") || name.starts_with("tcp:");
     const bool silent = counters_.questions <= 1 && !heard_any_;
+    if (const std::string other = socket && silent ? wire_.other_client() : std::string(); !other.empty())
+        throw LineError(
+            LineError::Kind::port_gone,
+            fmt::format("{}: it serves one client at a time, and {} is connected; end that one first", name,
+                        other));
     throw LineError(
         LineError::Kind::port_gone,
         name + (socket && silent

@@ -14,6 +14,7 @@ class LineWire final : public Wire {
         return client_->read(out, wait);
     }
     base::Instant now() override { return client_->now(); }
+    std::string other_client() override { return client_->other_client(); }
 
   private:
     std::unique_ptr<host::ByteClient> client_;

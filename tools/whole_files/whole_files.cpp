@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -18,6 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using host::path_of;
+
+constexpr std::size_t kMostInput = 256 * 1024 * 1024;
 
 std::string temporary_name(const std::string& path) {
     return fmt::format("{}.{}.tmp", path, host::own_process());
@@ -88,7 +91,12 @@ FileText read_file(const std::string& path) {
 FileText read_standard_input() {
     errno = 0;
     FileText result;
-    result.text.assign(std::istreambuf_iterator<char>(std::cin), {});
+    std::array<char, 65'536> some{};
+    while (std::cin.read(some.data(), some.size()), std::cin.gcount() > 0) {
+        result.text.append(some.data(), static_cast<std::size_t>(std::cin.gcount()));
+        if (result.text.size() > kMostInput)
+            return {{}, "standard input has more than 256 MiB; has it no end?"};
+    }
     if (std::cin.bad() || std::ferror(stdin) != 0)
         return {{}, fmt::format("cannot read standard input: {}", reason())};
     return result;

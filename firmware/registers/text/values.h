@@ -55,6 +55,7 @@ inline constexpr NamedValue kMac800Modes[] = {
     {12, "HOME1_MODE", "homing against a mechanical stop"},
     {13, "HOME2_MODE", "homing with a sensor, first kind"},
     {14, "HOME3_MODE", "homing with a sensor, second kind"},
+    {15, "SAFE_MODE", "passive, deaf to FastMAC and FlexMAC; not entered or left by this register"},
     {16, "AVZ_MODE", "analogue velocity with a dead band"},
     {17, "VAT_MODE", "velocity, torque limit by the analogue input"},
     {18, "AG_MODE", "gear, trimmed by the analogue input"},

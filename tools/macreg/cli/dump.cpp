@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "cli/subcommands.h"
+#include "cli/session.h"
 #include "host/paths.h"
 #include "macreg/parameters.h"
 #include "macreg/values.h"

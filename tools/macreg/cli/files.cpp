@@ -5,6 +5,7 @@
 
 #include "cli/session.h"
 #include "command_line/files.h"
+#include "host/interruption.h"
 #include "whole_files/whole_files.h"
 
 namespace nplc::macreg::cli {
@@ -30,6 +31,14 @@ command_line::Failure bad_file(const std::string& name, const std::vector<FilePr
 
 }  // namespace
 
+std::string read_standard_input() {
+    host::end_at_interruptions();
+    whole_files::FileText input = whole_files::read_standard_input();
+    host::note_interruptions();
+    if (!input.error.empty()) throw UserError(input.error);
+    return std::move(input.text);
+}
+
 std::string model_words(const ParameterSet& set) {
     const bool known = set.model_is_known || set.model == registers::Model::mac800;
     return known ? fmt::format("a {}", registers::name_of(set.model)) : "one of MAC50 to MAC141";
@@ -38,10 +47,8 @@ std::string model_words(const ParameterSet& set) {
 ParameterSet read_parameter_file(const std::string& path, bool partial) {
     const bool standard = path == "-";
     const std::string name = standard ? "standard input" : path;
-    const whole_files::FileText input =
-        standard ? whole_files::read_standard_input() : whole_files::FileText{};
-    if (!input.error.empty()) throw UserError(input.error);
-    const ParsedFile file = parse_parameters(standard ? input.text : command_line::read_whole(path));
+    const ParsedFile file =
+        parse_parameters(standard ? read_standard_input() : command_line::read_whole(path));
     if (!file.problems.empty()) throw bad_file(name, file.problems);
     if (!file.set.incomplete.empty() && !partial)
         throw UserError(fmt::format("{}: is incomplete: {}; dump again, or take it as it is with --partial",

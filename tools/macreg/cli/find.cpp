@@ -3,7 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/subcommands.h"
+#include "cli/session.h"
 #include "host/terminal.h"
 #include "macreg/finder.h"
 #include "macreg/service.h"
@@ -13,10 +13,6 @@ namespace nplc::macreg::cli {
 namespace {
 
 using registers::Model;
-
-/// The usual one first. 001 and 002 know 19200 only; expansion modules and converters may be set otherwise.
-constexpr std::uint32_t kSpeeds[] = {19'200, 9'600, 38'400,  57'600,  115'200, 4'800,
-                                     2'400,  1'200, 230'400, 460'800, 921'600};
 
 struct Options {
     bool every_address = false;
@@ -41,7 +37,7 @@ class Search {
         if (socket || options_.this_speed) {
             at(common_.baud, socket);
         } else {
-            for (const std::uint32_t baud : kSpeeds) {
+            for (const std::uint32_t baud : command_line::kSpeeds) {
                 if (units_.empty() || options_.every_speed) at(baud, false);
             }
         }

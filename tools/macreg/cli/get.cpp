@@ -3,7 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/subcommands.h"
+#include "cli/session.h"
 #include "macreg/values.h"
 
 namespace nplc::macreg::cli {
@@ -12,7 +12,7 @@ namespace {
 using registers::Register;
 
 std::string line_of(const Register& reg, registers::Model model, std::int64_t raw, std::size_t width) {
-    const std::string value = value_text(reg, model, raw);
+    const std::string value = long_value_text(reg, model, raw);
     const std::string plain = fmt::format("{}", raw);
     const std::string behind = value == plain ? "" : fmt::format("   (raw {})", raw);
     return fmt::format("{:<{}} = {}{}", reg.name, width, value, behind);

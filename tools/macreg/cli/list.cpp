@@ -4,7 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/subcommands.h"
+#include "cli/session.h"
 #include "macreg/values.h"
 
 namespace nplc::macreg::cli {

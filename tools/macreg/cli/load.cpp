@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/files.h"
-#include "cli/subcommands.h"
+#include "cli/session.h"
 #include "macreg/change.h"
 #include "macreg/parameters.h"
 #include "macreg/service.h"
@@ -68,7 +68,8 @@ std::vector<Difference> to_write(Session& session, const ParameterSet& wanted, c
     std::vector<Difference> dangerous;
     for (const Difference& one : differences(wanted, own)) {
         if (!one.left || is_address(*one.reg)) continue;
-        (one.reg->dangerous ? dangerous : some).push_back(one);
+        const bool may_harm = !danger(session.motor().model(), *one.reg, *one.left).empty();
+        (may_harm ? dangerous : some).push_back(one);
     }
     if (dangerous.empty() || options.skip_dangerous) return some;
     if (!options.force)
@@ -120,6 +121,7 @@ class Writer {
                           command_line::kRefused);
             session_.pause(base::Milliseconds{50});
         }
+        stopped_ = true;
     }
 
     void write(const Difference& one) {
@@ -162,16 +164,19 @@ class Writer {
         if (done_ == all_.size())
             text += "all of it was written, but not compared: see `macreg diff`";
         else
-            text += fmt::format("{} of {} were written{}", done_ == 0 ? "none" : fmt::format("{}", done_),
-                                counted(all_.size(), "register"),
+            text += fmt::format("{} of {} {} written{}", done_ == 0 ? "none" : fmt::format("{}", done_),
+                                counted(all_.size(), "register"), done_ == 1 ? "was" : "were",
                                 written.empty() ? "" : ": " + names_of(written));
         if (in_doubt_) text += fmt::format("; {} may have been written or not", all_[done_].reg->name);
         if (!ran_in_.empty())
             text += fmt::format(
-                "; the motor ran in {} and was told to stop: it starts again only when MODE_REG is set",
-                ran_in_);
+                "; the motor ran in {} and {}", ran_in_,
+                stopped_
+                    ? "was stopped: it starts again only when MODE_REG is set"
+                    : "was told to stop, but HAS NOT STOPPED as far as is known: if it must stand, cut its "
+                      "power");
         throw command_line::Failure(exit_code, text + "; the flash is as it was",
-                                    {{"written", names}, {"of", all_.size()}, {"stopped", !ran_in_.empty()}});
+                                    {{"written", names}, {"of", all_.size()}, {"stopped", stopped_}});
     }
 
     Session& session_;
@@ -179,7 +184,8 @@ class Writer {
     const std::vector<Difference>& all_;
     std::size_t done_ = 0;
     bool in_doubt_ = false;  ///< the write under way may have arrived
-    std::string ran_in_;     ///< the mode it was stopped in
+    std::string ran_in_;     ///< the mode it was told to stop in
+    bool stopped_ = false;
 };
 
 ParameterSet read_own(Session& session) {

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "cli/subcommands.h"
+#include "cli/session.h"
 #include "command_line/generated.h"
 #include "host/byte_client.h"
 #include "registers/mac.h"

@@ -7,7 +7,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/subcommands.h"
+#include "cli/files.h"
+#include "cli/session.h"
 #include "macreg/words.h"
 #include "registers/gateway.h"
 #include "whole_files/whole_files.h"
@@ -111,8 +112,9 @@ void replay(const Common& common, const Options& options) {
     const auto monitor = make(common, options);
     const Side side = side_of(options);
     const bool standard = options.replay == "-";
-    const whole_files::FileText file =
-        standard ? whole_files::read_standard_input() : whole_files::read_file(options.replay);
+    const whole_files::FileText file = standard
+                                           ? whole_files::FileText{.text = read_standard_input(), .error = {}}
+                                           : whole_files::read_file(options.replay);
     if (!file.error.empty()) throw UserError(file.error);
     // A character takes ten bits; a file holds no times.
     const base::Microseconds character{10'000'000 / common.baud};

@@ -1,4 +1,4 @@
-#include "cli/subcommands.h"
+#include "cli/session.h"
 
 namespace nplc::macreg::cli {
 

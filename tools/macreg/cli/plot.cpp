@@ -5,7 +5,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/subcommands.h"
+#include "cli/files.h"
+#include "cli/session.h"
 #include "host/paths.h"
 #include "whole_files/whole_files.h"
 
@@ -34,8 +35,9 @@ void plot_file(const Common& common, const Options& options) {
     const bool png = ends_with(options.output, ".png");
     if (!png && !ends_with(options.output, ".svg"))
         throw UserError(fmt::format("-o {}: the name must end with .svg or .png", options.output));
-    const whole_files::FileText file = options.recording == "-" ? whole_files::read_standard_input()
-                                                                : whole_files::read_file(options.recording);
+    const whole_files::FileText file = options.recording == "-"
+                                           ? whole_files::FileText{.text = read_standard_input(), .error = {}}
+                                           : whole_files::read_file(options.recording);
     if (!file.error.empty()) throw UserError(file.error);
     const RecordingReading reading =
         from_csv(file.text, options.recording == "-" ? "standard input" : options.recording);

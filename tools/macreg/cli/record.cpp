@@ -4,10 +4,11 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "cli/subcommands.h"
+#include "cli/session.h"
+#include "macreg/change.h"
 #include "macreg/recorder.h"
+#include "macreg/service.h"
 #include "macreg/values.h"
-#include "macreg/words.h"
 #include "whole_files/whole_files.h"
 
 namespace nplc::macreg::cli {
@@ -29,8 +30,31 @@ struct Options {
 
 /// What --move writes: a position or speed, or how far from the one that is set.
 struct Move {
+    enum class State : std::uint8_t { not_yet, refused, sent, done };
+
     const Register* reg = nullptr;
     std::int64_t raw = 0;
+    State state = State::not_yet;
+
+    /// What became of it, behind what went wrong.
+    std::string words(registers::Model model) const {
+        if (reg == nullptr) return {};
+        const std::string what = fmt::format("{} = {}", reg->name, value_text(*reg, model, raw));
+        switch (state) {
+            case State::not_yet:
+                return fmt::format("; {} was not written, the motor was not moved", what);
+            case State::refused:
+                return "; the motor was not moved";
+            case State::sent:
+                return fmt::format("; {} may have been written: THE MOTOR MAY MOVE", what);
+            case State::done:
+                break;
+        }
+        return fmt::format(
+            "; {} had been written: THE MOTOR MAY STILL MOVE (`macreg set MODE_REG INIT_MODE` "
+            "stops it)",
+            what);
+    }
 };
 
 Move read_move(Session& session, const std::string& text) {
@@ -39,19 +63,44 @@ Move read_move(Session& session, const std::string& text) {
     if (sign == std::string::npos)
         throw UserError(
             fmt::format("--move {}: write REGISTER=VALUE, or REGISTER=+VALUE for so much more", text));
-    const registers::Model model = session.motor().model();
+    Motor& motor = session.motor();
+    const registers::Model model = motor.model();
     const Register* reg = find_registers(model, {text.substr(0, sign)}).front();
     if (reg->number != registers::P_SOLL && reg->number != registers::V_SOLL)
         throw UserError(fmt::format("--move {}: moves are made by P_SOLL or V_SOLL", text));
     const TypedValue typed = typed_value(*reg, model, text.substr(sign + (relative ? 2 : 1)));
     if (!typed.error.empty()) throw UserError("--move: " + typed.error);
-    const std::int64_t raw = typed.raw + (relative ? session.motor().read(*reg) : 0);
+    const std::int64_t raw = typed.raw + (relative ? motor.read(*reg) : 0);
     if (raw < reg->min || raw > reg->max)
         throw UserError(fmt::format("--move {}: {} would be {}, out of its range {}", text, reg->name, raw,
                                     range_text(*reg, model)));
-    session.ask(fmt::format("{} becomes {} while it records: the motor may move", reg->name,
-                            value_words(model, *reg, raw)));
+    const std::int64_t mode = motor.read(registers::MODE_REG);
+    constexpr std::int64_t kVelocity = 1;
+    constexpr std::int64_t kPosition = 2;
+    std::string note;
+    if (mode == 0 || mode == 15 || (mode == kVelocity && reg->number == registers::P_SOLL))
+        note = fmt::format("it is in {}, in which {} moves nothing", mode_text(model, mode), reg->name);
+    if (mode == kPosition && reg->number == registers::V_SOLL)
+        note = "it is in P_MODE, in which V_SOLL is only the limit on the way to P_SOLL";
+    if (session.common().yes && !note.empty()) session.remark("the motor: " + note);
+    session.ask(fmt::format("{} becomes {} while it records: the motor may move{}", reg->name,
+                            long_value_text(*reg, model, raw), note.empty() ? "" : " (" + note + ")"));
     return {reg, raw};
+}
+
+/// Through a gateway too, which may refuse it without an answer.
+void carry_out(Motor& motor, Move& move) {
+    move.state = Move::State::sent;
+    try {
+        motor.write(*move.reg, move.raw);
+    } catch (const mactalk_client::LineError& error) {
+        if (error.kind() != mactalk_client::LineError::Kind::no_answer) throw;
+        const std::string refusal = gateway_refusal(motor, Asked::write);
+        if (refusal.empty()) throw;
+        move.state = Move::State::refused;
+        refuse(fmt::format("{} was not written: {}", move.reg->name, refusal));
+    }
+    move.state = Move::State::done;
 }
 
 std::string phase_words(const RecordProgress& progress) {
@@ -125,7 +174,7 @@ void poll(Session& session, const Options& options, const RecordOptions& how) {
     session.progress("");
     const std::size_t count = recording.size();
     if (count == 0)
-        throw command_line::Failure(exit_code, why + "; no sample had been read, and nothing was written");
+        throw command_line::Failure(exit_code, why + "; no sample had been read, and no file was written");
     recording.incomplete = fmt::format("{} of {} were read: {}", count, counted(how.samples, "sample"),
                                        why.substr(0, why.find('\n')));
     const std::string csv = to_csv(recording);
@@ -155,6 +204,8 @@ void record_and_save(Session& session, const Options& options, const RecordOptio
         keep_broken(session, options, how, broken, error.what(), command_line::kNoAnswer);
     } catch (const mactalk_client::Interrupted& error) {
         keep_broken(session, options, how, broken, error.what(), command_line::kInterrupted);
+    } catch (const NotRecordable&) {
+        throw;
     } catch (const CannotRecord& error) {
         if (broken.size() == 0) throw;
         keep_broken(session, options, how, broken, error.what(), command_line::kRefused);
@@ -191,20 +242,30 @@ RecordOptions how_to(Session& session, const Options& options) {
 
 void record(Session& session, const Options& options) {
     RecordOptions how = how_to(session, options);
+    Motor& motor = session.motor();
     Move move;
     if (!options.move.empty()) {
         move = read_move(session, options.move);
-        how.then = [&] { session.motor().write(*move.reg, move.raw); };
+        how.then = [&] { carry_out(motor, move); };
     }
+    const auto ended = [&](const std::exception& error, int exit_code, const Json& details) {
+        session.progress("");
+        Json all = details;
+        if (move.reg != nullptr) all["moved"] = move.state >= Move::State::sent;
+        throw command_line::Failure(exit_code, error.what() + move.words(motor.model()), all);
+    };
     try {
-        if (options.poll) return poll(session, options, how);
-        record_and_save(session, options, how);
+        options.poll ? poll(session, options, how) : record_and_save(session, options, how);
+    } catch (const NotRecordable& error) {
+        ended(error, command_line::kUsageOrFile, Json::object());
     } catch (const CannotRecord& error) {
-        session.progress("");
-        refuse(error.what());
-    } catch (...) {
-        session.progress("");
-        throw;
+        ended(error, command_line::kRefused, Json::object());
+    } catch (const command_line::Failure& error) {
+        ended(error, error.exit_code(), error.details());
+    } catch (const mactalk_client::LineError& error) {
+        ended(error, command_line::kNoAnswer, Json::object());
+    } catch (const mactalk_client::Interrupted& error) {
+        ended(error, command_line::kInterrupted, Json::object());
     }
 }
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/subcommands.h"
+#include "cli/session.h"
 #include "macreg/change.h"
 #include "macreg/values.h"
 
@@ -49,7 +49,8 @@ void with_service(Session& session, const Options& options, const std::function<
         const Trail& trail = service.trail();
         throw command_line::Failure(exit_code, fmt::format("{}; {}", error.what(), service.left_behind()),
                                     {{"order", kOrders[static_cast<std::size_t>(trail.order)]},
-                                     {"stopped", !trail.ran_in.empty()},
+                                     {"told_to_stop", !trail.ran_in.empty()},
+                                     {"stopped", trail.stopped},
                                      {"perhaps_in_safe_mode", trail.in_safe_mode}});
     };
     try {
@@ -59,7 +60,8 @@ void with_service(Session& session, const Options& options, const std::function<
     } catch (const mactalk_client::Interrupted& error) {
         give_up(error, command_line::kInterrupted);
     } catch (const NotDone& error) {
-        if (service.trail().ran_in.empty()) throw;
+        // Refused before anything was sent: there is nothing to tell.
+        if (service.trail().ran_in.empty() && !service.trail().in_safe_mode) throw;
         give_up(error, command_line::kRefused);
     }
 }

@@ -166,10 +166,6 @@ std::string output_file(const std::string& option) {
     return option == "-" ? std::string() : option;
 }
 
-bool output_has_reader() {
-    return host::output_has_reader();
-}
-
 std::string counted(std::size_t count, const std::string& what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }

@@ -15,6 +15,7 @@ using command_line::add_command;
 using command_line::goes_on;
 using command_line::Json;
 using command_line::look_for_interruption;
+using command_line::output_has_reader;
 using command_line::UserError;
 
 /// What stands before or behind every subcommand. `address` 0: ask the only motor on the line for its own.
@@ -75,13 +76,14 @@ void guard(Common& common, const std::function<void()>& what);
 /// Of -o: empty for standard output, which is "-"; throws UserError if it names nothing.
 std::string output_file(const std::string& option);
 
-/// False once who reads standard output is gone: what writes seldom learns of it here.
-bool output_has_reader();
-
 /// "1 register", "2 registers"
 std::string counted(std::size_t count, const std::string& what);
 
 /// {"name":, "number":, "raw":, "value":} of a register's value.
 Json value_document(const registers::Register& reg, registers::Model model, std::int64_t raw);
+
+/// From a file of its own each; `add_service`: flash, safe, reset, prepare.
+command_line::Subcommand<Common> add_diff, add_dump, add_find, add_get, add_list, add_load, add_monitor,
+    add_plot, add_record, add_service, add_set, add_ui, add_watch, add_why;
 
 }  // namespace nplc::macreg::cli

@@ -1,12 +1,13 @@
 #include <fmt/format.h>
 
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/subcommands.h"
+#include "cli/session.h"
+#include "macreg/assignments.h"
 #include "macreg/change.h"
 #include "macreg/values.h"
-#include "registers/scale.h"
 
 namespace nplc::macreg::cli {
 namespace {
@@ -19,93 +20,71 @@ struct Options {
     bool force = false;
 };
 
-struct Assignment {
-    const Register* reg;
-    std::string text;
-    std::int64_t raw = 0;
-    std::string rounding{};
-};
-
-/// A unit that stands apart, or one more bit's name.
-bool belongs_to_value(const Register& reg, Model model, const std::string& word) {
-    if (registers::find(model, std::string_view(word)) != nullptr) return false;
-    if (reg.unit == registers::Unit::bits)
-        return typed_value(reg, model, word).error.empty() && word.find_first_of("0123456789") != 0;
-    return registers::raw_per_unit(reg, model, word).has_value();
-}
-
-/// NAME VALUE or NAME=VALUE, also several; a unit may stand apart: `V_SOLL 1500 rpm`.
-std::vector<Assignment> taken_apart(Model model, const std::vector<std::string>& words) {
-    std::vector<Assignment> all;
-    for (std::size_t i = 0; i < words.size();) {
-        const auto equals = words[i].find('=');
-        const std::string name = words[i].substr(0, equals);
-        const NamedRegister named = find_register(model, name);
-        if (named.reg == nullptr) throw UserError(named.error);
-        Assignment one{.reg = named.reg,
-                       .text = equals == std::string::npos ? "" : words[i].substr(equals + 1)};
-        ++i;
-        if (one.text.empty() && i < words.size()) one.text = words[i++];
-        while (i < words.size() && belongs_to_value(*named.reg, model, words[i]))
-            one.text += " " + words[i++];
-        if (one.text.empty())
-            throw UserError(fmt::format("'{}': write {} VALUE or {}=VALUE", name, name, name));
-        all.push_back(one);
-    }
-    return all;
-}
-
-std::vector<Assignment> assignments(Model model, const std::vector<std::string>& words) {
-    std::vector<Assignment> all = taken_apart(model, words);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        Assignment& one = all[i];
-        TypedValue typed = typed_value(*one.reg, model, one.text);
-        if (!typed.error.empty()) throw UserError(typed.error);
-        for (std::size_t k = 0; k < i; ++k) {
-            if (all[k].reg == one.reg)
-                throw UserError(fmt::format("{} is named twice; name it once", one.reg->name));
-        }
-        one.raw = typed.raw;
-        one.rounding = std::move(typed.rounding);
-    }
-    return all;
-}
-
 void look_for_danger(Session& session, const std::vector<Assignment>& all, bool force) {
-    std::string dangerous;
+    std::map<std::string, std::string> dangers;  // what may happen, and by which registers
     for (const Assignment& one : all) {
-        if (const std::string problem = no_mode(session.motor().model(), *one.reg, one.raw); !problem.empty())
+        const Model model = session.motor().model();
+        if (const std::string problem = no_mode(model, *one.reg, one.raw); !problem.empty())
             throw UserError(problem);
         if (one.reg->access == registers::Access::read_only && !force)
             throw UserError(
                 fmt::format("{} is read only: the motor overwrites it, or it only tells something; --force "
                             "writes it all the same",
                             one.reg->name));
-        if (one.reg->dangerous) dangerous += (dangerous.empty() ? "" : ", ") + std::string(one.reg->name);
+        if (const std::string what = danger(model, *one.reg, one.raw); !what.empty()) {
+            std::string& names = dangers[what];
+            names += fmt::format("{}{}", names.empty() ? "" : ", ", one.reg->name);
+        }
     }
-    if (dangerous.empty()) return;
-    if (!force)
-        throw UserError(
-            fmt::format("{}: a wrong value may damage the motor or upset its control; --force if you "
-                        "know that it is right",
-                        dangerous));
-    session.ask(fmt::format("{}: a wrong value may damage the motor or upset its control", dangerous));
+    if (dangers.empty()) return;
+    std::string text;
+    for (const auto& [what, names] : dangers)
+        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", names, what);
+    if (!force) throw UserError(text + "; --force if you know that it is right");
+    session.ask(text);
 }
 
 std::string line_of(const Assignment& one, Model model, const Outcome& outcome) {
-    return fmt::format("{} = {} (raw {}; was {})", one.reg->name, value_text(*one.reg, model, outcome.after),
-                       outcome.after, value_text(*one.reg, model, outcome.before));
+    return fmt::format("{} = {} (raw {}; was {})", one.reg->name,
+                       long_value_text(*one.reg, model, outcome.after), outcome.after,
+                       long_value_text(*one.reg, model, outcome.before));
+}
+
+/// Not all of it was written.
+[[noreturn]] void broke_off(const std::string& why, int exit_code, const std::vector<Assignment>& all,
+                            std::size_t done, bool in_doubt) {
+    std::string written;
+    Json names = Json::array();
+    for (std::size_t i = 0; i < done; ++i) {
+        written += fmt::format("{}{}", written.empty() ? "" : ", ", all[i].reg->name);
+        names.push_back(all[i].reg->name);
+    }
+    std::string text = fmt::format("{}; {}", why, done == 0 ? "nothing was written" : "written: " + written);
+    if (in_doubt)
+        text = fmt::format("{}{}; {} may have been written or not", why,
+                           done == 0 ? "" : "; written: " + written, all[done].reg->name);
+    throw command_line::Failure(exit_code, text, {{"written", names}, {"of", all.size()}});
 }
 
 void set(Session& session, const Options& options) {
     const Model model = session.motor().model();
-    const auto all = assignments(model, options.words);
+    const auto [all, wrong] = read_assignments(model, options.words);
+    if (!wrong.empty()) throw UserError(wrong);
     look_for_danger(session, all, options.force);
     std::string text;
     Json done = Json::array();
-    for (const Assignment& one : all) {
-        look_for_interruption();
-        const Outcome outcome = change(session.motor(), *one.reg, one.raw);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Assignment& one = all[i];
+        if (!goes_on()) broke_off("interrupted", command_line::kInterrupted, all, i, false);
+        const Outcome outcome = [&] {
+            try {
+                return change(session.motor(), *one.reg, one.raw);
+            } catch (const mactalk_client::LineError& error) {
+                broke_off(error.what(), command_line::kNoAnswer, all, i, true);
+            } catch (const Doubtful& error) {
+                broke_off(error.what(), command_line::kNoAnswer, all, i, true);
+            }
+        }();
         Json document = value_document(*one.reg, model, outcome.after);
         document["before"] = outcome.before;
         if (!one.rounding.empty()) document["rounding"] = one.rounding;

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "cli/subcommands.h"
+#include "cli/session.h"
 
 namespace nplc::macreg::cli {
 namespace {

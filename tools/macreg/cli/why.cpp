@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/subcommands.h"
+#include "cli/session.h"
 #include "macreg/values.h"
 
 namespace nplc::macreg::cli {
@@ -37,7 +37,7 @@ void why(Session& session) {
             const Register* reg = registers::find(condition.model, one);
             if (reg == nullptr) continue;
             values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", reg->name,
-                                  value_text(*reg, condition.model, condition.now.at(one)));
+                                  long_value_text(*reg, condition.model, condition.now.at(one)));
             registers.push_back(value_document(*reg, condition.model, condition.now.at(one)));
         }
         text += fmt::format("{}{}. {}\n", text.empty() ? "" : "\n", ++number, finding.sentence);

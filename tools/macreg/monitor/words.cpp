@@ -26,18 +26,6 @@ std::string register_words(reg::Model model, std::uint8_t number) {
     return fmt::format("{} ({})", found->name, number);
 }
 
-std::string_view shown_unit(const reg::Register& reg) {
-    if (reg.unit == reg::Unit::counts || reg.unit == reg::Unit::counts_16) return "counts";
-    const auto units = reg::units_of(reg.unit);
-    return units.empty() ? std::string_view() : units.front();
-}
-
-std::string value_words(reg::Model model, const reg::Register& reg, std::int64_t raw) {
-    if (shown_unit(reg) != "counts" || !names_text(reg, model, raw).empty())
-        return value_text(reg, model, raw);
-    return std::string(registers::to_text(raw, reg, model, "counts").view());
-}
-
 std::string bytes_words(reg::Model model, std::uint8_t number, std::uint32_t value, std::size_t bytes) {
     const reg::Register* found = reg::find(model, number);
     const std::size_t own = found != nullptr              ? reg::bytes_of(model, *found)
@@ -49,7 +37,7 @@ std::string bytes_words(reg::Model model, std::uint8_t number, std::uint32_t val
     if (found == nullptr || shown < own) return hex;
     const bool wide = model == reg::Model::mac800 && !reg::is_32_bit(found->format);
     const reg::Format format = wide ? reg::Format::long_int : found->format;
-    return fmt::format("{} = {}", hex, value_words(model, *found, reg::value_of(format, value)));
+    return fmt::format("{} = {}", hex, value_text(*found, model, reg::value_of(format, value)));
 }
 
 std::string hex_words(std::span<const std::uint8_t> bytes) {

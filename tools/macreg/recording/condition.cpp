@@ -5,7 +5,6 @@
 #include <array>
 
 #include "macreg/values.h"
-#include "macreg/words.h"
 
 namespace nplc::macreg {
 namespace {
@@ -79,7 +78,7 @@ std::string condition_words(const Condition& condition, registers::Model model) 
         if (sign.empty() && one.relation == condition.relation) sign = one.text;
     }
     return fmt::format("{} {} {}", condition.reg->name, sign,
-                       value_words(model, *condition.reg, condition.raw));
+                       value_text(*condition.reg, model, condition.raw));
 }
 
 }  // namespace nplc::macreg

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "base/bytes.h"
-#include "macreg/words.h"
+#include "macreg/values.h"
 #include "mactalk_client/master.h"
 #include "registers/convert.h"
 #include "registers/details.h"
@@ -65,8 +65,7 @@ class BufferRecorder {
           record_(mask("RECORDBIT")),
           rewind_(mask("REWINDBIT")),
           inner_(mask("RECINNERBIT")),
-          momentary_(record_ | rewind_ |
-                     mask(motor.model() == Model::mac800 ? "SYNCPOSAMAN" : "MAN_RESYNC")) {
+          momentary_(record_ | rewind_ | mask(motor.model() == Model::mac800 ? "SYNCPOSMAN" : "MAN_RESYNC")) {
         plan();
     }
 
@@ -111,13 +110,13 @@ class BufferRecorder {
             for (unsigned i = 0; i < count; ++i) slots_.push_back(static_cast<std::uint8_t>(reg->number + i));
             words += fmt::format("{}{} takes {}", words.empty() ? "" : ", ", reg->name, count);
         }
-        if (slots_.empty()) throw CannotRecord("name a register to record");
+        if (slots_.empty()) throw NotRecordable("name a register to record");
         if (slots_.size() > kSlots)
-            throw CannotRecord(fmt::format(
+            throw NotRecordable(fmt::format(
                 "a sample has {} words, and these registers need {} ({}); name fewer, or use --poll", kSlots,
                 slots_.size(), words));
         if (options_.samples < 1 || options_.samples > kMostSamples)
-            throw CannotRecord(
+            throw NotRecordable(
                 fmt::format("the buffer holds 1 to {} samples; use --poll for more", kMostSamples));
     }
 
@@ -287,7 +286,7 @@ Recording record_buffer(Motor& motor, const RecordOptions& options, Recording* b
 }
 
 void record_polling(Motor& motor, const RecordOptions& options, Recording& into) {
-    if (options.registers.empty()) throw CannotRecord("name a register to record");
+    if (options.registers.empty()) throw NotRecordable("name a register to record");
     into = empty_recording(motor, options);
     wait_for(motor, options);
     if (options.then) options.then();

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "macreg/words.h"
+#include "macreg/values.h"
 #include "registers/convert.h"
 
 namespace nplc::macreg {

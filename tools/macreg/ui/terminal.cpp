@@ -30,6 +30,7 @@ void on_crash(int signal) {
 
 constexpr int kEscape = 27;
 constexpr int kDelete = 127;
+constexpr int kCtrlU = 21;
 constexpr int kEscapeDelay = 50;  // milliseconds until an escape is just that
 
 KeyPress pressed(int code) {
@@ -67,6 +68,8 @@ KeyPress pressed(int code) {
         case '\b':
         case kDelete:
             return {Key::backspace};
+        case kCtrlU:
+            return {Key::erase};
         default:
             break;
     }

@@ -138,7 +138,7 @@ class App {
         Snapshot one(motor_->now());
         one.set(reg.number, motor_->read(reg), motor_->now());
         model_.store(one);
-        model_.tell(fmt::format("{} = {}", reg.name, value_words(options_.model, reg, one.at(reg.number))));
+        model_.tell(fmt::format("{} = {}", reg.name, value_text(reg, options_.model, one.at(reg.number))));
     }
 
     void write(const Register& reg, std::int64_t raw) {
@@ -155,7 +155,7 @@ class App {
         Snapshot one(motor_->now());
         one.set(reg.number, outcome.after, motor_->now());
         model_.store(one);
-        const std::string now = value_words(options_.model, reg, outcome.after);
+        const std::string now = value_text(reg, options_.model, outcome.after);
         if (!outcome.taken)
             return model_.tell(fmt::format("not taken, {} is {}: {}", reg.name, now, outcome.why), true);
         model_.tell(fmt::format("written; {} now reads {}{}{}", reg.name, now,

@@ -7,7 +7,6 @@
 
 #include "macreg/change.h"
 #include "macreg/values.h"
-#include "macreg/words.h"
 #include "registers/convert.h"
 
 namespace nplc::macreg {
@@ -105,6 +104,7 @@ Wish UiModel::browse(KeyPress key) {
         case Key::character:
             return browse_letter(key.character);
         case Key::backspace:
+        case Key::erase:
         case Key::none:
             break;
     }
@@ -177,7 +177,7 @@ void UiModel::ask_write() {
         if (!raw_of(reg.number)) return tell("read it first (r): the other bits stay as they are", true);
         return ask(Prompt::Kind::write, fmt::format("{}.{} := ", reg.name, fields()[field_].name));
     }
-    ask(Prompt::Kind::write, fmt::format("{} ({}) := ", reg.name, range_text(reg, model_)));
+    ask(Prompt::Kind::write, fmt::format("{} ({}) := ", reg.name, choice_text(reg, model_)));
 }
 
 Wish UiModel::answer_prompt(KeyPress key) {
@@ -188,6 +188,9 @@ Wish UiModel::answer_prompt(KeyPress key) {
             break;
         case Key::backspace:
             if (!prompt_.text.empty()) prompt_.text.pop_back();
+            break;
+        case Key::erase:
+            prompt_.text.clear();
             break;
         case Key::escape:
             if (searches) row_ = row_before_search_;
@@ -255,16 +258,16 @@ Wish UiModel::finish_write() {
     }
     prompt_ = {};
     const bool overwritten = reg.access == registers::Access::read_only;
-    if (!reg.dangerous && !overwritten) return wish;
+    const std::string harm = danger(model_, reg, wish.raw);
+    if (harm.empty() && !overwritten) return wish;
     pending_ = wish;
-    const std::string value = value_words(model_, reg, wish.raw);
-    if (!reg.dangerous) {
+    const std::string value = value_text(reg, model_, wish.raw);
+    if (harm.empty()) {
         ask(Prompt::Kind::confirm,
             fmt::format("{} is read only, the motor overwrites it; type yes: ", reg.name));
         return {};
     }
-    ask(Prompt::Kind::confirm, fmt::format("{} := {} may damage the motor or upset its control; type yes: ",
-                                           reg.name, value_words(model_, reg, wish.raw)));
+    ask(Prompt::Kind::confirm, fmt::format("{} := {}: {}; type yes: ", reg.name, value, harm));
     return {};
 }
 
@@ -361,7 +364,7 @@ std::string UiModel::state_words() const {
     const auto mode = raw_of(registers::MODE_REG);
     const auto errors = raw_of(registers::ERR_STAT);
     if (!mode || !errors) return "reading";
-    std::string words = value_words(model_, *registers::find(model_, registers::MODE_REG), *mode);
+    std::string words = value_text(*registers::find(model_, registers::MODE_REG), model_, *mode);
     const auto bits = static_cast<std::uint32_t>(*errors);
     bool any = false;
     for (const Field& field : registers::fields_of(model_, registers::ERR_STAT)) {

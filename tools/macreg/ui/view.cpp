@@ -8,7 +8,7 @@
 
 #include "curses_headers.h"
 #include "macreg/curve.h"
-#include "macreg/words.h"
+#include "macreg/values.h"
 #include "macreg/wrap.h"
 
 namespace nplc::macreg {
@@ -139,7 +139,7 @@ class Screen {
             fmt::format("{:>3}{}{:<12} ", reg.number, reg.dangerous ? '!' : ' ', reg.name);
         const auto raw = model_.raw_of(reg.number);
         if (!raw) return head + "-";
-        const std::string value = value_words(model_.model(), reg, *raw);
+        const std::string value = value_text(reg, model_.model(), *raw);
         const std::string plain = fmt::format("{}", *raw);
         const int room = width - static_cast<int>(head.size() + value.size()) - 1;
         if (value.starts_with(plain) || room < static_cast<int>(plain.size())) return head + value;

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/subcommands.h"
+#include "cli/session.h"
 #include "nanoctl/words.h"
 
 namespace nplc::nanoctl::cli {

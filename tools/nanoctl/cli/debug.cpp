@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "cli/subcommands.h"
+#include "cli/session.h"
 #include "nanoctl/words.h"
 
 namespace nplc::nanoctl::cli {
@@ -115,7 +115,7 @@ void keep_forces(Session& session, double seconds) {
     const base::Instant begun = session.now();
     const base::Microseconds limit{static_cast<std::int64_t>(seconds * 1e6)};
     const std::uint32_t timeout = std::max(session.gateway().read(gw::FORCE_LEFT), 100U);
-    while (goes_on() && (seconds == 0 || session.now() - begun < limit)) {
+    while (goes_on() && output_has_reader() && (seconds == 0 || session.now() - begun < limit)) {
         session.pause(base::Milliseconds{std::min(timeout / 4, 500U)});
         session.gateway().write(gw::FORCE_LEFT, 0);
     }
@@ -198,7 +198,8 @@ void add_force(arguments::App& app, Common& common) {
     const auto options = std::make_shared<ForceOptions>();
     command.add_option("what", options->what, "IN2=1 OUT0=0 ..., or names of the program with --sym");
     command.add_flag("--off", options->off, "End all forces first");
-    command.add_flag("--keep", options->keep, "Keep them until Ctrl-C, then end them");
+    command.add_flag("--keep", options->keep,
+                     "Keep them until Ctrl-C, or until nobody reads this, then end them");
     command.add_option("--for", options->seconds, "Keep them for so many seconds, then end them")
         ->non_negative();
     command.callback([options, &common] { work(common, [&](Session& s) { force(s, *options); }); });

@@ -13,6 +13,7 @@ namespace nplc::nanoctl::cli {
 using command_line::add_command;
 using command_line::goes_on;
 using command_line::Json;
+using command_line::output_has_reader;
 using command_line::UserError;
 
 /// The last orders are finished and the motor is stopped within it, or something is wrong.
@@ -52,5 +53,10 @@ class Session {
 
 /// Does the work of a subcommand with an open session; sets the exit code and tells what went wrong.
 void work(Common& common, const std::function<void(Session&)>& what);
+
+/// `add_transfers`: upload, verify, download. `add_controls`: run, stop, safe, hold, activate, reset.
+/// `add_stepping`: step, scan. `add_status`: status, watch.
+command_line::Subcommand<Common> add_break, add_controls, add_force, add_log, add_settings, add_status,
+    add_stepping, add_transfers;
 
 }  // namespace nplc::nanoctl::cli

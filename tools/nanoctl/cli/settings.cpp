@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "cli/subcommands.h"
+#include "cli/session.h"
 
 namespace nplc::nanoctl::cli {
 namespace {

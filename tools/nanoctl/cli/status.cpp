@@ -1,9 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/subcommands.h"
+#include "cli/session.h"
 #include "nanoctl/words.h"
 
 namespace nplc::nanoctl::cli {
@@ -108,12 +109,18 @@ struct WatchOptions {
     bool all = false;
 };
 
+/// Between two looks whether it is to end.
+constexpr base::Microseconds kLook{100'000};
+
 /// A line at every change of what matters, with the gateway's time.
 void watch(Session& session, const WatchOptions& options) {
     const base::Instant begun = session.now();
     const base::Microseconds limit{static_cast<std::int64_t>(options.seconds * 1e6)};
     std::string last;
-    while (goes_on() && (options.seconds == 0 || session.now() - begun < limit)) {
+    const auto ends = [&] {
+        return !goes_on() || !output_has_reader() || (options.seconds > 0 && session.now() - begun >= limit);
+    };
+    while (!ends()) {
         const Status status = session.status();
         Status quiet = status;
         quiet.timer = 0;
@@ -125,7 +132,9 @@ void watch(Session& session, const WatchOptions& options) {
                 document_of(status, session.names()));
         }
         last = line;
-        session.pause(base::Milliseconds{options.interval_ms});
+        const base::Instant next = session.now() + base::Milliseconds{options.interval_ms};
+        while (session.now() < next && !ends())
+            session.pause(std::min<base::Microseconds>(kLook, next - session.now()));
     }
 }
 
@@ -136,8 +145,9 @@ void add_status(arguments::App& app, Common& common) {
         work(common, show_status);
     });
     const auto options = std::make_shared<WatchOptions>();
-    arguments::App& command =
-        add_command(app, "watch", "A line at every change, until Ctrl-C; with --json a document a line");
+    arguments::App& command = add_command(
+        app, "watch",
+        "A line at every change, until Ctrl-C or until nobody reads it; with --json a document a line");
     command.add_option("--interval", options->interval_ms, "Milliseconds between two looks")
         ->capture_default_str()
         ->in_range(0, 60'000);

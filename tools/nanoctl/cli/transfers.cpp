@@ -6,7 +6,7 @@
 
 #include "base/crc32.h"
 #include "cli/files.h"
-#include "cli/subcommands.h"
+#include "cli/session.h"
 #include "host/terminal.h"
 #include "nanoctl/transfer.h"
 #include "nanoctl/words.h"

@@ -41,6 +41,8 @@ class ByteClient {
     /// Waits no longer than `wait` for a first byte; how many it put into `out`. Nothing if the other end is
     /// gone.
     virtual std::optional<std::size_t> read(std::span<std::uint8_t> out, base::Microseconds wait) = 0;
+    /// Which other program the far end serves, "macreg (process 1234)"; empty where that cannot be told.
+    virtual std::string other_client() const { return {}; }
     /// Monotonic.
     virtual base::Instant now() const = 0;
 

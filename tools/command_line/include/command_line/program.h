@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -23,6 +24,11 @@ enum Exit : int {
 };
 
 using Json = nlohmann::ordered_json;
+
+/// Speeds that lines have, the usual one first. 001 and 002 know 19200 only; expansion modules and converters
+/// may be set otherwise.
+inline constexpr std::array<std::uint32_t, 11> kSpeeds{19'200, 9'600, 38'400,  57'600,  115'200, 4'800,
+                                                       2'400,  1'200, 230'400, 460'800, 921'600};
 
 /// One line for a person and the program's exit code. `details` go into the document of --json. Who throws
 /// one with details, or tells something, includes <nlohmann/json.hpp>.
@@ -59,6 +65,10 @@ struct Common {
 /// --port (or the environment's PROGRAM_PORT), --baud, --patience, --json. `of_whom` is "the gateway".
 void add_line_options(arguments::App& app, Common& common, const std::string& of_whom);
 
+/// Adds a subcommand, or several of a kind; their work ends in the program's `Options::exit_code`.
+template <class Options>
+using Subcommand = void(arguments::App& app, Options& common);
+
 /// A subcommand that has the common options too.
 arguments::App& add_command(arguments::App& app, const std::string& name, const std::string& text);
 
@@ -76,6 +86,9 @@ void tell(const Common& common, const std::string& text, const Json& document);
 
 /// Until SIGINT or SIGTERM came. A second one ends the program at once.
 bool goes_on();
+
+/// False once who reads standard output is gone: what writes seldom learns of it here.
+bool output_has_reader();
 
 /// Throws mactalk_client::Interrupted if one came.
 void look_for_interruption();

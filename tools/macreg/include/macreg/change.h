@@ -4,6 +4,7 @@
 #include <string>
 
 #include "macreg/motor.h"
+#include "registers/gateway.h"
 
 /// One register's change, read back, and why it was not taken if it was not.
 namespace nplc::macreg {
@@ -28,11 +29,32 @@ std::string no_mode(registers::Model model, const registers::Register& reg, std:
 /// "ERR_STAT has FLW_ERR"; empty if none of the errors that keep the motor in INIT_MODE is set.
 std::string errors_text(registers::Model model, std::int64_t err_stat);
 
+/// What may go wrong with this value, for a question; empty: nothing that `set` would ask about. Registers
+/// that are dangerous, and the maker's test modes, which turn the shaft without regulating it (001 §4.4.8 to
+/// §4.4.11; 004: "reserved").
+std::string danger(registers::Model model, const registers::Register& reg, std::int64_t raw);
+
+/// The command that clears the errors and leaves ERR_STAT's settings (RELPOSPFNC, DIS_P_LIM ...) as they are.
+std::string clear_errors_command(registers::Model model, std::int64_t err_stat);
+/// The command that gives CNTRL_BITS these settings more (`set`) and less (`clear`), the others as they are.
+std::string control_command(registers::Model model, std::int64_t now, std::int64_t set, std::int64_t clear);
+/// The commands that give P_SOLL, P_IST and P_FNC one value (001 §3.2.163); the motor does not move.
+std::string resynchronise_command(registers::Model model, std::int64_t control_bits, std::int64_t p_ist);
+
 /// ERR_STAT's bits that keep the motor in INIT_MODE (001 §3.2.35, §4.4.1; R: 004's by their kind).
 std::uint32_t error_bits(registers::Model model);
 
+/// Of the gateway's setting motor_writes: 1 allows writes while the sequence runs, 2 the rest too.
+inline constexpr std::uint8_t kMotorWrites = registers::gateway::SETTINGS + 10;
+
+/// What a gateway did not let through.
+enum class Asked : std::uint8_t {
+    write,    ///< of a register
+    service,  ///< SAFE_MODE, flash, reset
+};
+
 /// What a gateway between us and the motor says of a message that it did not let through; empty if there is
 /// none.
-std::string gateway_refusal(Motor& motor);
+std::string gateway_refusal(Motor& motor, Asked asked);
 
 }  // namespace nplc::macreg

@@ -76,10 +76,10 @@ class Motor {
     /// By a name of 001 §3.2 that the model has.
     std::int64_t read(std::string_view name) { return read(*find(name)); }
 
-    /// In as few messages as it takes. Registers that lie close together come in one block and are of one
-    /// instant; through a gateway each is asked for alone.
+    /// In as few messages as it takes. Registers that lie close together come in one block, as below.
     Snapshot read_block(std::span<const Register* const> registers);
-    /// The registers of the map that lie in the block of 64 bytes from `first` on, all of one instant.
+    /// The registers of the map that lie in the block of 64 bytes from `first` on. All of one instant, unless
+    /// the block came damaged twice, or through a gateway: then each is asked for alone.
     Snapshot read_block(std::uint8_t first);
 
     /// Of the register's exact width, so that no other changes. Out of its format's range: std::out_of_range.
@@ -93,7 +93,8 @@ class Motor {
 
   private:
     void store(Snapshot& snapshot, std::uint8_t first, std::span<const std::uint8_t> bytes);
-    std::optional<std::array<std::uint8_t, 64>> read_bytes(std::uint8_t first);
+    /// In a block from `first` on, of one instant; on a bad line one by one.
+    Snapshot read_near(std::uint8_t first, std::span<const Register* const> wanted);
 
     mactalk_client::Master& master_;
     std::uint8_t address_;

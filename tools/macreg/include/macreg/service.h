@@ -21,6 +21,8 @@ struct Trail {
     enum class Order : std::uint8_t { none, sent, done };
 
     std::string ran_in{};       ///< the mode it was told to stop in; empty: it was passive
+    bool stopped = false;       ///< it has done so
+    std::string turns{};        ///< "V_IST 200 rpm" if it still turned when waiting for that ended
     bool in_safe_mode = false;  ///< it could not be taken out again
     Order order = Order::none;  ///< to write flash, to reset, to read parameters
 };
@@ -74,6 +76,8 @@ class Service {
     std::string left_behind() const;
 
   private:
+    std::string stop_words() const;
+
     enum class Task : std::uint8_t { safe_mode, save, defaults, unsaved_defaults, reload, reset };
 
     void begin(Task task);

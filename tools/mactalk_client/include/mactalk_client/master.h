@@ -51,6 +51,7 @@ class Master {
   public:
     struct Counters {
         std::uint64_t questions = 0;  ///< sent, the repeats included
+        std::uint64_t answers = 0;    ///< whole ones
         std::uint64_t timeouts = 0;
         std::uint64_t stray_bytes = 0;  ///< received and part of no answer
     };
@@ -111,7 +112,7 @@ class Master {
     void settle(bool for_accept);
     base::Microseconds on_line(std::size_t bytes) const;
     [[noreturn]] void no_answer(std::uint8_t address, unsigned attempts) const;
-    [[noreturn]] void gone() const;
+    [[noreturn]] void gone();
 
     Wire& wire_;
     MasterOptions options_;

@@ -22,6 +22,8 @@ class Wire {
     /// Waits no longer than `wait` for a first byte; nothing if the other end is gone.
     virtual std::optional<std::size_t> read(std::span<std::uint8_t> out, base::Microseconds wait) = 0;
     virtual base::Instant now() = 0;
+    /// Which other program the far end serves, "macreg (process 1234)"; empty where that cannot be told.
+    virtual std::string other_client() { return {}; }
 };
 
 struct OpenedWire {

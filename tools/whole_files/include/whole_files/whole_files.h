@@ -11,6 +11,7 @@ struct FileText {
 };
 
 FileText read_file(const std::string& path);
+/// No more than 256 MiB: what has no end is none of ours.
 FileText read_standard_input();
 
 /// A device or pipe, which is written to in place: a rename would replace it.

@@ -18,6 +18,12 @@ class CannotRecord : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// What was asked for cannot be, of any motor.
+class NotRecordable : public CannotRecord {
+  public:
+    using CannotRecord::CannotRecord;
+};
+
 struct RecordProgress {
     enum class Phase : std::uint8_t { waiting, recording, reading } phase;
     std::size_t done;
@@ -48,8 +54,8 @@ unsigned sample_words(registers::Model model, const registers::Register& reg);
 
 /// Records in the motor's sample buffer (001 §3.2.36, §3.2.112-116) and reads it by 53h. A sample whose
 /// answer was lost is read again after a rewind. SAMPLE1..4 and RECINNERBIT are put back whatever happens,
-/// and recording is stopped. Throws CannotRecord, LineError, and what `progress` throws; `broken` then holds
-/// what had been read, each sample with its time.
+/// and recording is stopped. Throws CannotRecord (NotRecordable before anything was asked), LineError, and
+/// what `progress` throws; `broken` then holds what had been read, each sample with its time.
 Recording record_buffer(Motor& motor, const RecordOptions& options, Recording* broken = nullptr);
 
 /// Reads the registers as fast as the line permits; each row has the time in the middle of its questions.

@@ -30,7 +30,7 @@ struct Recording {
 
 /// A column for a register, in the unit that the screen shows too.
 Recording::Column column_of(const registers::Register& reg);
-/// The number that `value_words` shows, without its unit.
+/// The number that `value_text` shows, without its unit.
 double shown_value(const registers::Register& reg, registers::Model model, std::int64_t raw);
 
 /// Comment lines with `#` (model, address, rate, start, incomplete), a header `time_s,P_IST [counts],...`, a

@@ -35,6 +35,7 @@ enum class Key : std::uint8_t {
     enter,
     escape,
     backspace,
+    erase,  ///< the whole line
 };
 
 struct KeyPress {
