@@ -1,14 +1,16 @@
-#include "shared_line.h"
+#include "shared_line/shared_line.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-namespace nplc::sim {
+namespace nplc::boards {
 
 namespace mactalk = protocol::mactalk;
 
 namespace {
+
+using Time = SharedLine::Time;
 
 /// Samples are 8 or 16 bytes: over once nothing more comes.
 constexpr Time kSilenceAfterSamples = std::chrono::milliseconds{20};
@@ -81,6 +83,12 @@ std::vector<std::uint8_t> SharedLine::to_line(Time now, const Addresses& address
     return frame.bytes;
 }
 
+std::optional<Time> SharedLine::next_turn(Time now) const {
+    if (next_seat()) return now;
+    if (asking_) return until_;
+    return std::nullopt;
+}
+
 void SharedLine::expect(std::size_t number, const Frame& frame, Time now, const Addresses& addresses) {
     const mactalk::Answer answer = mactalk::answer_to(frame.kind);
     const bool again = asking_.has_value();
@@ -115,4 +123,4 @@ void SharedLine::from_line(std::span<const std::uint8_t> bytes, Time now) {
     }
 }
 
-}  // namespace nplc::sim
+}  // namespace nplc::boards
