@@ -11,6 +11,8 @@
 namespace nplc::hal_linux {
 namespace {
 
+constexpr base::Microseconds kLongestWait = std::chrono::hours(24);  // a time_t may have 32 bits
+
 constexpr int kWriteWaitMs = 1000;
 
 }  // namespace
@@ -32,8 +34,9 @@ bool DescriptorClient::write(std::span<const std::uint8_t> bytes) {
 
 std::optional<std::size_t> DescriptorClient::read(std::span<std::uint8_t> out, base::Microseconds wait) {
     pollfd state{.fd = descriptor(), .events = POLLIN, .revents = 0};
-    const auto count = std::max<std::int64_t>(wait.count(), 0);
-    const timespec limit{.tv_sec = count / 1'000'000, .tv_nsec = count % 1'000'000 * 1000};
+    const auto count = std::clamp(wait, base::Microseconds(0), kLongestWait).count();
+    const timespec limit{.tv_sec = static_cast<time_t>(count / 1'000'000),
+                         .tv_nsec = static_cast<long>(count % 1'000'000 * 1000)};
     if (::ppoll(&state, 1, &limit, nullptr) <= 0) return 0;
     const ssize_t got = ::read(descriptor(), out.data(), out.size());
     if (got > 0) return static_cast<std::size_t>(got);

@@ -25,7 +25,7 @@ class DiskStorage final : public FileStorage {
 
     base::Status read(std::uint32_t address, std::span<std::uint8_t> out) override {
         if (!inside(address, out.size())) return base::Error::bad_geometry;
-        const ssize_t count = ::pread(file_.get(), out.data(), out.size(), address);
+        const ssize_t count = ::pread(file_.get(), out.data(), out.size(), static_cast<off_t>(address));
         if (count != static_cast<ssize_t>(out.size())) return base::Error::storage_failed;
         return {};
     }
@@ -58,7 +58,7 @@ class DiskStorage final : public FileStorage {
     }
 
     base::Status write(std::uint32_t address, std::span<const std::uint8_t> bytes) {
-        const ssize_t count = ::pwrite(file_.get(), bytes.data(), bytes.size(), address);
+        const ssize_t count = ::pwrite(file_.get(), bytes.data(), bytes.size(), static_cast<off_t>(address));
         failed_ = count != static_cast<ssize_t>(bytes.size()) || ::fdatasync(file_.get()) != 0;
         return {};
     }

@@ -4,11 +4,14 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <filesystem>
 
 #include "gpio_chip.h"
 
 namespace nplc::hal_linux {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct Place {
     std::string chip;
@@ -16,44 +19,98 @@ struct Place {
     std::string problem{};
 };
 
+/// Some boards have links from older names of a chip.
 std::string path_of(const std::string& chip) {
-    return chip.starts_with('/') ? chip : "/dev/" + chip;
+    const std::string path = chip.starts_with('/') ? chip : "/dev/" + chip;
+    std::error_code error;
+    const fs::path real = fs::canonical(path, error);
+    return error ? path : real.string();
 }
 
-/// By name, or CHIP:OFFSET; a line's name may have a colon in it too.
-Place place_of(const std::string& where) {
-    if (where.empty()) return {{}, 0, "no line is named; write gpiochip0:17 or a line's name"};
+std::vector<std::string> chips() {
+    std::vector<std::string> found;
+    std::error_code error;
+    for (fs::directory_iterator entry("/dev", error), end; !error && entry != end; entry.increment(error)) {
+        const std::string name = entry->path().filename();
+        if (name.starts_with("gpiochip") && !entry->is_symlink(error)) found.push_back(entry->path());
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+std::string trouble_with(const std::string& chip, int error) {
+    if (error == ENOENT) return "there is no " + chip + "; `gpiodetect` lists the chips";
+    if (error == EACCES || error == EPERM)
+        return "you may not use " + chip + "; join the group that may (often gpio)";
+    if (error == ENOTTY || error == ENODEV || error == EINVAL) return chip + " is not a GPIO chip";
+    return chip + ": " + std::strerror(error);
+}
+
+/// CHIP:OFFSET, or nothing.
+std::optional<Place> numbered(const std::string& where) {
     const std::size_t colon = where.rfind(':');
+    if (colon == std::string::npos || colon == 0 || colon + 1 == where.size()) return std::nullopt;
     unsigned offset = 0;
     const char* end = where.data() + where.size();
-    const bool has_offset = colon != std::string::npos && colon > 0 &&
-                            std::from_chars(where.data() + colon + 1, end, offset).ptr == end &&
-                            colon + 1 < where.size();
-    if (const auto found = has_offset ? std::nullopt : find_line(where)) return {found->chip, found->offset};
-    if (!has_offset)
-        return {
-            {},
-            0,
-            "no chip has a line of the name '" + where + "'; `gpioinfo` lists them, or write gpiochip0:17"};
-    Place place{path_of(where.substr(0, colon)), offset};
+    if (std::from_chars(where.data() + colon + 1, end, offset).ptr != end) return std::nullopt;
+    return Place{path_of(where.substr(0, colon)), offset};
+}
+
+Place named(const std::string& name) {
+    std::vector<Place> found;
+    std::string refused;
+    for (const std::string& chip : chips()) {
+        int error = 0;
+        const std::vector<LineInfo> lines = lines_of(chip, error);
+        if (error == EACCES || error == EPERM) refused = trouble_with(chip, error);
+        for (unsigned i = 0; i < lines.size(); ++i) {
+            if (lines[i].name == name) found.push_back({chip, i});
+        }
+    }
+    if (found.size() == 1) return found[0];
+    if (found.size() > 1)
+        return {{},
+                0,
+                "more than one line has the name '" + name + "': " + found[0].chip + ":" +
+                    std::to_string(found[0].offset) + " and " + found[1].chip + ":" +
+                    std::to_string(found[1].offset) + "; write one of these instead"};
+    if (!refused.empty()) return {{}, 0, refused};
+    return {
+        {}, 0, "no chip has a line of the name '" + name + "'; `gpioinfo` lists them, or write gpiochip0:17"};
+}
+
+/// A line's name may end in a colon and digits too, so a chip that is not there is looked for as a name.
+Place place_of(const std::string& where) {
+    if (where.empty()) return {{}, 0, "no line is named; write gpiochip0:17 or a line's name"};
+    std::optional<Place> place = numbered(where);
+    if (!place) return named(where);
     int error = 0;
-    const unsigned count = lines_of(place.chip, error);
-    if (error == ENOENT)
-        place.problem = "there is no " + place.chip + "; `gpiodetect` lists the chips";
-    else if (error == EACCES)
-        place.problem = "you may not use " + place.chip + "; join the group that may (often gpio)";
-    else if (error != 0)
-        place.problem = place.chip + ": " + std::strerror(error);
-    else if (offset >= count)
-        place.problem = place.chip + " has lines 0 to " + std::to_string(count - 1);
-    return place;
+    const std::size_t count = lines_of(place->chip, error).size();
+    if (error == ENOENT) {
+        if (const Place other = named(where); other.problem.empty()) return other;
+    }
+    if (error != 0)
+        place->problem = trouble_with(place->chip, error);
+    else if (place->offset >= count)
+        place->problem = place->chip + " has the lines 0 to " + std::to_string(count - 1) + ", not " +
+                         std::to_string(place->offset);
+    return *place;
+}
+
+std::string name_of(const ChipWanted& wanted, std::size_t line) {
+    return wanted.chip + ":" + std::to_string(wanted.lines[line].offset);
 }
 
 std::string refusal(const ChipWanted& wanted, const ChipRequested& answer) {
-    const std::string line = wanted.chip + ":" + std::to_string(wanted.lines[answer.line].offset);
-    if (answer.error == EBUSY)
-        return "a line of " + wanted.chip + " is in use by another program or driver; `gpioinfo` names it";
-    return line + ": " + std::strerror(answer.error);
+    int error = 0;
+    const std::vector<LineInfo> lines = lines_of(wanted.chip, error);
+    for (std::size_t i = 0; answer.error == EBUSY && i < wanted.lines.size(); ++i) {
+        const unsigned offset = wanted.lines[i].offset;
+        if (offset < lines.size() && lines[offset].used)
+            return name_of(wanted, i) + " is in use by '" + lines[offset].consumer +
+                   "'; end that program, or free the line of that driver";
+    }
+    return name_of(wanted, answer.line) + ": " + std::strerror(answer.error);
 }
 
 }  // namespace
@@ -90,6 +147,7 @@ GpioBits::GpioBits() = default;
 GpioBits::~GpioBits() = default;
 
 std::string GpioBits::take(const Wanted& wanted) {
+    if (wanted.lines.size() > kMostLines) return "at most 8 lines can be had at once";
     std::vector<Part> parts;
     for (std::size_t bit = 0; bit < wanted.lines.size(); ++bit) {
         const auto& line = wanted.lines[bit];

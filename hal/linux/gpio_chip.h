@@ -12,6 +12,8 @@
 /// lines.
 namespace nplc::hal_linux {
 
+constexpr std::size_t kMostLines = 8;  ///< of one request
+
 struct ChipLine {
     unsigned offset;
     bool active_low;
@@ -41,14 +43,12 @@ struct ChipRequested {
 };
 ChipRequested request_lines(const ChipWanted& wanted);
 
-struct FoundLine {
-    std::string chip;
-    unsigned offset;
+struct LineInfo {
+    std::string name;
+    bool used;
+    std::string consumer;  ///< who uses it
 };
-/// Of all chips the first that has a line of this name.
-std::optional<FoundLine> find_line(const std::string& name);
-
-/// 0 if there is no such chip; `error` is errno.
-unsigned lines_of(const std::string& chip, int& error);
+/// Of the lines of a chip. None if it cannot be opened; `error` is errno.
+std::vector<LineInfo> lines_of(const std::string& chip, int& error);
 
 }  // namespace nplc::hal_linux

@@ -15,6 +15,10 @@ Chip open_chip(const std::string& path) {
     return {gpiod_chip_open(path.c_str()), &gpiod_chip_close};
 }
 
+std::string text(const char* words) {
+    return words == nullptr ? "" : words;
+}
+
 int flags_of(const ChipLine& line) {
     int flags = line.active_low ? GPIOD_LINE_REQUEST_FLAG_ACTIVE_LOW : 0;
     switch (line.bias) {
@@ -105,17 +109,20 @@ ChipRequested request_lines(const ChipWanted& wanted) {
     return {std::move(request), 0};
 }
 
-std::optional<FoundLine> find_line(const std::string& name) {
-    gpiod_line* line = gpiod_line_find(name.c_str());
-    if (line == nullptr) return std::nullopt;
-    const Chip chip(gpiod_line_get_chip(line), &gpiod_chip_close);
-    return FoundLine{std::string("/dev/") + gpiod_chip_name(chip.get()), gpiod_line_offset(line)};
-}
-
-unsigned lines_of(const std::string& path, int& error) {
+std::vector<LineInfo> lines_of(const std::string& path, int& error) {
     const Chip chip = open_chip(path);
     error = chip == nullptr ? errno : 0;
-    return chip == nullptr ? 0 : gpiod_chip_num_lines(chip.get());
+    std::vector<LineInfo> all;
+    for (unsigned i = 0; chip != nullptr && i < gpiod_chip_num_lines(chip.get()); ++i) {
+        gpiod_line* line = gpiod_chip_get_line(chip.get(), i);
+        if (line == nullptr) {
+            all.push_back({});
+            continue;
+        }
+        all.push_back(
+            {text(gpiod_line_name(line)), gpiod_line_is_used(line), text(gpiod_line_consumer(line))});
+    }
+    return all;
 }
 
 }  // namespace nplc::hal_linux

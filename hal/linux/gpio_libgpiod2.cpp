@@ -1,9 +1,7 @@
 #include <gpiod.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
-#include <filesystem>
 
 #include "gpio_chip.h"
 
@@ -19,6 +17,7 @@ using Owned = std::unique_ptr<T, Free<T, kFree>>;
 
 using Chip = Owned<gpiod_chip, gpiod_chip_close>;
 using ChipInfo = Owned<gpiod_chip_info, gpiod_chip_info_free>;
+using Info = Owned<gpiod_line_info, gpiod_line_info_free>;
 using Settings = Owned<gpiod_line_settings, gpiod_line_settings_free>;
 using LineConfig = Owned<gpiod_line_config, gpiod_line_config_free>;
 using RequestConfig = Owned<gpiod_request_config, gpiod_request_config_free>;
@@ -26,7 +25,6 @@ using LineRequest = Owned<gpiod_line_request, gpiod_line_request_release>;
 using Events = Owned<gpiod_edge_event_buffer, gpiod_edge_event_buffer_free>;
 
 constexpr std::size_t kEventsAtOnce = 16;
-constexpr std::size_t kMostLines = 8;
 using Values = std::array<gpiod_line_value, kMostLines>;
 
 gpiod_line_value value_of(unsigned levels, std::size_t bit) {
@@ -97,16 +95,8 @@ class Request final : public ChipRequest {
     std::size_t count_;
 };
 
-/// Of the chips that there are, in the order of their names.
-std::vector<std::string> chips() {
-    std::vector<std::string> found;
-    std::error_code error;
-    for (std::filesystem::directory_iterator entry("/dev", error), end; !error && entry != end;
-         entry.increment(error)) {
-        if (gpiod_is_gpiochip_device(entry->path().c_str())) found.push_back(entry->path());
-    }
-    std::sort(found.begin(), found.end());
-    return found;
+std::string text(const char* words) {
+    return words == nullptr ? "" : words;
 }
 
 }  // namespace
@@ -126,22 +116,21 @@ ChipRequested request_lines(const ChipWanted& wanted) {
     return {std::make_unique<Request>(std::move(request), wanted.lines.size()), 0};
 }
 
-std::optional<FoundLine> find_line(const std::string& name) {
-    for (const std::string& path : chips()) {
-        const Chip chip(gpiod_chip_open(path.c_str()));
-        if (chip == nullptr) continue;
-        const int offset = gpiod_chip_get_line_offset_from_name(chip.get(), name.c_str());
-        if (offset >= 0) return FoundLine{path, static_cast<unsigned>(offset)};
-    }
-    return std::nullopt;
-}
-
-unsigned lines_of(const std::string& path, int& error) {
+std::vector<LineInfo> lines_of(const std::string& path, int& error) {
     const Chip chip(gpiod_chip_open(path.c_str()));
-    error = chip == nullptr ? errno : 0;
-    if (chip == nullptr) return 0;
-    const ChipInfo info(gpiod_chip_get_info(chip.get()));
-    return info == nullptr ? 0 : static_cast<unsigned>(gpiod_chip_info_get_num_lines(info.get()));
+    const ChipInfo info(chip == nullptr ? nullptr : gpiod_chip_get_info(chip.get()));
+    error = info == nullptr ? errno : 0;
+    std::vector<LineInfo> all;
+    for (unsigned i = 0; info != nullptr && i < gpiod_chip_info_get_num_lines(info.get()); ++i) {
+        const Info line(gpiod_chip_get_line_info(chip.get(), i));
+        if (line == nullptr) {
+            all.push_back({});
+            continue;
+        }
+        all.push_back({text(gpiod_line_info_get_name(line.get())), gpiod_line_info_is_used(line.get()),
+                       text(gpiod_line_info_get_consumer(line.get()))});
+    }
+    return all;
 }
 
 }  // namespace nplc::hal_linux

@@ -9,7 +9,11 @@
 
 #include "ports/digital_io.h"
 
-/// Inputs and outputs on lines of the kernel's GPIO chips, by libgpiod 1.6 or 2.
+/// Inputs and outputs on lines of the kernel's GPIO chips, by libgpiod 1.6 or 2. A line is held from `take`
+/// on, outputs with their first level from that moment. When a program ends in whatever way, the kernel takes
+/// its lines back, and what level one then has is the driver's affair: some hold the last one, others make it
+/// an input. So a line that moves something needs a resistor that pulls it to its safe level. A chip that has
+/// no bias ignores the wish for one in silence.
 namespace nplc::hal_linux {
 
 enum class GpioBias : std::uint8_t { as_is, off, pull_up, pull_down };

@@ -1,0 +1,95 @@
+#include <fcntl.h>
+#include <linux/watchdog.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <limits>
+
+#include "feeding.h"
+#include "file_descriptor.h"
+#include "hal_linux/watchdog.h"
+
+namespace nplc::hal_linux {
+namespace {
+
+using std::chrono::seconds;
+
+std::string trouble_with(const std::string& path, int error) {
+    if (error == ENOENT) return "there is no " + path + "; load the driver of this board's watchdog";
+    if (error == EBUSY)
+        return path + ": another program has it; systemd does if its RuntimeWatchdogSec= is set";
+    if (error == EACCES || error == EPERM) return "you may not use " + path + "; its group may, or root";
+    return path + ": " + std::strerror(error);
+}
+
+/// Puts it to rest. False: it cannot be.
+bool stop(int device) {
+    int order = WDIOS_DISABLECARD;
+    const bool refused = ::ioctl(device, WDIOC_SETOPTIONS, &order) != 0 && errno == EBUSY;
+    return ::write(device, "V", 1) == 1 && !refused;
+}
+
+/// The seconds that it now has; 0: errno says why not.
+int set_timeout(int device, int wanted) {
+    int made = wanted;
+    if (::ioctl(device, WDIOC_SETTIMEOUT, &made) == 0) return made;
+    const int reason = errno;
+    if (::ioctl(device, WDIOC_GETTIMEOUT, &made) == 0) return made;
+    errno = reason;
+    return 0;
+}
+
+}  // namespace
+
+DeviceWatchdog::Opened DeviceWatchdog::open(const std::string& path, base::Microseconds timeout) {
+    const auto wanted = std::chrono::floor<seconds>(timeout);
+    if (wanted < seconds(1) || wanted > seconds(std::numeric_limits<int>::max()))
+        return {nullptr, path + ": its time is at least 1 s"};
+    FileDescriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    if (!device) return {nullptr, trouble_with(path, errno)};
+    watchdog_info info{};
+    if (::ioctl(device.get(), WDIOC_GETSUPPORT, &info) != 0)
+        return {nullptr, path + ": this is not a watchdog"};
+    const seconds made(set_timeout(device.get(), static_cast<int>(wanted.count())));
+    if (made < seconds(1) || made > wanted) {
+        const int reason = errno;
+        stop(device.get());
+        if (made < seconds(1)) return {nullptr, path + ": takes no time: " + std::strerror(reason)};
+        return {nullptr, path + ": this watchdog has " + std::to_string(made.count()) + " s, and cannot do " +
+                             std::to_string(wanted.count()) + "; ask for the longer time"};
+    }
+    std::unique_ptr<DeviceWatchdog> armed(new DeviceWatchdog());
+    int cause = 0;
+    armed->has_reset_board_ =
+        ::ioctl(device.get(), WDIOC_GETBOOTSTATUS, &cause) == 0 && (cause & WDIOF_CARDRESET) != 0;
+    armed->timeout_ = made;
+    armed->device_ = device.release();
+    armed->path_ = path;
+    armed->feed();
+    return {std::move(armed), {}};
+}
+
+DeviceWatchdog::~DeviceWatchdog() {
+    if (device_ >= 0) ::close(device_);
+}
+
+void DeviceWatchdog::feed() {
+    const base::Instant now = present();
+    if (device_ >= 0 && is_due(fed_, now, timeout_) && ::ioctl(device_, WDIOC_KEEPALIVE, nullptr) == 0)
+        fed_ = now;
+}
+
+std::string DeviceWatchdog::disarm() {
+    if (device_ < 0) return {};
+    const bool stopped = stop(device_);
+    ::close(device_);
+    device_ = -1;
+    if (stopped) return {};
+    return path_ +
+           ": it cannot be stopped any more (nowayout): the board resets unless another program feeds it";
+}
+
+}  // namespace nplc::hal_linux

@@ -1,0 +1,59 @@
+# Sourced by scripts that need Debian packages of another architecture, unpacked and not installed. They come from where
+# this machine has its own; apt's own lists stay as they are, and no root is needed. What is fetched is kept in build/apt.
+
+# foreign_open ARCHITECTURE: before the others.
+foreign_open() {
+    foreign_architecture=$1
+    foreign_state=$PWD/build/apt/$1
+    mkdir -p "$foreign_state"/lists/partial "$foreign_state"/cache/archives/partial "$foreign_state"/packages
+    touch "$foreign_state/status"
+    foreign_sources >"$foreign_state/sources.list"
+    foreign_settings=(
+        -o APT::Architecture="$1" -o APT::Architectures="$1" -o APT::Sandbox::User= -o Acquire::Languages=none
+        -o Acquire::Retries=3 -o Dir::State="$foreign_state" -o Dir::State::status="$foreign_state/status"
+        -o Dir::Cache="$foreign_state/cache" -o Dir::Etc::sourcelist="$foreign_state/sources.list"
+        -o Dir::Etc::sourceparts=-
+    )
+}
+
+# This machine's own Debian sources, and the backports from the same place.
+foreign_sources() {
+    local release keyring=/usr/share/keyrings/debian-archive-keyring.gpg options=''
+    release=$(. /etc/os-release && echo "${VERSION_CODENAME:-}")
+    [[ ! -r $keyring ]] || options="[signed-by=$keyring] "
+    apt-get indextargets --format '$(CREATED_BY) $(REPO_URI) $(RELEASE) $(COMPONENT)' | sort -u |
+        awk -v release="$release" -v options="$options" '
+            $1 != "Packages" { next }
+            $3 == release || $3 == release "-updates" || $3 == release "-security" { print "deb " options $2, $3, $4 }
+            $3 == release && $4 == "main" { print "deb " options $2, release "-backports", $4 }'
+}
+
+# A mirror that is being changed has lists that do not fit; the others will do.
+foreign_update() {
+    (cd "$foreign_state" && apt-get -q "${foreign_settings[@]}" update) >"$foreign_state/log" 2>&1 || true
+}
+
+# foreign_try PACKAGE...
+foreign_try() {
+    (cd "$foreign_state/packages" && apt-get -q "${foreign_settings[@]}" download "$@") >>"$foreign_state/log" 2>&1
+}
+
+# foreign_download PACKAGE[/RELEASE]...: into $foreign_state/packages. The lists are read anew if they are too old for it.
+foreign_download() {
+    : >"$foreign_state/log"
+    foreign_try "$@" || { foreign_update; foreign_try "$@"; } || {
+        tail -n 10 "$foreign_state/log" >&2
+        return 1
+    }
+}
+
+# foreign_dependency PACKAGE: the first package that it depends on.
+foreign_dependency() {
+    apt-cache "${foreign_settings[@]}" depends --important "$1" 2>>"$foreign_state/log" |
+        awk '$1 == "Depends:" { print $2; exit }'
+}
+
+# foreign_file PACKAGE: the newest that was fetched of it.
+foreign_file() {
+    ls -t "$foreign_state"/packages/"$1"_*_*.deb | head -n 1
+}
