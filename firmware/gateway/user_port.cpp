@@ -14,7 +14,8 @@ constexpr int kReadsPerPoll = 16;
 /// The motor's own line: no manual says how long it may take to answer.
 constexpr base::Microseconds kMotorAnswers{1'000'000};
 
-constexpr base::Microseconds kPortIsFull{1'000};
+/// At a port that was full, and at the motor's own, of which it is not told when something comes.
+constexpr base::Microseconds kLook{1'000};
 
 constexpr std::uint32_t kMayWrite = 1;
 constexpr std::uint32_t kMaySendAll = 2;
@@ -31,7 +32,7 @@ void UserPort::poll(base::Instant now) {
 
 base::Instant UserPort::next_poll(base::Instant now) {
     base::Instant next = own_.next_poll(now);
-    if (sent_ < out_.size) next = std::min(next, now + kPortIsFull);
+    if (sent_ < out_.size) next = std::min(next, now + kLook);
     switch (serving_) {
         case Serving::nothing:
         case Serving::own_write:
@@ -39,8 +40,7 @@ base::Instant UserPort::next_poll(base::Instant now) {
         case Serving::motor:
             return std::min(next, bridge_.next_poll(now, read_pause()));
         case Serving::motor_line:
-            if (passed_sent_ < passed_.size) next = std::min(next, now + kPortIsFull);
-            return std::min(next, begun_ + kMotorAnswers + base::Microseconds(1));
+            return std::min(next, now + kLook);
     }
     return now;
 }

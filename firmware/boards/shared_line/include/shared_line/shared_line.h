@@ -48,6 +48,7 @@ class SharedLine {
         bool unanswered = false;  ///< its last message
     };
 
+    static void take_byte(Seat& seat, std::uint8_t byte);
     void listen(std::size_t number, std::uint8_t gateway_address);
     void welcome(Seat& seat, std::size_t number, std::uint64_t visit);
     std::optional<std::size_t> next_seat() const;
