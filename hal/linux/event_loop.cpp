@@ -14,7 +14,8 @@ namespace nplc::hal_linux {
 namespace {
 
 constexpr std::size_t kAtOnce = 32;
-constexpr std::uint64_t kOwn = std::uint64_t{1} << 32;  // not one of the caller's marks
+constexpr std::uint64_t kTimer = std::uint64_t{1} << 32;  // not one of the caller's marks
+constexpr std::uint64_t kSignals = kTimer + 1;
 
 timespec in_timespec(base::Microseconds time) {
     constexpr std::int64_t kSecond = 1'000'000;
@@ -33,7 +34,7 @@ EventLoop::Opened EventLoop::open(std::span<const int> signals) {
     const bool blocked = ::sigprocmask(SIG_BLOCK, &set, nullptr) == 0;
     loop->signals_ = ::signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC);
     const bool had = loop->epoll_ >= 0 && loop->timer_ >= 0 && blocked && loop->signals_ >= 0;
-    if (!had || !loop->add(loop->timer_, kOwn, EPOLLIN) || !loop->add(loop->signals_, kOwn, EPOLLIN))
+    if (!had || !loop->add(loop->timer_, kTimer, EPOLLIN) || !loop->add(loop->signals_, kSignals, EPOLLIN))
         return {nullptr, std::string("the event loop cannot be made: ") + std::strerror(errno)};
     return {std::move(loop), {}};
 }
@@ -55,6 +56,10 @@ bool EventLoop::watch(int descriptor, std::uint32_t mark, Wakes wakes) {
     return add(descriptor, mark, EPOLLIN | (at_news ? std::uint32_t{EPOLLET} : 0U));
 }
 
+void EventLoop::ignore(int descriptor) {
+    ::epoll_ctl(epoll_, EPOLL_CTL_DEL, descriptor, nullptr);
+}
+
 void EventLoop::set_alarm(base::Instant deadline) {
     if (alarm_ == deadline) return;
     alarm_ = deadline;
@@ -72,10 +77,9 @@ std::span<const std::uint32_t> EventLoop::wait(base::Instant deadline) {
     marks_.clear();
     for (int i = 0; i < count; ++i) {
         const std::uint64_t mark = events[static_cast<std::size_t>(i)].data.u64;
-        if (mark != kOwn) marks_.push_back(static_cast<std::uint32_t>(mark));
+        if (mark == kTimer) alarm_.reset();  // the next one stops its ringing
+        if (mark < kTimer) marks_.push_back(static_cast<std::uint32_t>(mark));
     }
-    std::uint64_t rings = 0;
-    if (::read(timer_, &rings, sizeof rings) == sizeof rings) alarm_.reset();
     return marks_;
 }
 

@@ -167,12 +167,13 @@ void Axis::watch(hal_linux::EventLoop& loop, std::uint32_t mark) {
     if (!user_door_) return;
     const bool is_terminal = config_.user_port.text.starts_with("pty:");
     loop.watch(
-        user_door_->descriptor(), mark,
+        user_door_->descriptor(), mark + 1,
         is_terminal ? hal_linux::EventLoop::Wakes::at_news : hal_linux::EventLoop::Wakes::while_readable);
 }
 
 /// The motor's own MacTalk port is not among them: it is read when a person's message waits for its answer.
 void Axis::watch_ports() {
+    rests_until_ = base::kNever;
     loop_->watch(motor_port_.uart().descriptor(), mark_);
     if (user_uart_) loop_->watch(user_uart_->uart().descriptor(), mark_);
 }
@@ -180,7 +181,7 @@ void Axis::watch_ports() {
 void Axis::serve(base::Instant now) {
     if (failed_) return;
     input_bits_.take_edges();
-    if (user_door_)
+    if (user_door_ && (std::exchange(door_knocks_, false) || user_door_->next_turn(now) <= now))
         user_door_->take_in(now, {static_cast<std::uint8_t>(setting(Setting::gateway_address)),
                                   static_cast<std::uint8_t>(setting(Setting::motor_address))});
     gateway_->poll(now);
@@ -189,6 +190,7 @@ void Axis::serve(base::Instant now) {
     if (mactalk_port_) mactalk_port_->look(journal_, now);
     if (user_uart_) is_back = user_uart_->look(journal_, now) || is_back;
     if (is_back) watch_ports();
+    rest_or_watch(now);
     watch_pins(now);
     tell_news();
     if (own_registers_->reset_asked()) reset(now);
@@ -207,6 +209,18 @@ void Axis::reset(base::Instant now) {
     tell(LogLevel::error, error + "; this axis does nothing any more: restart the service");
 }
 
+/// The motor repeats its status without pause, 1920 bytes a second. While nothing is under way it is read
+/// every few milliseconds instead of at every byte: an edge or a message wakes the program all the same.
+void Axis::rest_or_watch(base::Instant now) {
+    constexpr base::Milliseconds kRest{5};
+    const bool rested = rests_until_ != base::kNever;
+    const bool is_quiet = motor::delivers(driver_->link()) && driver_->settled() &&
+                          !motor::is_open(driver_->access_state()) && !motor_port_.uart().gone();
+    rests_until_ = is_quiet ? now + kRest : base::kNever;
+    if (is_quiet && !rested) loop_->ignore(motor_port_.uart().descriptor());
+    if (!is_quiet && rested) watch_ports();
+}
+
 void Axis::watch_pins(base::Instant now) {
     if (!inputs_->lost() && !outputs_->lost()) return;
     if (!told_pins_lost_)
@@ -220,7 +234,7 @@ void Axis::watch_pins(base::Instant now) {
 base::Instant Axis::next(base::Instant now) {
     if (failed_) return base::kNever;
     base::Instant next = std::min(gateway_->next_poll(now), user_port_->next_poll(now));
-    next = std::min(next, motor_port_.next_look());
+    next = std::min({next, rests_until_, motor_port_.next_look()});
     if (mactalk_port_) next = std::min(next, mactalk_port_->next_look());
     if (user_uart_) next = std::min(next, user_uart_->next_look());
     if (user_door_) next = std::min(next, user_door_->next_turn(now));

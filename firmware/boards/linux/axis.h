@@ -31,7 +31,11 @@ class Axis {
 
     /// Outputs first, at their safe levels. Empty, or one line; then nothing is held.
     std::string open(const std::string& state_directory, base::Instant now);
+    /// Two marks, `mark` and the one after it.
     void watch(hal_linux::EventLoop& loop, std::uint32_t mark);
+    static constexpr std::uint32_t kMarks = 2;
+    /// What is watched with `mark` has something to be read.
+    void knock(std::uint32_t mark) { door_knocks_ = door_knocks_ || mark != mark_; }
 
     void serve(base::Instant now);
     /// When serve() is wanted at the latest if nothing of what is watched is readable.
@@ -40,6 +44,7 @@ class Axis {
     /// The orderly end: outputs safe, motor told to stop; then serve() until it has taken that.
     void begin_end(base::Instant now);
     bool has_stopped() const;
+    bool motor_answers() const { return driver_ && motor::delivers(driver_->link()); }
     /// The end was orderly: the next start is none after a crash.
     void note_orderly_end();
 
@@ -60,6 +65,7 @@ class Axis {
     void tell_news();
     void tell_stored_settings();
     void watch_ports();
+    void rest_or_watch(base::Instant now);
     void reset(base::Instant now);
     void watch_pins(base::Instant now);
     std::uint32_t setting(store::Setting which) const { return settings_->at_start(which); }
@@ -96,6 +102,9 @@ class Axis {
 
     hal_linux::EventLoop* loop_ = nullptr;
     std::uint32_t mark_ = 0;
+    bool door_knocks_ = true;
+    /// The motor's line is looked at then; it does not wake us.
+    base::Instant rests_until_ = base::kNever;
     std::uint32_t told_events_ = 0;
     motor::Link told_link_ = motor::Link::down;
     bool told_pins_lost_ = false;

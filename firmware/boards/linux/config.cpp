@@ -35,22 +35,20 @@ class Reader {
   public:
     ReadConfig read(std::string_view text) {
         TomlFile file = read_toml(text);
-        result_.mistakes = std::move(file.mistakes);
-        if (!result_.mistakes.empty()) return std::move(result_);
-        Section root(&file.root, "", result_.mistakes);
+        findings_.mistakes = std::move(file.mistakes);
+        if (!findings_.mistakes.empty()) return std::move(result_);
+        Section root(&file.root, "", findings_);
         read_service(root);
         read_axes(root);
         root.finish();
         find_doubles();
-        std::stable_sort(result_.mistakes.begin(), result_.mistakes.end(),
+        std::stable_sort(findings_.mistakes.begin(), findings_.mistakes.end(),
                          [](const Mistake& a, const Mistake& b) { return a.line < b.line; });
         return std::move(result_);
     }
 
   private:
-    Section section(const TomlValue* value, const std::string& path) {
-        return {value, path, result_.mistakes};
-    }
+    Section section(const TomlValue* value, const std::string& path) { return {value, path, findings_}; }
 
     void read_service(Section& root) {
         Section service = section(root.table("service"), "service");
@@ -102,7 +100,7 @@ class Reader {
         const TomlValue* named = value.find("name");
         const bool has_name = named != nullptr && named->kind == Kind::text;
         const std::string path = fmt::format("axis[{}]", has_name ? named->text : std::to_string(index + 1));
-        Section section(&value, path, result_.mistakes);
+        Section section(&value, path, findings_);
         AxisConfig axis;
         axis.line = value.line;
         axis.name = section.text("name").value_or("");
@@ -112,7 +110,7 @@ class Reader {
             section.complain("name", "may have small letters, digits, - and _, 32 at the most");
         axis.table = placed(section, "table");
         read_motor(section, axis);
-        Section user(section.table("user"), path + ".user", result_.mistakes);
+        Section user(section.table("user"), path + ".user", findings_);
         axis.user_port = placed(user, "port");
         check_port(user, axis.user_port, true);
         user.finish();
@@ -124,7 +122,7 @@ class Reader {
     }
 
     void read_motor(Section& axis_section, AxisConfig& axis) {
-        Section motor(axis_section.table("motor"), axis_section.path() + ".motor", result_.mistakes);
+        Section motor(axis_section.table("motor"), axis_section.path() + ".motor", findings_);
         axis.motor_port = placed(motor, "port");
         if (!axis.motor_port.is_there())
             motor.complain(motor.is_there() ? motor.line() : axis.line, "port",
@@ -166,7 +164,7 @@ class Reader {
     template <std::size_t count>
     void read_lines(Section& axis_section, const std::string& key, const std::string& prefix,
                     Lines<count>& lines, AxisConfig& axis) {
-        Section section(axis_section.table(key), axis_section.path() + "." + key, result_.mistakes);
+        Section section(axis_section.table(key), axis_section.path() + "." + key, findings_);
         for (std::size_t i = 0; i < count; ++i)
             lines[i] = read_line(section, prefix + std::to_string(i), key == "inputs", axis);
         section.finish();
@@ -180,7 +178,7 @@ class Reader {
         if (value->kind == Kind::text) {
             line.where = value->text;
         } else if (value->kind == Kind::table) {
-            Section inner(value, section.path() + "." + key, result_.mistakes);
+            Section inner(value, section.path() + "." + key, findings_);
             line.where = inner.text("line").value_or("");
             line.active_low = inner.flag("active_low").value_or(false);
             if (is_input) {
@@ -199,7 +197,7 @@ class Reader {
     }
 
     void read_settings(Section& axis_section, AxisConfig& axis) {
-        Section section(axis_section.table("settings"), axis_section.path() + ".settings", result_.mistakes);
+        Section section(axis_section.table("settings"), axis_section.path() + ".settings", findings_);
         for (const store::SettingInfo& info : store::all_settings()) {
             const std::string key(info.name);
             if (info.highest == 1) {
@@ -231,9 +229,9 @@ class Reader {
         const auto take = [&](const std::string& what, const Placed& place) {
             const auto [first, is_new] = seen.emplace(what, place);
             if (is_new) return;
-            result_.mistakes.push_back({place.line, place.key,
-                                        fmt::format("{} is used twice: {} in line {} has it already",
-                                                    place.text, first->second.key, first->second.line)});
+            findings_.mistakes.push_back({place.line, place.key,
+                                          fmt::format("{} is used twice: {} in line {} has it already",
+                                                      place.text, first->second.key, first->second.line)});
         };
         for (const AxisConfig& axis : result_.config.axes) {
             if (!axis.name.empty()) take("name " + axis.name, {axis.name, axis.line, "axis.name"});
@@ -256,6 +254,7 @@ class Reader {
     }
 
     ReadConfig result_;
+    Findings& findings_ = result_.findings;
 };
 
 }  // namespace

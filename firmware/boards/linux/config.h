@@ -52,7 +52,7 @@ struct Config {
 
 struct ReadConfig {
     Config config;
-    std::vector<Mistake> mistakes;  ///< by line; with one the configuration is not to be used
+    Findings findings;  ///< mistakes by line; with one the configuration is not to be used
 };
 /// Everything that can be said without looking at the machine.
 ReadConfig read_config(std::string_view text);

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -36,10 +37,12 @@ struct Options {
     std::string config = "/etc/nanoplc/nanoplc.toml";
     std::string file;
     bool no_devices = false;
+    bool keys = false;
 };
 
 struct Loaded {
     Config config;
+    std::set<std::string> keys{};
     bool is_whole = false;
 };
 
@@ -59,8 +62,8 @@ Loaded load(const std::string& file) {
         return {};
     }
     ReadConfig read = read_config(text);
-    print(file, read.mistakes);
-    return {std::move(read.config), read.mistakes.empty()};
+    print(file, read.findings.mistakes);
+    return {std::move(read.config), std::move(read.findings.keys), read.findings.mistakes.empty()};
 }
 
 int run_service(const std::string& file) {
@@ -79,6 +82,10 @@ int check(const Options& options) {
     print(options.file, missing);
     if (!loaded.is_whole) return kWrong;
     if (!missing.empty()) return kNoDevice;
+    if (options.keys) {
+        fmt::print("{}\n", fmt::join(loaded.keys, "\n"));
+        return kDone;
+    }
     const std::size_t axes = loaded.config.axes.size();
     fmt::print("{}: in order, {} {}\n", options.file, axes, axes == 1 ? "axis" : "axes");
     return kDone;
@@ -104,6 +111,7 @@ int main(int argc, char** argv) {
         *app.add_subcommand("check-config", "Name every mistake in a configuration, and end");
     check_config.add_option("file", options.file, "The configuration")->required();
     check_config.add_flag("--no-devices", options.no_devices, "Of another machine: look for no device");
+    check_config.add_flag("--keys", options.keys, "Print every key that may stand in it");
     app.add_subcommand("wiring", "Print what is to be joined to what")
         ->add_option("file", options.file, "The configuration")
         ->required();

@@ -45,6 +45,13 @@ std::size_t distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
+/// axis[x].motor is axis.motor for every axis.
+std::string without_name(std::string path) {
+    const std::size_t open = path.find('[');
+    if (open != std::string::npos) path.erase(open, path.rfind(']') + 1 - open);
+    return path;
+}
+
 }  // namespace
 
 std::string nearest(std::string_view word, const std::set<std::string>& words) {
@@ -59,11 +66,12 @@ std::string nearest(std::string_view word, const std::set<std::string>& words) {
     return best;
 }
 
-Section::Section(const TomlValue* value, std::string path, std::vector<Mistake>& mistakes)
-    : value_(value), path_(std::move(path)), mistakes_(mistakes) {}
+Section::Section(const TomlValue* value, std::string path, Findings& findings)
+    : value_(value), path_(std::move(path)), findings_(findings) {}
 
 const TomlValue* Section::any(const std::string& key) {
     known_.insert(key);
+    findings_.keys.insert(path_.empty() ? key : without_name(path_) + "." + key);
     return value_ == nullptr ? nullptr : value_->find(key);
 }
 
@@ -73,7 +81,7 @@ int Section::line_of(const std::string& key) const {
 }
 
 void Section::complain(int line, const std::string& key, const std::string& text) {
-    mistakes_.push_back({line, path_.empty() ? key : key.empty() ? path_ : path_ + "." + key, text});
+    findings_.mistakes.push_back({line, path_.empty() ? key : key.empty() ? path_ : path_ + "." + key, text});
 }
 
 void Section::complain(const std::string& key, const std::string& text) {

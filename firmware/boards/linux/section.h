@@ -18,7 +18,7 @@ std::string nearest(std::string_view word, const std::set<std::string>& words);
 class Section {
   public:
     /// `value`: a table, or nullptr for one that is not there. `path`: "axis[x].motor".
-    Section(const TomlValue* value, std::string path, std::vector<Mistake>& mistakes);
+    Section(const TomlValue* value, std::string path, Findings& findings);
 
     const std::string& path() const { return path_; }
     int line() const { return value_ == nullptr ? 0 : value_->line; }
@@ -44,7 +44,7 @@ class Section {
 
     const TomlValue* value_;
     std::string path_;
-    std::vector<Mistake>& mistakes_;
+    Findings& findings_;
     std::set<std::string> known_;
 };
 

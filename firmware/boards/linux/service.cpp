@@ -83,7 +83,8 @@ std::string Service::open() {
         if (std::string error = axes_.back()->open(config_.state_directory, now); !error.empty())
             return config.name + ": " + error;
     }
-    for (std::size_t i = 0; i < axes_.size(); ++i) axes_[i]->watch(*loop_, static_cast<std::uint32_t>(i));
+    for (std::size_t i = 0; i < axes_.size(); ++i)
+        axes_[i]->watch(*loop_, static_cast<std::uint32_t>(i) * Axis::kMarks);
     next_.assign(axes_.size(), base::Instant{});
     return {};
 }
@@ -120,7 +121,10 @@ void Service::round(base::Instant latest) {
     const base::Instant now = clock_.now();
     const bool all = now >= wanted_by_watchdog(now);
     if (all) all_served_ = now;
-    for (const std::uint32_t mark : marks) next_[mark] = now;
+    for (const std::uint32_t mark : marks) {
+        next_[mark / Axis::kMarks] = now;
+        axes_[mark / Axis::kMarks]->knock(mark);
+    }
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         if (!all && next_[i] > now) continue;
         axes_[i]->serve(now);
@@ -148,6 +152,10 @@ void Service::serve_until_signal() {
     }
 }
 
+void Service::tell_unstopped(const Axis& axis, const std::string& why) {
+    journal_.write(LogLevel::warning, axis.name() + ": the motor " + why + "; it may be moving");
+}
+
 void Service::end_in_order() {
     service_->stopping();
     const base::Instant now = clock_.now();
@@ -157,11 +165,14 @@ void Service::end_in_order() {
     }
     const base::Instant limit = now + kLongestEnd;
     const auto stopped = [](const auto& axis) { return axis->has_stopped(); };
-    while (clock_.now() < limit && !std::all_of(axes_.begin(), axes_.end(), stopped)) round(limit);
+    do {
+        round(limit);
+    } while (clock_.now() < limit && !std::all_of(axes_.begin(), axes_.end(), stopped));
     for (const auto& axis : axes_) {
-        if (!axis->has_stopped())
-            journal_.write(LogLevel::error,
-                           axis->name() + ": the motor has not taken the stop; it may be moving");
+        if (!axis->motor_answers())
+            tell_unstopped(*axis, "does not answer and could not be told to stop");
+        else if (!axis->has_stopped())
+            tell_unstopped(*axis, "has not taken the stop");
         axis->note_orderly_end();
     }
     last_resort.fill(nullptr);

@@ -46,6 +46,7 @@ class Service {
     void set_up_real_time();
     void serve_until_signal();
     void end_in_order();
+    void tell_unstopped(const Axis& axis, const std::string& why);
     void round(base::Instant latest);
     void show_status();
     base::Instant wanted_by_watchdog(base::Instant now) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,6 +14,12 @@ struct Mistake {
     int line = 0;
     std::string key;   ///< "axis[x].motor.port"; empty where no key is to blame
     std::string text;  ///< what is wrong and what to do
+};
+
+/// What came out of reading a configuration beside its values.
+struct Findings {
+    std::vector<Mistake> mistakes{};
+    std::set<std::string> keys{};  ///< all that may stand in it: "axis.motor.port"
 };
 
 /// A value of a TOML file with the line it stands in. The library that reads it takes long to compile and is

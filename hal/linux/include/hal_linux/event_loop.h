@@ -33,6 +33,8 @@ class EventLoop {
     /// is closed is forgotten by itself.
     bool watch(int descriptor, std::uint32_t mark, Wakes wakes = Wakes::while_readable);
 
+    void ignore(int descriptor);
+
     /// Sleeps until there is something, or until `deadline` at the latest (kNever: no end; one that is past:
     /// only looks). Answers the marks of what is readable, which may be none.
     std::span<const std::uint32_t> wait(base::Instant deadline);
