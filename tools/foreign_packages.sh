@@ -1,10 +1,13 @@
 # Sourced by scripts that need Debian packages of another architecture, unpacked and not installed. They come from where
-# this machine has its own; apt's own lists stay as they are, and no root is needed. What is fetched is kept in build/apt.
+# this machine has its own; apt's own lists stay as they are, and no root is needed. The lists are kept in build/apt.
 
-# foreign_open ARCHITECTURE: before the others.
+# foreign_open ARCHITECTURE: before the others. One script at a time does this for an architecture.
 foreign_open() {
-    foreign_architecture=$1
     foreign_state=$PWD/build/apt/$1
+    mkdir -p "$foreign_state"
+    exec 9>"$foreign_state/lock"
+    flock 9
+    rm -rf "$foreign_state/packages"
     mkdir -p "$foreign_state"/lists/partial "$foreign_state"/cache/archives/partial "$foreign_state"/packages
     touch "$foreign_state/status"
     foreign_sources >"$foreign_state/sources.list"
@@ -53,7 +56,7 @@ foreign_dependency() {
         awk '$1 == "Depends:" { print $2; exit }'
 }
 
-# foreign_file PACKAGE: the newest that was fetched of it.
-foreign_file() {
-    ls -t "$foreign_state"/packages/"$1"_*_*.deb | head -n 1
+# foreign_unpack PACKAGE FOLDER: of those that were downloaded.
+foreign_unpack() {
+    dpkg -x "$foreign_state"/packages/"$1"_*_*.deb "$2"
 }

@@ -18,7 +18,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-constexpr std::size_t kMessageRoom = 32 * 1024;
+constexpr std::size_t kMessageRoom = 32'768;
 
 template <class T>
 std::optional<T> taken(Bytes bytes) {

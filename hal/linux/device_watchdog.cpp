@@ -25,21 +25,20 @@ std::string trouble_with(const std::string& path, int error) {
     return path + ": " + std::strerror(error);
 }
 
-/// Puts it to rest. False: it cannot be.
+/// Puts it to rest. False: it cannot be. The magic close only where there is no order for it: after an order
+/// the kernel would keep the permission, and let the next program's crash stop the watchdog.
 bool stop(int device) {
     int order = WDIOS_DISABLECARD;
-    const bool refused = ::ioctl(device, WDIOC_SETOPTIONS, &order) != 0 && errno == EBUSY;
-    return ::write(device, "V", 1) == 1 && !refused;
+    if (::ioctl(device, WDIOC_SETOPTIONS, &order) == 0) return true;
+    return errno != EBUSY && ::write(device, "V", 1) == 1;
 }
 
-/// The seconds that it now has; 0: errno says why not.
+/// The seconds that it now has, those that it always has if they are fixed; 0: errno says why not.
 int set_timeout(int device, int wanted) {
     int made = wanted;
     if (::ioctl(device, WDIOC_SETTIMEOUT, &made) == 0) return made;
-    const int reason = errno;
-    if (::ioctl(device, WDIOC_GETTIMEOUT, &made) == 0) return made;
-    errno = reason;
-    return 0;
+    const bool fixed = errno == EOPNOTSUPP || errno == ENOTTY;
+    return fixed && ::ioctl(device, WDIOC_GETTIMEOUT, &made) == 0 ? made : 0;
 }
 
 }  // namespace
@@ -55,11 +54,11 @@ DeviceWatchdog::Opened DeviceWatchdog::open(const std::string& path, base::Micro
         return {nullptr, path + ": this is not a watchdog"};
     const seconds made(set_timeout(device.get(), static_cast<int>(wanted.count())));
     if (made < seconds(1) || made > wanted) {
-        const int reason = errno;
+        const std::string reason = made > wanted
+                                       ? "it has " + std::to_string(made.count()) + " s; ask for those"
+                                       : std::strerror(errno);
         stop(device.get());
-        if (made < seconds(1)) return {nullptr, path + ": takes no time: " + std::strerror(reason)};
-        return {nullptr, path + ": this watchdog has " + std::to_string(made.count()) + " s, and cannot do " +
-                             std::to_string(wanted.count()) + "; ask for the longer time"};
+        return {nullptr, path + ": cannot do " + std::to_string(wanted.count()) + " s: " + reason};
     }
     std::unique_ptr<DeviceWatchdog> armed(new DeviceWatchdog());
     int cause = 0;

@@ -87,7 +87,7 @@ Place place_of(const std::string& where) {
     int error = 0;
     const std::size_t count = lines_of(place->chip, error).size();
     if (error == ENOENT) {
-        if (const Place other = named(where); other.problem.empty()) return other;
+        if (Place other = named(where); other.problem.empty()) return other;
     }
     if (error != 0)
         place->problem = trouble_with(place->chip, error);

@@ -49,6 +49,6 @@ struct LineInfo {
     std::string consumer;  ///< who uses it
 };
 /// Of the lines of a chip. None if it cannot be opened; `error` is errno.
-std::vector<LineInfo> lines_of(const std::string& chip, int& error);
+std::vector<LineInfo> lines_of(const std::string& path, int& error);
 
 }  // namespace nplc::hal_linux

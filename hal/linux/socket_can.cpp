@@ -281,7 +281,10 @@ bool SocketCan::restart() {
         return false;
     }
     const int error = restart_can(own.index);
-    if (error == EPERM)
+    if (error == EBUSY) {
+        if (const auto link = can_link(name)) own.set_state(link->state);
+        restart_problem_ = name + " is not off the bus";
+    } else if (error == EPERM)
         restart_problem_ =
             name + ": a restart from here needs CAP_NET_ADMIN; with restart-ms the kernel does it";
     else if (error == EINVAL)
