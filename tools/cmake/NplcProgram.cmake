@@ -53,8 +53,9 @@ function(nplc_program_documents name)
     DEPENDS ${name} VERBATIM)
   add_custom_target(${name}_generated ALL DEPENDS "${generated}/${name}.${section}")
 
-  install(TARGETS ${name} RUNTIME DESTINATION "${folder}")
-  install(FILES "${generated}/${name}.${section}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man${section}")
-  install(FILES "${generated}/${name}" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
-  install(FILES "${generated}/_${name}" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions")
+  install(TARGETS ${name} RUNTIME DESTINATION "${folder}" COMPONENT ${name})
+  install(FILES "${generated}/${name}.${section}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man${section}" COMPONENT ${name})
+  install(FILES "${generated}/${name}" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
+          COMPONENT ${name})
+  install(FILES "${generated}/_${name}" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions" COMPONENT ${name})
 endfunction()
