@@ -9,10 +9,11 @@ install(FILES "${CMAKE_CURRENT_LIST_DIR}/FIRST_START.md" DESTINATION share/doc/n
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME nanoplc)
-set(CPACK_PACKAGE_CONTACT "NanoPLC Gateway <root@localhost>")
+set(CPACK_PACKAGE_CONTACT "NanoPLC Gateway <nanoplc@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Sequence controller for JVL MAC servo motors")
-set(CPACK_PACKAGE_DESCRIPTION "Runs the sequence tables of JVL's MAC00-R1, R3 and R4 modules on a Linux board with GPIO
-lines, a FastMAC line to each motor and a MacTalk port for each axis, as a service.")
+set(CPACK_PACKAGE_DESCRIPTION "Runs the sequence tables of JVL's MAC00-R1, R3 and R4
+modules on a Linux board with GPIO lines, a FastMAC line to each
+motor and a MacTalk port for each axis, as a service.")
 set(CPACK_SET_DESTDIR ON)
 set(CPACK_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
