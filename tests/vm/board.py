@@ -5,7 +5,7 @@ read from outside, two CAN controllers on one bus, a watchdog, and serial ports 
         machine.wait("ready")
         machine.set_input(2, 1)
         machine.output(5)
-        machine.serials["motor"]      # the other end of /dev/ttyS0
+        machine.serials["motor"]      # the other end of /dev/ttyS0; adapters are /dev/ttyUSB0 and so on
         status = machine.finish()     # of the command
 """
 
@@ -26,7 +26,7 @@ import image
 HERE = os.path.dirname(os.path.abspath(__file__))
 BUILD = os.path.join(HERE, "..", "..", "build")
 LINES = 8
-LONGEST = 120  # seconds of any wait: generous, for the machine that this runs on may be busy
+LONGEST = 400  # seconds of any wait: generous, for the machine that this runs on may be busy
 
 _PL061 = 0x9030000
 # Names for some lines, the last one twice.
@@ -65,10 +65,12 @@ class Lines:
 
 
 class Board:
-    def __init__(self, share, command, serials=(), watchdog="reset", reboots=False, echo=print):
-        """`command` runs in `share`, which the board has as /share. The first of `serials` is /dev/ttyS0. `watchdog`:
-        what it does (reset, poweroff, pause, none). Without `reboots` a reset ends the board."""
-        self.share, self.names, self.watchdog, self.reboots = share, list(serials), watchdog, reboots
+    def __init__(self, share, command, serials=(), adapters=(), watchdog="reset", reboots=False, echo=print):
+        """`command` runs in `share`, which the board has as /share. The first of `serials` is /dev/ttyS0. `adapters` are
+        those on USB (FTDI); the guest says `modprobe -a xhci_pci ftdi_sio` first. `watchdog`: what it does (reset,
+        poweroff, pause, none). Without `reboots` a reset ends the board."""
+        self.share, self.watchdog, self.reboots = share, watchdog, reboots
+        self.ports, self.adapters = list(serials), list(adapters)
         self.echo = echo
         self.printed = []
         self.serials = {}
@@ -130,24 +132,47 @@ class Board:
             self._monitor.tell(json.dumps({"execute": execute, "arguments": arguments}))
             while True:
                 answer = json.loads(self._monitor.hear())
-                if "event" not in answer:
+                if "error" in answer:
+                    raise RuntimeError(f"qemu: {execute}: {answer['error']['desc']}")
+                if "return" in answer:
                     return answer["return"]
 
+    def unplug(self, adapter):
+        self.command("device_del", id=adapter)
+
+    def plug(self, adapter):
+        end = time.monotonic() + LONGEST
+        while True:
+            try:
+                self.command("device_add", driver="usb-serial", id=adapter, chardev=adapter)
+                return
+            except RuntimeError:  # qemu is not yet done with the one that was pulled out
+                if time.monotonic() > end:
+                    raise
+                time.sleep(0.02)
+
     def serve_lines(self, name):
-        """Answers the guest on this serial port: `set LINE LEVEL` with `ok`, `get LINE` with the level."""
+        """Answers the guest on this serial port: `set LINE LEVEL`, `unplug ADAPTER` and `plug ADAPTER` with `ok`,
+        `get LINE` with the level."""
         lines = Lines(self.serials[name])
+        orders = {
+            "set": lambda line, level: self.set_input(int(line), int(level)),
+            "get": lambda line: self.output(int(line)),
+            "unplug": self.unplug,
+            "plug": self.plug,
+        }
 
         def serve():
             try:
                 while True:
                     word, *rest = lines.hear().split()
-                    if word == "set":
-                        self.set_input(int(rest[0]), int(rest[1]))
-                        lines.tell("ok")
-                    else:
-                        lines.tell(str(self.output(int(rest[0]))))
+                    try:
+                        answer = orders[word](*rest)
+                        lines.tell("ok" if answer is None else str(answer))
+                    except (KeyError, TypeError, RuntimeError) as error:
+                        lines.tell(f"cannot {word}: {error}")
             except (OSError, ValueError):
-                pass
+                pass  # the board has ended
 
         threading.Thread(target=serve, daemon=True).start()
 
@@ -157,17 +182,22 @@ class Board:
         arguments = self._hardware()
         subprocess.run([*arguments, "-M", f"virt,dumpdtb={tree}"], check=True, capture_output=True)
         subprocess.run(["fdtput", "-t", "s", tree, f"/pl061@{_PL061:x}", "gpio-line-names", *LINE_NAMES], check=True)
-        for name in self.names:
-            arguments += ["-chardev", f"socket,id={name},path={self.folder}/{name}", "-device", f"pci-serial,chardev={name}"]
+        names = ["qtest", "monitor", *self.ports, *self.adapters]
+        for name in names[1:]:
+            arguments += ["-chardev", f"socket,id={name},path={self.folder}/{name}"]
+        for name in self.ports:
+            arguments += ["-device", f"pci-serial,chardev={name}"]
+        for name in self.adapters:
+            arguments += ["-device", f"usb-serial,id={name},chardev={name}"]
         arguments += ["-M", "virt", "-dtb", tree, "-kernel", kernel(), "-initrd", initramfs]
         arguments += ["-append", "console=ttyAMA0 quiet acpi=off nokaslr panic=-1", "-serial", "stdio"]
         arguments += ["-qtest", f"unix:{self.folder}/qtest", "-qtest-log", "/dev/null"]
-        arguments += ["-chardev", f"socket,id=monitor,path={self.folder}/monitor", "-mon", "chardev=monitor,mode=control"]
-        listeners = {name: self._listener(name) for name in ["qtest", "monitor", *self.names]}
+        arguments += ["-mon", "chardev=monitor,mode=control"]
+        listeners = {name: self._listener(name) for name in names}
         self.process = subprocess.Popen(
             arguments, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         joined = {name: self._accept(listener) for name, listener in listeners.items()}
-        self.serials = {name: joined[name] for name in self.names}
+        self.serials = {name: joined[name] for name in names[2:]}
         threading.Thread(target=self._listen, daemon=True).start()
         self._outside = Lines(joined["qtest"])
         self._monitor = Lines(joined["monitor"])
@@ -179,7 +209,7 @@ class Board:
         arguments = ["qemu-system-aarch64", "-cpu", "cortex-a53", "-m", "256", "-accel", "tcg", "-nodefaults"]
         arguments += ["-display", "none", "-object", "can-bus,id=bus"]
         arguments += ["-device", "kvaser_pci,canbus=bus", "-device", "kvaser_pci,canbus=bus"]
-        arguments += ["-device", "i6300esb", "-watchdog-action", self.watchdog]
+        arguments += ["-device", "qemu-xhci", "-device", "i6300esb", "-watchdog-action", self.watchdog]
         arguments += ["-virtfs", f"local,path={self.share},mount_tag=share,security_model=none"]
         return arguments if self.reboots else [*arguments, "-no-reboot"]
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The Linux side of the firmware on the virtual board: GPIO lines with both generations of libgpiod, CAN, the watchdog.
+"""The Linux side of the firmware on the virtual board: GPIO lines with both generations of libgpiod, CAN, the
+watchdog, a serial adapter.
 
 usage: board_test.py
 
@@ -11,6 +12,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 import board
@@ -22,7 +24,7 @@ export GTEST_COLOR=no
 if [ -e before ]; then exec ./watchdog --gtest_filter='AfterTheReset.*'; fi
 touch before
 failed=''
-for part in gpio_* can; do ./$part --gtest_filter=-GpioGone.* || failed="$failed $part"; done
+for part in gpio_* can uart; do ./$part --gtest_filter=-GpioGone.* || failed="$failed $part"; done
 for part in gpio_*; do ./$part --gtest_filter=GpioGone.* || failed="$failed $part"; done
 ./watchdog --gtest_filter='BoardWatchdog.*' || failed="$failed watchdog"
 if [ -n "$failed" ]; then echo "failed:$failed"; exit 1; fi
@@ -53,16 +55,24 @@ def build(share, preset, programs, *sysroot):
         shutil.copy(os.path.join(ROOT, "build", preset, "bin", program), os.path.join(share, name))
 
 
+def echo(line):
+    """The other end of the adapter's line says everything again."""
+    while heard := line.recv(4096):
+        line.sendall(heard)
+
+
 def run(phases, share):
     board.prepare()
     phases.say("building the tests for the board")
-    build(share, "board", {"gpio_1": "board_gpio_test", "can": "board_can_test", "watchdog": "board_watchdog_test"})
+    build(share, "board", {"gpio_1": "board_gpio_test", "can": "board_can_test", "uart": "board_uart_test",
+                           "watchdog": "board_watchdog_test"})
     try:
         build(share, "board-libgpiod2", {"gpio_2": "board_gpio_test"}, "--libgpiod2")
     except board.CannotBeHad:
         print("vm: skipped: the lines with libgpiod 2, which the backports do not have (see above)")
     phases.say("starting the board")
-    with board.Board(share, SCRIPT, serials=["outside"], reboots=True) as machine:
+    with board.Board(share, SCRIPT, serials=["outside"], adapters=["adapter"], reboots=True) as machine:
+        threading.Thread(target=echo, args=[machine.serials["adapter"]], daemon=True).start()
         machine.serve_lines("outside")
         return machine.finish()
 

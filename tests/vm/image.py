@@ -15,9 +15,9 @@ PROGRAMS = [
     "usr/bin/candump", "usr/bin/cansend", "usr/bin/cangen",
 ]
 LIBRARIES = "libc.so.6 libm.so.6 libgpiod.so.2 libbpf.so.1 libelf.so.1 libz.so.1 libmnl.so.0 libbsd.so.0 libmd.so.0 libcap.so.2"
-# Loaded at the start, after those they need.
+# Loaded at the start.
 MODULES = "virtio_pci 9pnet_virtio 9p can-raw vcan kvaser_pci i6300esb".split()
-# There for tests that load them themselves: insmod /modules/NAME.ko.
+# There for tests that load them themselves, with modprobe.
 MORE_MODULES = "gpio_keys xhci-pci ftdi_sio".split()
 
 
@@ -65,8 +65,8 @@ def needed(path):
     return [name.replace("-", "_") for name in match.group(1).decode().split(",") if name]
 
 
-def in_order(names, paths):
-    """With those that they need, each after what it needs. What is not a module is in the kernel."""
+def with_needed(names, paths):
+    """Each after what it needs. What is not a module is in the kernel."""
     order = []
 
     def take(name):
@@ -79,6 +79,19 @@ def in_order(names, paths):
     for name in names:
         take(name.replace("-", "_"))
     return order
+
+
+def add_modules(archive):
+    """As modprobe looks for them."""
+    paths = modules_by_name()
+    folder = "lib/modules/" + os.path.basename(glob.glob(os.path.join(VM, "kernel/lib/modules/*"))[0])
+    lines = []
+    for name in with_needed(MODULES + MORE_MODULES, paths):
+        archive.add_file(f"{folder}/{name}.ko", paths[name])
+        needs = reversed(with_needed([name], paths)[:-1])
+        lines.append(f"{name}.ko:" + "".join(f" {other}.ko" for other in needs) + "\n")
+    archive.add(f"{folder}/modules.dep", stat.S_IFREG | 0o644, "".join(lines).encode())
+    archive.add("etc/modules", stat.S_IFREG | 0o644, "\n".join(MODULES).encode() + b"\n")
 
 
 def library(name):
@@ -101,11 +114,7 @@ def make(target):
     archive.add_file("lib/ld-linux-aarch64.so.1", library("ld-linux-aarch64.so.1"))
     for name in LIBRARIES.split():
         archive.add_file("lib/" + name, library(name))
-    paths = modules_by_name()
-    loaded = in_order(MODULES, paths)
-    for name in in_order(MODULES + MORE_MODULES, paths):
-        archive.add_file(f"modules/{name}.ko", paths[name])
-    archive.add("modules/ORDER", stat.S_IFREG | 0o644, "".join(name + "\n" for name in loaded).encode())
+    add_modules(archive)
     with open(target + ".new", "wb") as file:
         file.write(gzip.compress(archive.end(), compresslevel=1))
     os.replace(target + ".new", target)

@@ -101,7 +101,7 @@ TEST_F(Can, WhatCanUtilsSendsIsReceived) {
 
 TEST_F(Can, WhatIsSentIsSeenByCandump) {
     const auto can = opened("can0");
-    FILE* dump = ::popen("candump -L -n 7 -T 20000 can1", "r");
+    FILE* dump = ::popen("candump -L -n 7 -T 60000 can1", "r");
     while (output_of("grep -c '^ *can1 ' /proc/net/can/rcvlist_all") == "0\n") continue;
     for (const Written& one : kFrames) {
         while (!can->write(one.frame)) continue;
@@ -287,7 +287,7 @@ TEST_F(Can, SaysWhatIsWrong) {
               "bitrate 250000 restart-ms 100 && ip link set can0 up");
     EXPECT_EQ(error("can9", 125'000),
               "there is no interface 'can9'; `ip -brief link show type can` lists those for CAN");
-    run("rmmod kvaser_pci && insmod /modules/kvaser_pci.ko");
+    run("rmmod kvaser_pci && modprobe kvaser_pci");
     EXPECT_EQ(error("can0", 125'000),
               "can0 has no bit rate yet; as root: ip link set can0 down && ip link set can0 type can bitrate "
               "125000 "

@@ -172,7 +172,7 @@ TEST_F(Gpio, ALineInUseIsRefusedWithTheNameOfItsHolder) {
 }
 
 TEST_F(Gpio, ALineOfAKernelDriverIsRefusedWithItsName) {
-    run("insmod /modules/gpio_keys.ko");
+    run("modprobe gpio_keys");
     EXPECT_EQ(refusal({GpioLine{"gpiochip0:3"}}),
               "/dev/gpiochip0:3 is in use by 'GPIO Key Poweroff'; end that program, or free the line of that "
               "driver");

@@ -36,6 +36,9 @@ class Outside {
     }
     bool level(unsigned line) { return ask("get " + std::to_string(line)) == "1"; }
 
+    void unplug(const std::string& adapter) { EXPECT_EQ(ask("unplug " + adapter), "ok"); }
+    void plug(const std::string& adapter) { EXPECT_EQ(ask("plug " + adapter), "ok"); }
+
   private:
     std::string ask(const std::string& question) {
         const std::string line = question + "\n";
@@ -67,7 +70,7 @@ inline bool readable(int descriptor, int milliseconds = 0) {
     return ::poll(&state, 1, milliseconds) > 0;
 }
 
-constexpr int kSoon = 20'000;  ///< ms; ends a test that would wait for ever
+constexpr int kSoon = 60'000;  ///< ms; ends a test that would wait for ever
 
 /// Another process; its exit status is what `work` answers. Killed with the object.
 class Process {
