@@ -189,6 +189,23 @@ class Running(Case):
         self.start(config)
         self.assertEqual(self.ctl("status")["safe_reason"], "watchdog")
 
+    def test_a_start_that_failed_is_no_crash_and_hides_none(self):
+        self.plug_in("one")
+        self.plug_in("two")
+        config = self.write(self.axis("a", "one", table=self.table), self.axis("b", "two"))
+        for killed_before, reason in ((False, ""), (True, "watchdog")):
+            if killed_before:
+                os.remove(self.path("b"))  # the socket that the killed one left
+            with open(self.path("b"), "w", encoding="utf-8"):
+                self.assertEqual(self.end(self.start(config)), 3, "a file where b's socket should be")
+            os.remove(self.path("b"))
+            service = self.start(config)
+            if killed_before:
+                self.assertEqual(self.ctl("status", port="a")["safe_reason"], reason)
+            else:
+                self.moves("a")
+            self.end(service, signal.SIGKILL)
+
     def test_the_configured_table_runs_while_none_is_stored(self):
         self.plug_in()
         self.start(self.write(self.axis(table=self.table)))

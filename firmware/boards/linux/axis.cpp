@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "words.h"
 
@@ -37,7 +39,10 @@ std::string marker(const std::string& folder) {
 
 }  // namespace
 
-Axis::~Axis() = default;
+/// The levels may have been set anew since the start.
+Axis::~Axis() {
+    if (outputs_ && gateway_) outputs_->set_safe(gateway_->settings().safe_outputs);
+}
 
 void Axis::tell(LogLevel level, const std::string& text) {
     journal_.write(level, config_.name + ": " + text);
@@ -102,11 +107,14 @@ std::string Axis::open_ports() {
 }
 
 /// A marker that is left over from this boot is of a run that did not end in order.
-gateway::StartCause Axis::cause_of_start() {
+gateway::StartCause Axis::cause_of_start() const {
     const std::string boot = line_of_file("/proc/sys/kernel/random/boot_id");
     const bool crashed = !boot.empty() && line_of_file(marker(folder_)) == boot;
-    std::ofstream(marker(folder_)) << boot << '\n';
     return crashed ? gateway::StartCause::watchdog : gateway::StartCause::power_up;
+}
+
+void Axis::note_running() {
+    std::ofstream(marker(folder_)) << line_of_file("/proc/sys/kernel/random/boot_id") << '\n';
 }
 
 void Axis::note_orderly_end() {

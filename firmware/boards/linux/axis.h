@@ -45,6 +45,8 @@ class Axis {
     void begin_end(base::Instant now);
     bool has_stopped() const;
     bool motor_answers() const { return driver_ && motor::delivers(driver_->link()); }
+    /// From now on an end that is not orderly is a crash; a start that failed before is none.
+    void note_running();
     /// The end was orderly: the next start is none after a crash.
     void note_orderly_end();
 
@@ -59,7 +61,7 @@ class Axis {
     std::string open_lines();
     std::string open_ports();
     std::string load_table(base::Instant now);
-    gateway::StartCause cause_of_start();
+    gateway::StartCause cause_of_start() const;
     std::string start(gateway::StartCause cause, base::Instant now);
     void tell(LogLevel level, const std::string& text);
     void tell_news();

@@ -83,6 +83,7 @@ std::string Service::open() {
         if (std::string error = axes_.back()->open(config_.state_directory, now); !error.empty())
             return config.name + ": " + error;
     }
+    for (const auto& axis : axes_) axis->note_running();
     for (std::size_t i = 0; i < axes_.size(); ++i)
         axes_[i]->watch(*loop_, static_cast<std::uint32_t>(i) * Axis::kMarks);
     next_.assign(axes_.size(), base::Instant{});
