@@ -8,6 +8,7 @@ import json
 import os
 import re
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -412,6 +413,23 @@ class Telling(Case):
         self.assertIn("<5>started with 1 axis\n", seen)
         # SAFE_REASON 8, told to be, is a warning.
         self.assertTrue(any(line.startswith("<4>x: SAFE: told to be") for line in seen), seen)
+
+    def test_systemd_is_told_and_its_watchdog_fed(self):
+        self.plug_in()
+        place = self.path("notify")
+        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager:
+            manager.bind(place)
+            manager.settimeout(LONG)
+            service = self.start(self.write(self.axis()), NOTIFY_SOCKET=place, WATCHDOG_USEC="1000000")
+            told = ""
+            while "READY=1" not in told or told.count("WATCHDOG=1") < 3 or "STATUS=x stopped" not in told:
+                told += manager.recv(4096).decode() + "\n"
+            self.ctl("upload", self.table, "--run")
+            while "STATUS=x runs" not in told:
+                told += manager.recv(4096).decode() + "\n"
+            self.end(service)
+            while "STOPPING=1" not in told:
+                told += manager.recv(4096).decode() + "\n"
 
     def test_the_example_is_in_order(self):
         result = subprocess.run([NANOPLC, "check-config", "--no-devices", EXAMPLE], capture_output=True, text=True, check=False)
