@@ -282,11 +282,11 @@ class Ports(Case):
         self.plug_in("two")
         self.start(self.write(self.axis("a", "one", port="pty:" + self.path("pty")), self.axis("b", "two")))
         self.assertEqual(self.ctl("status", port=self.path("pty"))["state"], "stopped")
-        with subprocess.Popen([NANOCTL, "--port", "unix:" + self.path("b"), "watch"], stdout=subprocess.PIPE, text=True) as watch:
+        with subprocess.Popen([NANOCTL, "--port", "unix:" + self.path("b"), "--patience", "2000", "watch"],
+                              stdout=subprocess.PIPE, text=True) as watch:
             self.assertIn("stopped", watch.stdout.readline())
             self.ctl("upload", self.table, "--run", port="b")
-            while "running" not in watch.stdout.readline():
-                pass
+            self.assertTrue(any("running" in line for line in watch.stdout), "it ended before")
             watch.terminate()
 
     def test_a_client_that_sends_nonsense_disturbs_nobody(self):
