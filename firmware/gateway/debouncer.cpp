@@ -1,5 +1,7 @@
 #include "gateway/debouncer.h"
 
+#include <algorithm>
+
 namespace nplc::gateway {
 
 std::uint8_t Debouncer::update(std::uint8_t raw, base::Instant now) {
@@ -23,6 +25,14 @@ std::uint8_t Debouncer::update(std::uint8_t raw, base::Instant now) {
         changing_ &= static_cast<std::uint8_t>(~bit);
     }
     return levels_;
+}
+
+base::Instant Debouncer::next_update() const {
+    base::Instant next = base::kNever;
+    for (unsigned i = 0; i < since_.size(); ++i) {
+        if ((changing_ >> i & 1U) != 0) next = std::min(next, since_[i] + steady_);
+    }
+    return next;
 }
 
 }  // namespace nplc::gateway

@@ -83,6 +83,8 @@ void Gateway::read_inputs(base::Instant now) {
 }
 
 void Gateway::poll(base::Instant now) {
+    if (may_rest_until_ && rests_ && scan_ended_) scan_ended_ = std::min(now, *may_rest_until_);
+    may_rest_until_.reset();
     ports_.motor.poll(now);
     uptime_.advance(now);
     read_inputs(now);
@@ -194,13 +196,17 @@ void Gateway::work(base::Instant now) {
 
 /// False while the motor is not settled. A scan that can change nothing is finished at once.
 bool Gateway::begin_scan(base::Instant now) {
-    if (!ports_.motor.settled()) return false;
+    if (now < next_scan_) return false;
+    const bool rested = std::exchange(rests_, false);
+    if (!ports_.motor.settled()) {
+        if (rested) progress_ = now;
+        return false;
+    }
     progress_ = now;
-    image_ =
-        static_cast<sequencer::InputImage>(inputs() | (ports_.motor.in_position() ? sequencer::kInPos : 0) |
-                                           (ports_.motor.error() ? sequencer::kError : 0));
+    image_ = present_image();
     if (quiet_key_ == engine_.key(image_)) {
         note_scan_end(now);
+        rests_ = true;
         hold_if_due(false, now);
         return false;
     }
@@ -209,6 +215,12 @@ bool Gateway::begin_scan(base::Instant now) {
     engine_.begin(image_);
     in_scan_ = true;
     return true;
+}
+
+sequencer::InputImage Gateway::present_image() const {
+    return static_cast<sequencer::InputImage>(inputs() |
+                                              (ports_.motor.in_position() ? sequencer::kInPos : 0) |
+                                              (ports_.motor.error() ? sequencer::kError : 0));
 }
 
 /// False while an order has to wait for room.
@@ -227,6 +239,8 @@ bool Gateway::send_orders(base::Instant now) {
 void Gateway::finish_scan(base::Instant now) {
     const sequencer::ScanEffect effect = engine_.finish();
     if (effect.any()) quiet_key_.reset();
+    rests_ = !effect.any();
+    if (effect.any()) next_scan_ = now + pace_;
     if (effect.timer_preset) ticked_ = now;
     if (safe_reason_ != SafeReason::link_down) {
         safe_reason_ = SafeReason::none;

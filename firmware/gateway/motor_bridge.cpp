@@ -67,6 +67,12 @@ MotorBridge::State MotorBridge::poll(base::Instant now, base::Microseconds pause
     return State::under_way;
 }
 
+base::Instant MotorBridge::next_poll(base::Instant now, base::Microseconds pause) const {
+    const base::Instant patience = begun_ + kLongest + base::Microseconds(1);
+    if (motor::is_open(motor_.access_state())) return patience;
+    return std::min(patience, asked_ ? now : std::max(now, ended_ + pause));
+}
+
 MotorBridge::State MotorBridge::take(base::Instant now) {
     switch (motor_.access_state()) {
         case motor::AccessState::waiting:

@@ -1,4 +1,6 @@
 // What a write to one of the gateway's own registers does.
+#include <algorithm>
+
 #include "base/bytes.h"
 #include "gateway/own_registers.h"
 
@@ -20,6 +22,21 @@ Outcome outcome_of(const base::Status& status) {
 void OwnRegisters::poll() {
     tables_.poll();
     settings_.poll();
+}
+
+base::Instant OwnRegisters::next_poll(base::Instant now) {
+    const base::Instant next = std::min(tables_.next_poll(now), settings_.next_poll(now));
+    switch (waiting_) {
+        case Waiting::nothing:
+            break;
+        case Waiting::room:
+        case Waiting::keeping:
+            return std::min(next, write_begun_ + kLongestWait + base::Microseconds(1));
+        case Waiting::activation:
+        case Waiting::reset:
+            return std::min(next, tables_.next_activation(now));
+    }
+    return next;
 }
 
 void OwnRegisters::begin_write(std::uint8_t reg, std::span<const std::uint8_t> bytes, base::Instant now) {

@@ -1,5 +1,7 @@
 #include "gateway/standstill.h"
 
+#include <algorithm>
+
 #include "registers/mac.h"
 
 namespace nplc::gateway {
@@ -41,6 +43,13 @@ Progress Standstill::poll(base::Instant now) {
     }
     asked_ = false;
     return take(motor_.access_value(), now);
+}
+
+base::Instant Standstill::next_poll(base::Instant now) const {
+    const base::Instant patience = begun_ + kLongest + base::Microseconds(1);
+    if (motor::is_open(motor_.access_state())) return patience;
+    const bool pauses = !asked_ && phase_ == Phase::second_position;
+    return std::min(patience, pauses ? std::max(now, position_at_ + kBetween) : now);
 }
 
 Progress Standstill::take(std::uint32_t value, base::Instant now) {

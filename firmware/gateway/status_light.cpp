@@ -43,4 +43,14 @@ bool status_light(RunState run_state, SafeReason reason, std::uint32_t milliseco
     return false;
 }
 
+std::uint32_t next_status_light(RunState run_state, SafeReason reason, std::uint32_t milliseconds) {
+    constexpr std::uint32_t kBeat = 125;  // all flashes are multiples of it
+    constexpr std::uint32_t kLongest = 2000;
+    const bool now = status_light(run_state, reason, milliseconds);
+    for (std::uint32_t in = kBeat - milliseconds % kBeat; in <= kLongest; in += kBeat) {
+        if (status_light(run_state, reason, milliseconds + in) != now) return in;
+    }
+    return 0;
+}
+
 }  // namespace nplc::gateway

@@ -14,6 +14,9 @@ constexpr int kReadsPerPoll = 16;
 /// The motor's own line: no manual says how long it may take to answer.
 constexpr base::Microseconds kMotorAnswers{1'000'000};
 
+/// At a port that was full, and at the motor's own, of which it is not told when something comes.
+constexpr base::Microseconds kLook{1'000};
+
 constexpr std::uint32_t kMayWrite = 1;
 constexpr std::uint32_t kMaySendAll = 2;
 
@@ -25,6 +28,21 @@ void UserPort::poll(base::Instant now) {
     receive(now);
     go_on(now);
     transmit();
+}
+
+base::Instant UserPort::next_poll(base::Instant now) {
+    base::Instant next = own_.next_poll(now);
+    if (sent_ < out_.size) next = std::min(next, now + kLook);
+    switch (serving_) {
+        case Serving::nothing:
+        case Serving::own_write:
+            return next;
+        case Serving::motor:
+            return std::min(next, bridge_.next_poll(now, read_pause()));
+        case Serving::motor_line:
+            return std::min(next, now + kLook);
+    }
+    return now;
 }
 
 void UserPort::receive(base::Instant now) {
@@ -131,10 +149,13 @@ void UserPort::go_on(base::Instant now) {
     }
 }
 
-void UserPort::serve_motor(base::Instant now) {
+base::Milliseconds UserPort::read_pause() const {
     const bool running = gateway_.run_state() != RunState::stopped;
-    const base::Milliseconds pause(running ? settings_.get(store::Setting::read_pause) : 0);
-    switch (bridge_.poll(now, pause)) {
+    return base::Milliseconds(running ? settings_.get(store::Setting::read_pause) : 0);
+}
+
+void UserPort::serve_motor(base::Instant now) {
+    switch (bridge_.poll(now, read_pause())) {
         case MotorBridge::State::under_way:
             return;
         case MotorBridge::State::answered:

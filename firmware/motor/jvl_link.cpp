@@ -10,6 +10,7 @@ using protocol::fastmac::Status;
 
 constexpr std::uint8_t kStrangeBytes = 4;
 constexpr int kReadsPerPoll = 1024;  // far more than any port holds back
+constexpr base::Microseconds kTick{1};
 
 constexpr std::uint8_t bump(std::uint8_t count) {
     return count == 0xFF ? count : static_cast<std::uint8_t>(count + 1);
@@ -101,16 +102,35 @@ JvlLink::Result JvlLink::poll(base::Instant now) {
     return result;
 }
 
+base::Instant JvlLink::next_poll(base::Instant now) const {
+    base::Instant next = base::kNever;
+    const auto not_after = [&next](base::Instant time) { next = std::min(next, time); };
+    const auto not_before = [&](base::Instant time) { not_after(time > now ? time : now + character_); };
+    if (sent_ < size_) {
+        not_before(next_byte_);
+    } else if (size_ != 0 && !on_the_line_) {
+        not_before(line_free_);
+    }
+    if (!adopted_) return next;
+    not_after(last_status_ + settings_.silence + kTick);
+    if (!busy()) return next;
+    not_after(started_ + settings_.longest_message + kTick);
+    if (old_shown_ >= settings_.proof_bytes && !repeat_is_harmless())
+        not_after(left_at_ + settings_.proof_time);
+    return next;
+}
+
 void JvlLink::transmit(base::Instant now) {
     while (sent_ < size_ && now >= next_byte_) {
         const bool pauses = known() && status().framing_error;
         const std::size_t wanted = pauses ? 1 : size_ - sent_;
         const std::size_t taken = port_.write(std::span(message_).subspan(sent_, wanted));
         sent_ = static_cast<std::uint8_t>(sent_ + taken);
+        line_free_ = std::max(line_free_, now + kTick) + static_cast<int>(taken) * character_;
         if (pauses) next_byte_ = now + 2 * character_;
         if (taken == 0) return;
     }
-    if (!on_the_line_ && size_ != 0 && sent_ == size_ && port_.transmitter_idle()) {
+    if (!on_the_line_ && size_ != 0 && sent_ == size_ && now >= line_free_ && port_.transmitter_idle()) {
         on_the_line_ = true;
         left_at_ = now;
     }

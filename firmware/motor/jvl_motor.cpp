@@ -1,5 +1,6 @@
 #include "motor/jvl_motor.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "motor/jvl_orders.h"
@@ -42,6 +43,16 @@ void JvlMotor::poll(base::Instant now) {
     } else {
         start_up(now);
     }
+}
+
+base::Instant JvlMotor::next_poll(base::Instant now) const {
+    base::Instant next = link_.next_poll(now);
+    if (holds_ && !hold_counts_) next = std::min(next, hold_until_);
+    if (link_.busy()) return next;
+    if (has_work()) return now;
+    if (reply_until_) next = std::min(next, *reply_until_);
+    if (phase_ == Phase::down && link_.framing_error_seen()) next = std::min(next, next_blind_);
+    return next;
 }
 
 void JvlMotor::lose_link(base::Instant now) {
@@ -150,6 +161,15 @@ void JvlMotor::free_the_line(base::Instant now) {
     link_.clear_framing_error();
     link_.send_blind(bytes, now);
     next_blind_ = now + kBlindPause;
+}
+
+/// Something would be sent.
+bool JvlMotor::has_work() const {
+    if (phase_ != Phase::up) return phase_ != Phase::down;
+    if (stop_wanted_ || !orders_.empty()) return true;
+    if (reply_until_) return false;
+    return access_state_ == AccessState::waiting || link_.flexmac() ||
+           (link_.framing_error_seen() && !slowed_);
 }
 
 void JvlMotor::work(base::Instant now) {

@@ -36,6 +36,10 @@ base::Status SettingsStore::save(const SettingValues& values) {
     return slots_.begin();
 }
 
+base::Instant SettingsStore::next_poll(base::Instant now) {
+    return slots_.phase() == Phase::receiving ? now : slots_.next_poll(now);
+}
+
 void SettingsStore::poll() {
     slots_.poll();
     if (slots_.phase() != Phase::receiving) return;

@@ -79,6 +79,15 @@ void Slots::poll() {
     }
 }
 
+base::Instant Slots::next_poll(base::Instant now) {
+    constexpr base::Microseconds kLook{1'000};
+    const bool has_bytes = waiting_ || !flushed() || fill_.used == kBuffer;
+    const bool works =
+        phase_ == Phase::erasing || phase_ == Phase::closing || (phase_ == Phase::receiving && has_bytes);
+    if (!works) return base::kNever;
+    return storage_.state() == ports::StorageState::busy ? now + kLook : now;
+}
+
 /// True while the storage works, for us or for someone else, and when our operation has failed.
 bool Slots::wait_for_storage() {
     const ports::StorageState state = storage_.state();

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <sys/epoll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -44,7 +45,9 @@ class SocketServer final : public ByteServer {
           clients_(seats),
           visits_(seats),
           path_(std::move(path)),
-          name_(std::move(name)) {}
+          name_(std::move(name)) {
+        watch(listener_.get());
+    }
 
     const std::string& name() const override { return name_; }
 
@@ -77,9 +80,14 @@ class SocketServer final : public ByteServer {
         if (taken < 0 && errno != EAGAIN && errno != EINTR) client.close();
     }
 
-    int descriptor() const override { return clients_.front() ? clients_.front().get() : listener_.get(); }
+    int descriptor() const override { return all_.get(); }
 
   private:
+    void watch(int descriptor) {
+        epoll_event event{.events = EPOLLIN | EPOLLRDHUP, .data = {.fd = descriptor}};
+        ::epoll_ctl(all_.get(), EPOLL_CTL_ADD, descriptor, &event);
+    }
+
     void accept_clients() {
         for (;;) {
             FileDescriptor next(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
@@ -88,6 +96,7 @@ class SocketServer final : public ByteServer {
             if (seat == clients_.end()) continue;  // turned away
             const int on = 1;
             ::setsockopt(next.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+            watch(next.get());
             *seat = std::move(next);
             visits_[static_cast<std::size_t>(seat - clients_.begin())] = ++visitors_;
         }
@@ -99,6 +108,7 @@ class SocketServer final : public ByteServer {
         return !client || ::recv(client.get(), &byte, 1, MSG_PEEK) == 0;
     }
 
+    FileDescriptor all_{::epoll_create1(EPOLL_CLOEXEC)};  ///< readable when one of the others is
     FileDescriptor listener_;
     std::vector<FileDescriptor> clients_;
     std::vector<std::uint64_t> visits_;  ///< of the client in each seat

@@ -74,6 +74,7 @@ void World::start_gateway(gateway::StartCause cause) {
     driver_.emplace(line_.port(), gateway::driver_settings_of(settings_->values()));
     const gateway::Gateway::Ports ports{board_, board_, board_, *driver_};
     gateway_.emplace(ports, gateway::settings_of(settings_->values()), cause);
+    if (options_.polling != Polling::steadily) gateway_->pace(base::Microseconds(250));
     settings_->attach(*gateway_);
     gateway_->observe(this);
     tables_.emplace(*gateway_, *driver_, storage, kTableArea, table_memory_);
@@ -155,13 +156,13 @@ void World::move_user_characters() {
         user_line_.from_motor().start(user_waiting_.front(), now_);
         user_waiting_.pop_front();
     }
-    user_line_.service(now_);
+    if (user_line_.service(now_)) wake();
     while (const auto byte = user_line_.to_motor().take(now_)) user_received_.push_back(byte->value);
 }
 
 void World::move_mactalk_characters() {
     if (!options_.motor_mactalk_wired) return;
-    mactalk_line_.service(now_);
+    if (mactalk_line_.service(now_)) wake();
     while (const auto byte = mactalk_line_.to_motor().take(now_)) {
         if (motor_powered_) mac_.receive_mactalk(byte->value, byte->framing_error);
     }
@@ -176,14 +177,28 @@ void World::sample_motor() {
     if (std::exchange(motor_fails_, false)) mac_.overload();
 }
 
+void World::wake() {
+    if (options_.polling != Polling::steadily) next_poll_ = now_;
+}
+
+Time World::next_poll() {
+    const Time steadily = now_ + kPollPeriod;
+    if (options_.polling == Polling::steadily) return steadily;
+    base::Instant due = std::min(gateway_->next_poll(instant()), user_port_->next_poll(instant()));
+    due = std::min(due, instant() + kWatchdogTime / 2);
+    const Time at = std::max<Time>(now_, due.time_since_epoch());
+    return options_.polling == Polling::at_need ? at : std::min(at, steadily);
+}
+
 void World::poll_gateway() {
+    ++polls_;
     gateway_->poll(instant());
     user_port_->poll(instant());
     follow_orders();
     line_.service(now_);
     user_line_.service(now_);
     mactalk_line_.service(now_);
-    next_poll_ = now_ + kPollPeriod;
+    next_poll_ = next_poll();
     if (board_.watchdog_bites(instant())) start_gateway(gateway::StartCause::watchdog);
     if (own_registers_->reset_asked()) start_gateway(gateway::StartCause::power_up);
 }
@@ -219,13 +234,21 @@ Snapshot World::take_snapshot() {
             .orders = std::exchange(orders_, {})};
 }
 
-void World::ordered(base::Instant /*now*/, const sequencer::MotorOrder& order) {
+void World::ordered(base::Instant now, const sequencer::MotorOrder& order) {
+    if (options_.observer != nullptr) options_.observer->ordered(now, order);
     orders_.push_back({order.is_flex, order.command, order.reg, order.value});
     on_their_way_.push_back(orders_given_++);
 }
 
-void World::scanned(base::Instant /*now*/, const sequencer::State& /*before*/,
-                    sequencer::InputImage /*image*/, const sequencer::State& /*after*/) {}
+void World::scanned(base::Instant now, const sequencer::State& before, sequencer::InputImage image,
+                    const sequencer::State& after) {
+    if (options_.observer != nullptr) options_.observer->scanned(now, before, image, after);
+}
+
+void World::set_input(unsigned index, bool level) {
+    board_.set_input(index, level);
+    wake();
+}
 
 void World::toggle_input(unsigned index) {
     set_input(index, (board_.inputs() >> index & 1) == 0);
@@ -290,6 +313,7 @@ void World::set_supply(const action::MotorSupply& supply) {
 }
 
 void World::gateway(action::Gateway what) {
+    wake();
     switch (what) {
         case action::Gateway::stop:
             gateway_->stop(instant());

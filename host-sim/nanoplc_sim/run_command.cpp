@@ -17,7 +17,7 @@
 #include "input_file.h"
 #include "output_check.h"
 #include "session.h"
-#include "shared_line.h"
+#include "shared_line/shared_line.h"
 
 namespace nplc::sim {
 namespace {
@@ -109,7 +109,7 @@ class Door {
 
   private:
     std::unique_ptr<hal_linux::ByteServer> server_;
-    std::optional<SharedLine> line_;
+    std::optional<boards::SharedLine> line_;
 };
 
 void handle_key(Session& session, char key) {

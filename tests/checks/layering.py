@@ -44,6 +44,7 @@ MODULES = [
         core=True,
     ),
     Module("firmware/boards", None, ANY, os=True, clock=True),
+    Module("firmware/boards/shared_line", "shared_line", ("base", "protocol", "hal_linux")),
     Module("host-sim", "sim", ("base", "ports", "protocol", "registers"), os=True),
     Module("host-sim/board", "sim", ANY, os=True, clock=True),
     Module(
@@ -108,8 +109,8 @@ HOSTED_STANDARD = set(
     system_error thread typeindex typeinfo unordered_map unordered_set valarray vector""".split()
 )
 # Headers that take seconds to compile: one folder hides them from all others.
-HIDDEN = {"CLI/": "tools/arguments"}
-LIBRARIES = ("gtest/", "gmock/", "benchmark/", "fmt/", "CLI/", "nlohmann/", "stb/")
+HIDDEN = {"CLI/": "tools/arguments", "toml++/": "firmware/boards"}
+LIBRARIES = ("gtest/", "gmock/", "benchmark/", "fmt/", "CLI/", "nlohmann/", "stb/", "toml++/")
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)

@@ -22,10 +22,10 @@ std::vector<std::uint8_t> bytes_of(auto&& encoded) {
 
 }  // namespace
 
-PortTraffic::PortTraffic(std::uint64_t seed, Traffic traffic)
+PortTraffic::PortTraffic(std::uint64_t seed, Traffic traffic, sim::Polling polling)
     : traffic_(traffic),
       dice_(seed + 1000),
-      world_(table(seed), {.seed = seed, .faults = {}, .gateway = {}}) {}
+      world_(table(seed), {.seed = seed, .faults = {}, .gateway = {}, .polling = polling}) {}
 
 /// Step i waits for IN0 = i modulo 2. Commands 00h..5Fh select registers; 60h.. would be the link's own too.
 std::vector<std::uint8_t> PortTraffic::table(std::uint64_t seed) {
@@ -63,7 +63,8 @@ void PortTraffic::run() {
 
 void PortTraffic::go_on(Time until) {
     while (world_.now() < until) {
-        world_.step(until);
+        world_.step(traffic_ == Traffic::none ? until
+                                              : std::min(until, std::max(world_.now(), next_question_)));
         for (const auto& order : world_.take_snapshot().orders) ordered_.push_back({order, world_.now()});
         answered_ += world_.user_received().size();
         if (traffic_ != Traffic::none && world_.now() >= next_question_) ask();

@@ -16,7 +16,7 @@ class PortTraffic {
     enum class Traffic { none, reads, anything };
 
     /// The same seed gives the same sequence, whatever the traffic.
-    PortTraffic(std::uint64_t seed, Traffic traffic);
+    PortTraffic(std::uint64_t seed, Traffic traffic, sim::Polling polling = sim::Polling::steadily);
 
     void run();
 

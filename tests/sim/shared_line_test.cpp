@@ -1,11 +1,11 @@
 // Several clients on one MacTalk line: their messages never mix, and each hears its own answer.
-#include "shared_line.h"
+#include "shared_line/shared_line.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-namespace nplc::sim {
+namespace nplc::boards {
 namespace {
 
 namespace mactalk = protocol::mactalk;
@@ -61,7 +61,7 @@ struct SharedLineTest : testing::Test {
 
     Clients clients;
     SharedLine line{clients};
-    Time now{0};
+    SharedLine::Time now{0};
 };
 
 TEST_F(SharedLineTest, MessagesInPiecesDoNotMix) {
@@ -185,4 +185,4 @@ TEST_F(SharedLineTest, SamplesOfEitherLengthEndWithASilence) {
 }
 
 }  // namespace
-}  // namespace nplc::sim
+}  // namespace nplc::boards

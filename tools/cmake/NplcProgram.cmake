@@ -1,6 +1,6 @@
 # nplc_program(NAME SOURCES ... DEPENDS ...)       a program with a command line
 # nplc_command_line_module(NAME SOURCES ... DEPENDS ...)   a library that reads one
-# nplc_program_documents(NAME)
+# nplc_program_documents(NAME [SECTION 8])
 #
 # The last installs program NAME with the manual page and the completions that it prints of itself (tools/command_line).
 include_guard(GLOBAL)
@@ -37,17 +37,25 @@ function(nplc_program name)
 endfunction()
 
 function(nplc_program_documents name)
+  cmake_parse_arguments(ARG "" "SECTION" "" ${ARGN})
+  set(section 1)
+  set(folder "${CMAKE_INSTALL_BINDIR}")
+  if(ARG_SECTION)
+    set(section ${ARG_SECTION})
+    set(folder "${CMAKE_INSTALL_SBINDIR}")
+  endif()
   set(generated "${CMAKE_CURRENT_BINARY_DIR}/generated")
-  add_custom_command(OUTPUT "${generated}/${name}.1" "${generated}/${name}" "${generated}/_${name}"
+  add_custom_command(OUTPUT "${generated}/${name}.${section}" "${generated}/${name}" "${generated}/_${name}"
     COMMAND ${CMAKE_COMMAND} -E make_directory "${generated}"
-    COMMAND ${name} man > "${generated}/${name}.1"
+    COMMAND ${name} man > "${generated}/${name}.${section}"
     COMMAND ${name} completion bash > "${generated}/${name}"
     COMMAND ${name} completion zsh > "${generated}/_${name}"
     DEPENDS ${name} VERBATIM)
-  add_custom_target(${name}_generated ALL DEPENDS "${generated}/${name}.1")
+  add_custom_target(${name}_generated ALL DEPENDS "${generated}/${name}.${section}")
 
-  install(TARGETS ${name} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
-  install(FILES "${generated}/${name}.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
-  install(FILES "${generated}/${name}" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
-  install(FILES "${generated}/_${name}" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions")
+  install(TARGETS ${name} RUNTIME DESTINATION "${folder}" COMPONENT ${name})
+  install(FILES "${generated}/${name}.${section}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man${section}" COMPONENT ${name})
+  install(FILES "${generated}/${name}" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
+          COMPONENT ${name})
+  install(FILES "${generated}/_${name}" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions" COMPONENT ${name})
 endfunction()

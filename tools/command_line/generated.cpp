@@ -165,10 +165,10 @@ std::string man_page(const arguments::App& app, const About& about) {
     std::string commands;
     for (const arguments::App* command : app.get_subcommands()) commands += man_command(*command, "");
     return fmt::format(
-        ".TH {} 1 \"\" \"{} {}\" \"NanoPLC Gateway\"\n.SH NAME\n{} \\- {}\n"
+        ".TH {} {} \"\" \"{} {}\" \"NanoPLC Gateway\"\n.SH NAME\n{} \\- {}\n"
         ".SH SYNOPSIS\n.B {}\n[options] command [arguments]\n.SH DESCRIPTION\n{}\n"
         ".SH OPTIONS\nThey may stand before or behind the command.\n{}.SH COMMANDS\n{}",
-        capitals, app.get_name(), about.version, app.get_name(), about.title, app.get_name(),
+        capitals, about.section, app.get_name(), about.version, app.get_name(), about.title, app.get_name(),
         roff(app.get_footer()), man_options(app), commands);
 }
 

@@ -16,6 +16,8 @@ class Debouncer {
     std::uint8_t update(std::uint8_t raw, base::Instant now);
     void set_steady(base::Microseconds steady) { steady_ = steady; }
     std::uint8_t levels() const { return levels_; }
+    /// When update() takes over a level at the earliest, if none changes meanwhile.
+    base::Instant next_update() const;
 
   private:
     base::Microseconds steady_;

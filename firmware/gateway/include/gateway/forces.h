@@ -40,6 +40,8 @@ class Forces {
         return time - (now - renewed_);
     }
 
+    base::Instant end(base::Microseconds time) const { return any() ? renewed_ + time : base::kNever; }
+
   private:
     Forced inputs_;
     Forced outputs_;

@@ -109,6 +109,14 @@ class Gateway {
 
     /// To be called at least once a millisecond.
     void poll(base::Instant now);
+    /// Or, instead: whenever something arrives (a byte from the motor, a change of an input) and at the
+    /// latest then. Asked after each poll() and whatever was done since; `now` or earlier: at once. The
+    /// watchdog may want it sooner. What it sleeps so is no scan time, and scans() counts only those that
+    /// were looked at.
+    base::Instant next_poll(base::Instant now);
+    /// Least time between a scan that did something and the next one; 0, as often as it is polled. For who
+    /// goes by next_poll(): a table may do something in every scan.
+    void pace(base::Microseconds least) { pace_ = least; }
 
     void observe(Observer* observer) { observer_ = observer; }
 
@@ -159,6 +167,9 @@ class Gateway {
     void start_by_itself(base::Instant now);
     void start_when_ready(base::Instant now);
     void watch_link(base::Instant now);
+    base::Instant next_work(base::Instant now) const;
+    base::Instant next_scan(base::Instant now) const;
+    sequencer::InputImage present_image() const;
     void work(base::Instant now);
     bool begin_scan(base::Instant now);
     bool send_orders(base::Instant now);
@@ -185,7 +196,11 @@ class Gateway {
     std::optional<sequencer::MotorOrder> held_;  ///< order that found no room
     sequencer::State before_;                    ///< as the scan under way found it
     base::Instant progress_{};                   ///< last time a scan did not have to wait
-    base::Instant ticked_{};                     ///< the timer has been counted up to here
+    bool rests_ = false;                         ///< nothing could change at the last look
+    std::optional<base::Instant> may_rest_until_;
+    base::Microseconds pace_{};
+    base::Instant next_scan_{};
+    base::Instant ticked_{};  ///< the timer has been counted up to here
     sequencer::InputImage image_ = 0;
     std::optional<sequencer::Key> quiet_key_;  ///< a scan with this key would do nothing
     std::uint32_t scans_ = 0;

@@ -25,6 +25,8 @@ class MotorBridge {
     enum class State : std::uint8_t { under_way, answered, failed };
     /// `pause`: least time between two of the accesses. `answered` and `failed` come once.
     State poll(base::Instant now, base::Microseconds pause);
+    /// When it must be polled at the latest if the motor's driver has nothing new.
+    base::Instant next_poll(base::Instant now, base::Microseconds pause) const;
     /// After `answered`.
     protocol::mactalk::EncodedReply answer() const;
 

@@ -35,6 +35,8 @@ class OwnRegisters {
     /// A user has asked for a reset.
     bool reset_asked() const { return reset_asked_; }
     void poll();
+    /// When poll(), and poll_write() while a write is not done, must be called at the latest.
+    base::Instant next_poll(base::Instant now);
 
   private:
     /// What poll_write() still has to wait for.

@@ -33,6 +33,7 @@ class SettingsKeeper {
     void begin_keeping();
     Progress poll_keeping();
     void poll();
+    base::Instant next_poll(base::Instant now) { return store_.next_poll(now); }
     bool differ() const { return values_ != stored_; }
     bool were_damaged() const { return damaged_; }
 

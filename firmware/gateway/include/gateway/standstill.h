@@ -17,6 +17,8 @@ class Standstill {
     void begin(base::Instant now);
     /// done, moving, or link_down (also without an answer).
     Progress poll(base::Instant now);
+    /// When it must be polled at the latest if the motor's driver has nothing new.
+    base::Instant next_poll(base::Instant now) const;
     void drop() { motor_.drop_access(); }
 
   private:

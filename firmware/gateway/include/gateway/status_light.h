@@ -11,4 +11,7 @@ namespace nplc::gateway {
 /// dark: the outputs are safe although the sequence runs (the link is down), or the reason is a fault.
 bool status_light(RunState run_state, SafeReason reason, std::uint32_t milliseconds);
 
+/// In how many milliseconds it changes; 0: never, as things stand.
+std::uint32_t next_status_light(RunState run_state, SafeReason reason, std::uint32_t milliseconds);
+
 }  // namespace nplc::gateway

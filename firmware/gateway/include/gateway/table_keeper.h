@@ -32,6 +32,8 @@ class TableKeeper final : private store::TermCheck {
     sequencer::Table::LoadResult use(std::span<const std::uint8_t> table, base::Instant now);
 
     void poll();
+    /// Of poll(): when it has something to do for the store.
+    base::Instant next_poll(base::Instant now) { return slots_.next_poll(now); }
 
     base::Status begin_upload();
     /// The piece for `offset`. Error busy: no room yet, the same again later.
@@ -47,6 +49,7 @@ class TableKeeper final : private store::TermCheck {
     /// The stored table becomes the active one if the sequence is stopped and the motor stands still.
     void begin_activation(base::Instant now);
     Progress poll_activation(base::Instant now);
+    base::Instant next_activation(base::Instant now) const { return standstill_.next_poll(now); }
     void drop_activation() { standstill_.drop(); }
 
     std::span<const std::uint8_t> active() const {

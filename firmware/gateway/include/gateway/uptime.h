@@ -22,6 +22,8 @@ class Uptime {
         milliseconds_ += passed;
     }
     std::uint32_t milliseconds() const { return milliseconds_; }
+    /// When milliseconds() will be `more` than now.
+    base::Instant in(std::uint32_t more) const { return last_ + base::Milliseconds(more); }
 
   private:
     bool begun_ = false;

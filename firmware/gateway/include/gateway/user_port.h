@@ -25,7 +25,11 @@ class UserPort {
           own_(own),
           settings_(settings) {}
 
+    /// After Gateway::poll.
     void poll(base::Instant now);
+    /// When both must be polled at the latest, for the person's sake, if nothing arrives on either line and
+    /// Gateway::next_poll asks for nothing.
+    base::Instant next_poll(base::Instant now);
 
   private:
     enum class Serving : std::uint8_t { nothing, own_write, motor, motor_line };
@@ -40,6 +44,7 @@ class UserPort {
     void drop();
     void go_on(base::Instant now);
     void serve_motor(base::Instant now);
+    base::Milliseconds read_pause() const;
     void pass_back(base::Instant now);
     void refuse();
     void answer(const protocol::mactalk::EncodedReply& reply);

@@ -41,6 +41,8 @@ class JvlLink {
     JvlLink(ports::SerialPort& port, const Settings& settings);
 
     Result poll(base::Instant now);
+    /// When poll() must be called at the latest if nothing arrives.
+    base::Instant next_poll(base::Instant now) const;
 
     bool busy() const { return expect_ != Expect::nothing; }
     /// `copies`: 2 for safe communication.
@@ -113,7 +115,8 @@ class JvlLink {
     bool flexmac_ = false;
     bool framing_seen_ = false;
     base::Instant next_byte_{};
-    base::Instant left_at_{};  ///< when the last byte had left
+    base::Instant line_free_{};  ///< not before that, whatever the port says of its transmitter
+    base::Instant left_at_{};    ///< when the last byte had left
     base::Instant started_{};
     base::Instant last_status_{};
     base::Instant last_poll_{};

@@ -25,6 +25,7 @@ class JvlMotor final : public Motor {
     JvlMotor(ports::SerialPort& port, const Settings& settings);
 
     void poll(base::Instant now) override;
+    base::Instant next_poll(base::Instant now) const override;
     bool settled() const override;
     bool has_room() const override { return !orders_.full(); }
     void send(const Order& order) override;
@@ -51,6 +52,7 @@ class JvlMotor final : public Motor {
     void start_up(base::Instant now);
     std::uint8_t safety_command() const;
     void free_the_line(base::Instant now);
+    bool has_work() const;
     void work(base::Instant now);
     void write_register(Sending what, const Order& order, base::Instant now);
     void send_access(base::Instant now);

@@ -34,6 +34,11 @@ enum class AccessState : std::uint8_t {
     failed,  ///< a read that was not answered; a write that may have been executed or not
 };
 
+/// It will become another state without being asked for anything.
+constexpr bool is_open(AccessState state) {
+    return state == AccessState::waiting || state == AccessState::under_way;
+}
+
 struct Counters {
     std::uint32_t orders = 0;     ///< executed
     std::uint32_t discarded = 0;  ///< not delivered because the link was not up
@@ -60,6 +65,9 @@ class Motor {
   public:
     /// Moves bytes and time limits on. To be called at least once a millisecond.
     virtual void poll(base::Instant now) = 0;
+    /// Or, instead: whenever something arrives on the line, and at the latest then. After each poll() and
+    /// each call that gives it something to do; `now` or earlier: at once.
+    virtual base::Instant next_poll(base::Instant now) const = 0;
 
     /// Every order has been executed or given up and in_position() and error() are newer than the last of
     /// them: a scan may begin. Also true while the link is down (the scan then sees error()).

@@ -19,6 +19,7 @@ class SettingsStore {
     /// Begins to store; poll() until phase() is `done` or `failed`.
     base::Status save(const SettingValues& values);
     void poll();
+    base::Instant next_poll(base::Instant now);
 
     Phase phase() const { return slots_.phase(); }
     base::Error error() const { return slots_.error(); }

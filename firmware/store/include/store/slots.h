@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/result.h"
+#include "base/time.h"
 #include "ports/storage.h"
 #include "store/content.h"
 #include "store/layout.h"
@@ -76,6 +77,8 @@ class Slots {
     base::Status finish(std::uint32_t length, std::uint32_t crc);
     void abandon() { phase_ = Phase::idle; }
     void poll();
+    /// When poll() must be called for the writing to go on; `now`: at once.
+    base::Instant next_poll(base::Instant now);
 
     Phase phase() const { return phase_; }
     base::Error error() const { return error_; }          ///< only if phase() is `failed`

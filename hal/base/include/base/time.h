@@ -14,4 +14,7 @@ struct Monotonic {
 };
 using Instant = std::chrono::time_point<Monotonic, Microseconds>;
 
+/// As a deadline: nothing is to be done until something arrives.
+inline constexpr Instant kNever = Instant::max();
+
 }  // namespace nplc::base

@@ -40,8 +40,8 @@ class ByteServer {
     virtual void write_seat(std::size_t seat, std::span<const std::uint8_t> bytes) = 0;
     std::size_t read(std::span<std::uint8_t> out) { return read_seat(0, out); }
     void write(std::span<const std::uint8_t> bytes) { write_seat(0, bytes); }
-    /// Readable when something is to be read, or a client came or went; may change with every other call. Of
-    /// several seats the first one's.
+    /// Readable when something is to be read from any seat, or a client came or went; always the same one.
+    /// That of a pseudo-terminal reports a hang-up all the time while it has no client.
     virtual int descriptor() const = 0;
 
   protected:

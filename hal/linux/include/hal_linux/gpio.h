@@ -76,6 +76,7 @@ class GpioOutputs final : public ports::DigitalOutputs {
     ~GpioOutputs() { write(safe_); }
     GpioOutputs(const GpioOutputs&) = delete;
     GpioOutputs& operator=(const GpioOutputs&) = delete;
+    void set_safe(std::uint8_t levels) { safe_ = levels; }
     void write(std::uint8_t levels) override { lost_ = !bits_.set(levels) || lost_; }
     bool lost() const { return lost_; }
 

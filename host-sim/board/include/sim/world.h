@@ -24,6 +24,13 @@
 
 namespace nplc::sim {
 
+/// When the simulated board polls the firmware.
+enum class Polling : std::uint8_t {
+    steadily,     ///< every 250 us, and when a character arrives from the motor
+    at_need,      ///< when something arrives, and when the firmware's deadline is due
+    beyond_need,  ///< all of that
+};
+
 struct WorldOptions {
     registers::Model motor = registers::Model::mac140;
     std::uint32_t baud = 19'200;  ///< the motor's; a standard rate. The gateway's too where nothing is stored
@@ -36,6 +43,8 @@ struct WorldOptions {
         19'200;  ///< where nothing is stored; whoever talks there has the gateway's rate
     bool motor_mactalk_wired = false;   ///< the motor's own MacTalk port, to the gateway's second user port
     ports::Storage* storage = nullptr;  ///< for tables and settings; the board's own without it
+    Polling polling = Polling::steadily;
+    gateway::Observer* observer = nullptr;  ///< hears what the gateway's own would
 };
 
 /// The simulated board with the firmware on it, its motor and the line between them, in virtual time. From
@@ -94,7 +103,10 @@ class World final : public Stage, private gateway::Observer {
     /// What `log` actions say.
     void on_log(std::function<void(const std::string&)> callback) { on_log_ = std::move(callback); }
 
-    void set_input(unsigned index, bool level) override { board_.set_input(index, level); }
+    /// How often the firmware has been polled.
+    std::uint64_t polls() const { return polls_; }
+
+    void set_input(unsigned index, bool level) override;
     void toggle_input(unsigned index) override;
     void cut_line(bool cut) override;
     void spoil_line(const action::SpoilLine& faults) override;
@@ -128,7 +140,10 @@ class World final : public Stage, private gateway::Observer {
     void move_mactalk_characters();
     void sample_motor();
     void poll_gateway();
+    Time next_poll();
     void follow_orders();
+    /// Something has arrived that a board would wake up for.
+    void wake();
 
     std::vector<std::uint8_t> table_;
     WorldOptions options_;
@@ -151,6 +166,7 @@ class World final : public Stage, private gateway::Observer {
 
     Time now_{0};
     Time next_poll_{0};
+    std::uint64_t polls_ = 0;
     Time next_sample_;
     Time motor_asks_{0};  ///< when the motor's transmitter is looked at next
     bool motor_powered_ = true;

@@ -14,6 +14,7 @@ namespace nplc::command_line {
 struct About {
     std::string version;
     std::string title;                    ///< "a NanoPLC gateway from a terminal"
+    int section = 1;                      ///< of the manual
     std::set<std::string> file_commands;  ///< whose arguments are files
     std::set<std::string> file_options;   ///< with their dashes, beside --port
     /// Words that a command's arguments may be, as names of registers.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -8,9 +9,8 @@
 
 #include "hal_linux/byte_server.h"
 #include "protocol/mactalk.h"
-#include "sim/text.h"
 
-namespace nplc::sim {
+namespace nplc::boards {
 
 /// Several clients on one MacTalk line: only whole messages go onto it, one at a time, and what comes back is
 /// for the client whose message it answers. Clients take turns. A message that got no answer keeps the line
@@ -18,6 +18,7 @@ namespace nplc::sim {
 /// briefly, and what is for nobody on the line not at all. What a client that is gone left behind is dropped.
 class SharedLine {
   public:
+    using Time = std::chrono::nanoseconds;
     static constexpr Time kLongestAnswer = std::chrono::milliseconds{1'500};
     static constexpr Time kBriefly = std::chrono::milliseconds{150};  ///< beside the message's own time
 
@@ -30,6 +31,8 @@ class SharedLine {
 
     /// What is to be put on the line now.
     std::vector<std::uint8_t> to_line(Time now, const Addresses& addresses);
+    /// When to_line() may have something more if no client sends anything; nothing: never.
+    std::optional<Time> next_turn(Time now) const;
     void from_line(std::span<const std::uint8_t> bytes, Time now);
 
   private:
@@ -45,6 +48,7 @@ class SharedLine {
         bool unanswered = false;  ///< its last message
     };
 
+    static void take_byte(Seat& seat, std::uint8_t byte);
     void listen(std::size_t number, std::uint8_t gateway_address);
     void welcome(Seat& seat, std::size_t number, std::uint64_t visit);
     std::optional<std::size_t> next_seat() const;
@@ -63,4 +67,4 @@ class SharedLine {
     protocol::mactalk::ReplyDecoder answer_;
 };
 
-}  // namespace nplc::sim
+}  // namespace nplc::boards

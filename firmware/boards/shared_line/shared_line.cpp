@@ -1,20 +1,23 @@
-#include "shared_line.h"
+#include "shared_line/shared_line.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-namespace nplc::sim {
+namespace nplc::boards {
 
 namespace mactalk = protocol::mactalk;
 
 namespace {
+
+using Time = SharedLine::Time;
 
 /// Samples are 8 or 16 bytes: over once nothing more comes.
 constexpr Time kSilenceAfterSamples = std::chrono::milliseconds{20};
 /// At 19200 baud, the user's port's own speed.
 constexpr Time kCharacter = std::chrono::microseconds{521};
 constexpr std::size_t kMostWaiting = 16;  ///< of one client
+constexpr int kReadsPerLook = 16;
 
 bool is_for_somebody(std::uint8_t address, const SharedLine::Addresses& addresses) {
     return address == addresses.gateway || address == addresses.motor || address == mactalk::kEveryone;
@@ -37,24 +40,29 @@ void SharedLine::listen(std::size_t number, std::uint8_t gateway_address) {
     std::array<std::uint8_t, 4096> bytes;
     Seat& seat = seats_[number];
     if (const auto visit = server_.visit(number); visit != seat.visit) welcome(seat, number, visit);
-    mactalk::RequestDecoder& decoder = seat.decoder;
-    decoder.take_long_writes(gateway_address);
-    const std::size_t count = server_.read_seat(number, bytes);
-    for (const std::uint8_t byte : std::span(bytes).first(count)) {
-        const auto request = decoder.receive(byte);
-        if (!request || seat.frames.size() == kMostWaiting) continue;
-        Frame frame{request->kind, request->address, {}};
-        const bool is_long = request->kind == mactalk::Kind::write && request->length > 4;
-        const auto take = [&frame](auto&& encoded) {
-            frame.bytes.assign(encoded.view().begin(), encoded.view().end());
-        };
-        if (is_long) {
-            take(mactalk::encode_long_write(request->address, request->reg, decoder.data()));
-        } else {
-            take(mactalk::encode(*request));
-        }
-        seat.frames.push_back(std::move(frame));
+    seat.decoder.take_long_writes(gateway_address);
+    std::size_t count = bytes.size();
+    for (int i = 0; i < kReadsPerLook && count == bytes.size(); ++i) {
+        count = server_.read_seat(number, bytes);
+        for (const std::uint8_t byte : std::span(bytes).first(count)) take_byte(seat, byte);
     }
+}
+
+void SharedLine::take_byte(Seat& seat, std::uint8_t byte) {
+    mactalk::RequestDecoder& decoder = seat.decoder;
+    const auto request = decoder.receive(byte);
+    if (!request || seat.frames.size() == kMostWaiting) return;
+    Frame frame{request->kind, request->address, {}};
+    const bool is_long = request->kind == mactalk::Kind::write && request->length > 4;
+    const auto take = [&frame](auto&& encoded) {
+        frame.bytes.assign(encoded.view().begin(), encoded.view().end());
+    };
+    if (is_long) {
+        take(mactalk::encode_long_write(request->address, request->reg, decoder.data()));
+    } else {
+        take(mactalk::encode(*request));
+    }
+    seat.frames.push_back(std::move(frame));
 }
 
 /// While an answer is to come only the same client may go on, and only once.
@@ -79,6 +87,12 @@ std::vector<std::uint8_t> SharedLine::to_line(Time now, const Addresses& address
     seats_[*next].frames.pop_front();
     expect(*next, frame, now, addresses);
     return frame.bytes;
+}
+
+std::optional<Time> SharedLine::next_turn(Time now) const {
+    if (next_seat()) return now;
+    if (asking_) return until_;
+    return std::nullopt;
 }
 
 void SharedLine::expect(std::size_t number, const Frame& frame, Time now, const Addresses& addresses) {
@@ -115,4 +129,4 @@ void SharedLine::from_line(std::span<const std::uint8_t> bytes, Time now) {
     }
 }
 
-}  // namespace nplc::sim
+}  // namespace nplc::boards

@@ -1,0 +1,270 @@
+#include "config.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <map>
+
+#include "section.h"
+
+namespace nplc::boards {
+namespace {
+
+using store::Setting;
+using Kind = TomlValue::Kind;
+
+constexpr std::size_t kMostAxes = 16;
+const char* const kLineForms =
+    "\"gpiochip0:17\", the line's name, or {line = \"gpiochip0:17\", active_low = true}; \"none\" without "
+    "one";
+
+bool is_name(const std::string& name) {
+    return !name.empty() && name.size() <= 32 && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+        return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '_' || c == '-';
+    });
+}
+
+Placed placed(Section& section, const std::string& key) {
+    const std::optional<std::string> text = section.text(key);
+    return {text && *text != "none" ? *text : "", section.line_of(key), section.path() + "." + key};
+}
+
+class Reader {
+  public:
+    ReadConfig read(std::string_view text) {
+        TomlFile file = read_toml(text);
+        findings_.mistakes = std::move(file.mistakes);
+        if (!findings_.mistakes.empty()) return std::move(result_);
+        Section root(&file.root, "", findings_);
+        read_service(root);
+        read_axes(root);
+        root.finish();
+        find_doubles();
+        std::stable_sort(findings_.mistakes.begin(), findings_.mistakes.end(),
+                         [](const Mistake& a, const Mistake& b) { return a.line < b.line; });
+        return std::move(result_);
+    }
+
+  private:
+    Section section(const TomlValue* value, const std::string& path) { return {value, path, findings_}; }
+
+    void read_service(Section& root) {
+        Section service = section(root.table("service"), "service");
+        Config& config = result_.config;
+        if (const auto folder = service.text("state_directory")) config.state_directory = *folder;
+        if (!config.state_directory.starts_with('/'))
+            service.complain("state_directory", "is no absolute path; write such as \"/var/lib/nanoplc\"");
+        if (const auto level = service.choice("log_level", {"error", "warning", "notice", "info", "debug"}))
+            config.log_level = static_cast<LogLevel>(static_cast<int>(*level) + 3);
+        if (const auto priority = service.number("real_time_priority", 0, 99))
+            config.real_time.priority = static_cast<int>(*priority);
+        if (const auto lock = service.flag("lock_memory")) config.real_time.lock_memory = *lock;
+        read_processors(service);
+        config.watchdog_device = placed(service, "watchdog_device");
+        if (const auto seconds = service.number("watchdog_seconds", 1, 600))
+            config.watchdog_seconds = static_cast<int>(*seconds);
+        service.finish();
+    }
+
+    void read_processors(Section& service) {
+        const TomlValue* list = service.list("processors", "a list of numbers: [2, 3]");
+        if (list == nullptr) return;
+        for (const TomlValue& item : list->items) {
+            if (item.kind == Kind::integer && item.integer >= 0 && item.integer < 1024)
+                result_.config.real_time.cpus.push_back(static_cast<int>(item.integer));
+            else
+                service.complain("processors", "holds something else than numbers from 0 to 1023");
+        }
+    }
+
+    void read_axes(Section& root) {
+        const TomlValue* list = root.list("axis", "[[axis]], in double brackets");
+        if (list == nullptr || list->items.empty()) {
+            if (list != nullptr || root.any("axis") == nullptr)
+                root.complain(1, "axis", "there is none; write [[axis]] with a motor for each");
+            return;
+        }
+        if (list->items.size() > kMostAxes)
+            root.complain("axis", fmt::format("one process runs {} axes at the most", kMostAxes));
+        for (std::size_t i = 0; i < list->items.size(); ++i) {
+            if (list->items[i].kind == Kind::table)
+                read_axis(list->items[i], i);
+            else
+                root.complain(list->items[i].line, "axis", "is no table; write [[axis]]");
+        }
+    }
+
+    void read_axis(const TomlValue& value, std::size_t index) {
+        const TomlValue* named = value.find("name");
+        const bool has_name = named != nullptr && named->kind == Kind::text;
+        const std::string path = fmt::format("axis[{}]", has_name ? named->text : std::to_string(index + 1));
+        Section section(&value, path, findings_);
+        AxisConfig axis;
+        axis.line = value.line;
+        axis.name = section.text("name").value_or("");
+        if (named == nullptr)
+            section.complain("name", "is missing; its store, its log lines and its messages go by it");
+        else if (has_name && !is_name(axis.name))
+            section.complain("name", "may have small letters, digits, - and _, 32 at the most");
+        axis.table = placed(section, "table");
+        read_motor(section, axis);
+        Section user(section.table("user"), path + ".user", findings_);
+        axis.user_port = placed(user, "port");
+        check_port(user, axis.user_port, true);
+        user.finish();
+        read_lines(section, "inputs", "IN", axis.inputs, axis);
+        read_lines(section, "outputs", "OUT", axis.outputs, axis);
+        read_settings(section, axis);
+        section.finish();
+        result_.config.axes.push_back(std::move(axis));
+    }
+
+    void read_motor(Section& axis_section, AxisConfig& axis) {
+        Section motor(axis_section.table("motor"), axis_section.path() + ".motor", findings_);
+        axis.motor_port = placed(motor, "port");
+        if (!axis.motor_port.is_there())
+            motor.complain(motor.is_there() ? motor.line() : axis.line, "port",
+                           "is missing; name the serial port at the motor's FastMAC line, such as "
+                           "\"/dev/serial/by-id/...\"");
+        axis.mactalk_port = placed(motor, "mactalk_port");
+        check_port(motor, axis.motor_port, false);
+        check_port(motor, axis.mactalk_port, false);
+        const auto mode = motor.choice("rs485", {"off", "rts_on_send", "rts_after_send"});
+        const auto before = motor.number("rs485_before_ms", 0, 1000);
+        const auto after = motor.number("rs485_after_ms", 0, 1000);
+        if (mode.value_or(0) != 0) {
+            axis.motor_rs485 = {.rts_on_send = mode == 1U,
+                                .before_ms = static_cast<std::uint32_t>(before.value_or(0)),
+                                .after_ms = static_cast<std::uint32_t>(after.value_or(0))};
+        } else if (before || after) {
+            motor.complain(before ? "rs485_before_ms" : "rs485_after_ms",
+                           "has no meaning while rs485 is \"off\"; write \"rts_on_send\" or leave it out");
+        }
+        motor.finish();
+    }
+
+    /// Whoever reaches the port can move the motor: the network is not let in.
+    static void check_port(Section& section, const Placed& port, bool may_be_endpoint) {
+        const std::string key = port.key.substr(port.key.rfind('.') + 1);
+        if (!port.is_there() || port.text.starts_with('/')) return;
+        if (!may_be_endpoint)
+            section.complain(key, fmt::format("{} is no device; write such as \"/dev/ttyUSB0\"", port.text));
+        else if (!is_endpoint(port.text))
+            section.complain(key, fmt::format("{} is no port; write \"/dev/ttyUSB1\", \"unix:PATH\", "
+                                              "\"pty:PATH\", \"tcp:127.0.0.1:PORT\" or \"none\"",
+                                              port.text));
+        else if (port.text.starts_with("tcp:") && !port.text.starts_with("tcp:127."))
+            section.complain(key, fmt::format("{} is open to the network; write \"tcp:127.0.0.1:PORT\" and "
+                                              "come in through ssh -L",
+                                              port.text));
+    }
+
+    template <std::size_t count>
+    void read_lines(Section& axis_section, const std::string& key, const std::string& prefix,
+                    Lines<count>& lines, AxisConfig& axis) {
+        Section section(axis_section.table(key), axis_section.path() + "." + key, findings_);
+        for (std::size_t i = 0; i < count; ++i)
+            lines[i] = read_line(section, prefix + std::to_string(i), key == "inputs", axis);
+        section.finish();
+    }
+
+    std::optional<hal_linux::GpioLine> read_line(Section& section, const std::string& key, bool is_input,
+                                                 AxisConfig& axis) {
+        const TomlValue* value = section.any(key);
+        if (value == nullptr) return std::nullopt;
+        hal_linux::GpioLine line;
+        if (value->kind == Kind::text) {
+            line.where = value->text;
+        } else if (value->kind == Kind::table) {
+            Section inner(value, section.path() + "." + key, findings_);
+            line.where = inner.text("line").value_or("");
+            line.active_low = inner.flag("active_low").value_or(false);
+            if (is_input) {
+                const auto bias = inner.choice("bias", {"as_is", "off", "pull_up", "pull_down"});
+                line.bias = static_cast<hal_linux::GpioBias>(bias.value_or(0));
+            }
+            inner.finish();
+        }
+        if (line.where == "none") return std::nullopt;
+        if (line.where.empty()) {
+            section.complain(key, fmt::format("names no line; write {}", kLineForms));
+            return std::nullopt;
+        }
+        axis.gpio.push_back({line.where, value->line, section.path() + "." + key});
+        return line;
+    }
+
+    void read_settings(Section& axis_section, AxisConfig& axis) {
+        Section section(axis_section.table("settings"), axis_section.path() + ".settings", findings_);
+        for (const store::SettingInfo& info : store::all_settings()) {
+            const std::string key(info.name);
+            if (info.highest == 1) {
+                if (const auto on = section.flag(key)) set(axis, info.id, *on ? 1 : 0);
+                continue;
+            }
+            const TomlValue* value = section.any(key);
+            if (value != nullptr && info.has_none && value->kind == Kind::text && value->text == "none") {
+                set(axis, info.id, store::kNone);
+                continue;
+            }
+            const auto number = section.number(key, info.lowest, info.highest);
+            if (number && !set(axis, info.id, static_cast<std::uint32_t>(*number)))
+                section.complain(key,
+                                 fmt::format("{} is no standard speed; write 9600, 19200, ...", *number));
+        }
+        if (axis.settings.get(Setting::gateway_address) == axis.settings.get(Setting::motor_address))
+            section.complain("gateway_address", "is the motor's address too; one of them must change");
+        section.finish();
+    }
+
+    static bool set(AxisConfig& axis, Setting setting, std::uint32_t value) {
+        return axis.settings.set(setting, value).ok();
+    }
+
+    /// What may stand once only, over all axes.
+    void find_doubles() {
+        std::map<std::string, Placed> seen;
+        const auto take = [&](const std::string& what, const Placed& place) {
+            const auto [first, is_new] = seen.emplace(what, place);
+            if (is_new) return;
+            findings_.mistakes.push_back({place.line, place.key,
+                                          fmt::format("{} is used twice: {} in line {} has it already",
+                                                      place.text, first->second.key, first->second.line)});
+        };
+        for (const AxisConfig& axis : result_.config.axes) {
+            if (!axis.name.empty()) take("name " + axis.name, {axis.name, axis.line, "axis.name"});
+            for (const Placed& line : axis.gpio) take("line " + line_id(line.text), line);
+            for (const Placed& port : {axis.motor_port, axis.mactalk_port, axis.user_port}) {
+                if (port.is_there()) take("port " + port_id(port.text), port);
+            }
+        }
+    }
+
+    static std::string line_id(const std::string& where) {
+        return where.starts_with("/dev/") ? where.substr(5) : where;
+    }
+
+    /// Links such as those in /dev/serial lead to one device.
+    static std::string port_id(const std::string& port) {
+        std::error_code error;
+        const auto path = std::filesystem::canonical(port, error);
+        return error ? port : path.string();
+    }
+
+    ReadConfig result_;
+    Findings& findings_ = result_.findings;
+};
+
+}  // namespace
+
+bool is_endpoint(const std::string& port) {
+    return port.starts_with("pty:") || port.starts_with("unix:") || port.starts_with("tcp:");
+}
+
+ReadConfig read_config(std::string_view text) {
+    return Reader().read(text);
+}
+
+}  // namespace nplc::boards

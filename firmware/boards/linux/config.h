@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal_linux/gpio.h"
+#include "hal_linux/real_time.h"
+#include "hal_linux/uart.h"
+#include "journal.h"
+#include "store/settings.h"
+#include "toml_file.h"
+
+namespace nplc::boards {
+
+/// A text of the configuration and where it stands.
+struct Placed {
+    std::string text{};
+    int line = 0;
+    std::string key{};
+    bool is_there() const { return !text.empty(); }
+};
+
+template <std::size_t count>
+using Lines = std::array<std::optional<hal_linux::GpioLine>, count>;
+
+/// One sequencer with its motor.
+struct AxisConfig {
+    std::string name;
+    Placed table;  ///< a file whose table runs while none is stored
+    Placed motor_port;
+    std::optional<hal_linux::Rs485> motor_rs485;
+    Placed mactalk_port;  ///< to the motor's own MacTalk port
+    Placed user_port;     ///< a device, or an endpoint pty:, unix: or tcp:
+    Lines<6> inputs;
+    Lines<4> outputs;
+    std::vector<Placed> gpio;         ///< every line that is named
+    store::SettingValues settings{};  ///< where none are stored
+    int line = 0;
+};
+
+struct Config {
+    std::string state_directory = "/var/lib/nanoplc";
+    LogLevel log_level = LogLevel::info;
+    hal_linux::RealTime real_time;
+    Placed watchdog_device;
+    int watchdog_seconds = 10;
+    std::vector<AxisConfig> axes;
+};
+
+struct ReadConfig {
+    Config config;
+    Findings findings;  ///< mistakes by line; with one the configuration is not to be used
+};
+/// Everything that can be said without looking at the machine.
+ReadConfig read_config(std::string_view text);
+
+/// What it names and this machine has not.
+std::vector<Mistake> missing_devices(const Config& config);
+
+bool is_endpoint(const std::string& port);
+
+}  // namespace nplc::boards

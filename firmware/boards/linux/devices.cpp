@@ -1,0 +1,99 @@
+// What the configuration names and this machine has not.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "config.h"
+
+namespace nplc::boards {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> files_in(const std::string& folder, const std::vector<std::string>& prefixes) {
+    std::vector<std::string> found;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        const std::string name = entry.path().filename().string();
+        const bool fits =
+            std::any_of(prefixes.begin(), prefixes.end(), [&](const auto& p) { return name.starts_with(p); });
+        if (fits) found.push_back(entry.path().string());
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+std::string serial_ports() {
+    auto ports = files_in("/dev/serial/by-id", {""});
+    const auto plain = files_in("/dev", {"ttyUSB", "ttyACM", "ttyAMA", "ttyS", "serial"});
+    ports.insert(ports.end(), plain.begin(), plain.end());
+    constexpr std::size_t kMost = 8;
+    if (ports.size() > kMost) ports.resize(kMost);
+    return ports.empty() ? "this machine has no serial port at all"
+                         : fmt::format("there are {}", fmt::join(ports, ", "));
+}
+
+bool is_character_device(const std::string& path) {
+    struct stat status {};
+    return ::stat(path.c_str(), &status) == 0 && S_ISCHR(status.st_mode);
+}
+
+void check_port(const Placed& port, std::vector<Mistake>& missing) {
+    if (!port.is_there() || is_endpoint(port.text)) return;
+    std::error_code error;
+    if (!fs::exists(port.text, error))
+        missing.push_back({port.line, port.key,
+                           fmt::format("there is no {}; plug the adapter in, or name another: {}", port.text,
+                                       serial_ports())});
+    else if (!is_character_device(port.text))
+        missing.push_back(
+            {port.line, port.key, fmt::format("{} is no device; {}", port.text, serial_ports())});
+    else if (::access(port.text.c_str(), R_OK | W_OK) != 0)
+        missing.push_back(
+            {port.line, port.key,
+             fmt::format("you may not use {}; join the group dialout, or run as the service does",
+                         port.text)});
+}
+
+/// Lines by name are found by the kernel when they are taken.
+void check_line(const Placed& line, std::vector<Mistake>& missing) {
+    const std::size_t colon = line.text.rfind(':');
+    if (colon == std::string::npos) return;
+    const std::string chip = line.text.substr(0, colon);
+    const std::string path = chip.starts_with('/') ? chip : "/dev/" + chip;
+    if (is_character_device(path)) return;
+    const auto chips = files_in("/dev", {"gpiochip"});
+    missing.push_back(
+        {line.line, line.key,
+         fmt::format("there is no {}; {}", path,
+                     chips.empty() ? "this machine has no GPIO chip; write \"none\" to do without"
+                                   : fmt::format("there are {}", fmt::join(chips, ", ")))});
+}
+
+}  // namespace
+
+std::vector<Mistake> missing_devices(const Config& config) {
+    std::vector<Mistake> missing;
+    std::error_code error;
+    for (const AxisConfig& axis : config.axes) {
+        for (const Placed& port : {axis.motor_port, axis.mactalk_port, axis.user_port})
+            check_port(port, missing);
+        for (const Placed& line : axis.gpio) check_line(line, missing);
+        if (axis.table.is_there() && !fs::is_regular_file(axis.table.text, error))
+            missing.push_back(
+                {axis.table.line, axis.table.key,
+                 fmt::format("there is no file {}; make it with `seqc build`", axis.table.text)});
+    }
+    if (const Placed& device = config.watchdog_device; device.is_there() && !is_character_device(device.text))
+        missing.push_back({device.line, device.key,
+                           fmt::format("there is no {}; leave it out on a board without one", device.text)});
+    std::stable_sort(missing.begin(), missing.end(),
+                     [](const Mistake& a, const Mistake& b) { return a.line < b.line; });
+    return missing;
+}
+
+}  // namespace nplc::boards

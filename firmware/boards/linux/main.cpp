@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "arguments/arguments.h"
+#include "command_line/generated.h"
+#include "config.h"
+#include "exit_codes.h"
+#include "service.h"
+#include "wiring.h"
+
+namespace {
+
+using namespace nplc;
+using namespace nplc::boards;
+
+constexpr const char* kFooter =
+    "Runs the sequences of one or more JVL MAC motors on this board until SIGTERM or SIGINT: then outputs "
+    "get their\n"
+    "safe levels and the motors are told to stop. The configuration names, for each axis, the motor's serial "
+    "port,\n"
+    "the GPIO lines, the user's port and the first settings; the example that comes with the program "
+    "documents all\n"
+    "of it. A table is uploaded with `nanoctl --port PORT upload FILE` and kept; whatever is wrong is said "
+    "on\n"
+    "standard error, in the journal with its level.\n"
+    "Exit codes: 0 ended in order, or the configuration is in order; 2 wrong usage, or mistakes in the\n"
+    "configuration; 3 a device, a port or the store could not be had.\n"
+    "Example: nanoplc check-config /etc/nanoplc/nanoplc.toml && nanoplc --config /etc/nanoplc/nanoplc.toml";
+
+struct Options {
+    std::string config = "/etc/nanoplc/nanoplc.toml";
+    std::string file;
+    bool no_devices = false;
+    bool keys = false;
+};
+
+struct Loaded {
+    Config config;
+    std::set<std::string> keys{};
+    bool is_whole = false;
+};
+
+void print(const std::string& file, const std::vector<Mistake>& mistakes) {
+    for (const Mistake& mistake : mistakes) {
+        const std::string key = mistake.key.empty() ? "" : mistake.key + ": ";
+        fmt::print(stderr, "{}:{}: {}{}\n", file, mistake.line, key, mistake.text);
+    }
+}
+
+Loaded load(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (!stream.is_open() || stream.bad()) {
+        fmt::print(stderr, "{}: cannot be read: {}; name a configuration with --config\n", file,
+                   std::strerror(errno));
+        return {};
+    }
+    ReadConfig read = read_config(text);
+    print(file, read.findings.mistakes);
+    return {std::move(read.config), std::move(read.findings.keys), read.findings.mistakes.empty()};
+}
+
+int run_service(const std::string& file) {
+    const Loaded loaded = load(file);
+    if (!loaded.is_whole) return kWrong;
+    const auto missing = missing_devices(loaded.config);
+    print(file, missing);
+    if (!missing.empty()) return kNoDevice;
+    Journal journal(loaded.config.log_level);
+    return Service(loaded.config, journal).run();
+}
+
+int check(const Options& options) {
+    const Loaded loaded = load(options.file);
+    const auto missing = options.no_devices ? std::vector<Mistake>{} : missing_devices(loaded.config);
+    print(options.file, missing);
+    if (!loaded.is_whole) return kWrong;
+    if (!missing.empty()) return kNoDevice;
+    if (options.keys) {
+        fmt::print("{}\n", fmt::join(loaded.keys, "\n"));
+        return kDone;
+    }
+    const std::size_t axes = loaded.config.axes.size();
+    fmt::print("{}: in order, {} {}\n", options.file, axes, axes == 1 ? "axis" : "axes");
+    return kDone;
+}
+
+int print_wiring(const std::string& file) {
+    const Loaded loaded = load(file);
+    if (!loaded.is_whole) return kWrong;
+    fmt::print("{}", wiring(loaded.config));
+    return kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    arguments::App app("The gateway firmware on a Linux board.", "nanoplc");
+    Options options;
+    app.fallthrough();
+    app.set_version_flag("--version", std::string("nanoplc ") + NPLC_VERSION);
+    app.footer(kFooter);
+    app.add_option("--config", options.config, "The configuration")->capture_default_str()->type_name("FILE");
+    arguments::App& check_config =
+        *app.add_subcommand("check-config", "Name every mistake in a configuration, and end");
+    check_config.add_option("file", options.file, "The configuration")->required();
+    check_config.add_flag("--no-devices", options.no_devices, "Of another machine: look for no device");
+    check_config.add_flag("--keys", options.keys, "Print every key that may stand in it");
+    app.add_subcommand("wiring", "Print what is to be joined to what")
+        ->add_option("file", options.file, "The configuration")
+        ->required();
+    command_line::Common common;
+    common.program = "nanoplc";
+    command_line::add_generated(app, common,
+                                {.version = NPLC_VERSION,
+                                 .title = "the gateway firmware on a Linux board",
+                                 .section = 8,
+                                 .file_commands = {"check-config", "wiring"},
+                                 .file_options = {"--config"}});
+    const arguments::Outcome outcome = app.parse(argc, argv);
+    if (outcome.kind == arguments::Outcome::Kind::told) return outcome.exit_code;
+    if (outcome.kind == arguments::Outcome::Kind::wrong) {
+        fmt::print(stderr, "nanoplc: {} (see nanoplc --help)\n", outcome.error);
+        return kWrong;
+    }
+    if (app.got_subcommand("check-config")) return check(options);
+    if (app.got_subcommand("wiring")) return print_wiring(options.file);
+    if (app.got_subcommand("completion") || app.got_subcommand("man")) return common.exit_code;
+    return run_service(options.config);
+}

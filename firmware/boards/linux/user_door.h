@@ -1,0 +1,38 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+
+#include "base/time.h"
+#include "hal_linux/byte_server.h"
+#include "ports/serial.h"
+#include "shared_line/shared_line.h"
+
+namespace nplc::boards {
+
+/// The user's port as a socket or a pseudo-terminal: for the gateway a serial line, for up to eight clients a
+/// line of their own.
+class UserDoor final : public ports::SerialPort {
+  public:
+    /// Empty, or one line.
+    std::string open(const std::string& endpoint);
+    const std::string& name() const { return server_->name(); }
+    int descriptor() const { return server_->descriptor(); }
+
+    /// Takes in what has come; before the gateway is polled.
+    void take_in(base::Instant now, const SharedLine::Addresses& addresses);
+    base::Instant next_turn(base::Instant now) const;
+
+    std::size_t write(std::span<const std::uint8_t> bytes) override;
+    std::size_t read(std::span<ports::ReceivedByte> out) override;
+    bool transmitter_idle() override { return true; }
+
+  private:
+    std::unique_ptr<hal_linux::ByteServer> server_;
+    std::unique_ptr<SharedLine> line_;
+    std::deque<std::uint8_t> waiting_;
+    SharedLine::Time now_{0};
+};
+
+}  // namespace nplc::boards

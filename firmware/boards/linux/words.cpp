@@ -1,0 +1,85 @@
+#include "words.h"
+
+#include <fmt/format.h>
+
+#include "gateway/outcome.h"
+
+namespace nplc::boards {
+namespace {
+
+using gateway::Event;
+using gateway::SafeReason;
+
+Said of_reason(SafeReason reason, unsigned step) {
+    switch (reason) {
+        case SafeReason::none:
+            return {LogLevel::info, "runs"};
+        case SafeReason::not_started:
+            return {LogLevel::info, "outputs safe: the sequence has not been started"};
+        case SafeReason::stop_command:
+            return {LogLevel::notice, fmt::format("stopped by command in step {}; outputs safe", step)};
+        case SafeReason::link_down:
+            return {LogLevel::error,
+                    fmt::format("SAFE: the motor does not answer (step {}); outputs are safe until the "
+                                "link is back and the sequence has sent \"reset error\"; look at the "
+                                "motor's supply and its line",
+                                step)};
+        case SafeReason::motor_stuck:
+            return {LogLevel::error,
+                    fmt::format("SAFE: a scan of step {} waited too long for the motor; start again with "
+                                "`nanoctl run` when the motor is in order",
+                                step)};
+        case SafeReason::bad_table:
+            return {LogLevel::error, "SAFE: no table that is whole; upload it again with `nanoctl upload`"};
+        case SafeReason::watchdog:
+            return {LogLevel::error,
+                    "SAFE: the last run did not end in order (killed, crashed, or reset by a watchdog); the "
+                    "sequence waits for `nanoctl run`"};
+        case SafeReason::enable_lost:
+            return {
+                LogLevel::warning,
+                fmt::format("SAFE: the enable input is off (step {}); start again with `nanoctl run`", step)};
+        case SafeReason::safe_command:
+            return {LogLevel::warning, fmt::format("SAFE: told to be, in step {}", step)};
+    }
+    return {LogLevel::error, "SAFE: for an unknown reason"};
+}
+
+}  // namespace
+
+Said in_words(const gateway::EventLog::Entry& entry) {
+    if (entry.event < 16) return of_reason(static_cast<SafeReason>(entry.event), entry.step);
+    switch (static_cast<Event>(entry.event)) {
+        case Event::started:
+            return {LogLevel::notice, "the sequence runs"};
+        case Event::held:
+            return {LogLevel::notice, fmt::format("held in step {}", entry.step)};
+        case Event::breakpoint:
+            return {LogLevel::notice, fmt::format("held by a breakpoint at step {}", entry.step)};
+        case Event::forced:
+            return {LogLevel::warning, "signals are forced over the user's port"};
+        case Event::forces_ended:
+            return {LogLevel::notice,
+                    entry.detail == 1 ? "forcing has ended: its client is silent" : "forcing has ended"};
+        case Event::link_up:
+            return {LogLevel::notice, "the link is up and acknowledged; outputs are the sequence's again"};
+        case Event::table_activated:
+            return {LogLevel::notice, "the stored table is the active one"};
+        case Event::table_stored:
+            return {LogLevel::notice, "a new table is stored"};
+        case Event::upload_failed:
+            return {LogLevel::error,
+                    fmt::format("an upload failed: {}",
+                                registers::gateway::describe(static_cast<gateway::Result>(entry.detail)))};
+        case Event::settings_kept:
+            return {LogLevel::notice, "the settings are stored"};
+        case Event::store_damaged:
+            return {LogLevel::error,
+                    "a stored table or the stored settings are damaged; upload, or set and keep, again"};
+        case Event::upload_given_up:
+            return {LogLevel::warning, fmt::format("an upload was given up after {} bytes", entry.detail)};
+    }
+    return {LogLevel::warning, fmt::format("event {}", entry.event)};
+}
+
+}  // namespace nplc::boards

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "gateway/event_log.h"
+#include "gateway/run_state.h"
+#include "journal.h"
+
+namespace nplc::boards {
+
+struct Said {
+    LogLevel level;
+    std::string text;
+};
+/// An entry of the gateway's log for a person: what happened, and for a fault what to do.
+Said in_words(const gateway::EventLog::Entry& entry);
+
+}  // namespace nplc::boards

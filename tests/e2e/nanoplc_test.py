@@ -1,0 +1,475 @@
+#!/usr/bin/env python3
+"""nanoplc as a service on this machine: real terminals, virtual motors on them, no GPIO.
+
+usage: nanoplc_test.py NANOPLC MACSIM NANOCTL MACREG SEQC MENDING.seq EXAMPLE.toml
+"""
+
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import simulator
+from macsim_test import Terminal, read_request, value_in
+
+NANOPLC = MACSIM = NANOCTL = MACREG = SEQC = MENDING = EXAMPLE = ""
+LONG = 60  # seconds until something that must come is given up
+
+
+class Service:
+    """A nanoplc under way, and what it has said."""
+
+    def __init__(self, config, **environment):
+        # pylint: disable-next=consider-using-with
+        self.process = subprocess.Popen([NANOPLC, "--config", config], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                        text=True, env={**os.environ, **environment})
+        self.lines = []
+        self.reader = threading.Thread(target=lambda: self.lines.extend(iter(self.process.stderr.readline, "")))
+        self.reader.start()
+
+    def said(self):
+        return "".join(self.lines)
+
+    def end(self, how=signal.SIGTERM):
+        if self.process.poll() is None:
+            self.process.send_signal(how)
+        code = self.process.wait(LONG)
+        self.reader.join(LONG)
+        self.process.stderr.close()
+        return code
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.running = []
+        self.motors = {}
+        self.table = self.path("mending.bin")
+        subprocess.run([SEQC, "build", MENDING, "-o", self.table], check=True, stdout=subprocess.DEVNULL)
+
+    def tearDown(self):
+        for service in self.running:
+            service.end(signal.SIGKILL)
+        for name in list(self.motors):
+            self.pull_out(name)
+        self.folder.cleanup()
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def plug_in(self, name="motor"):
+        process, _ = simulator.start(MACSIM, "--model", "MAC140", "--address", "1", "--fastmac", "pty:" + self.path(name),
+                                     "--mactalk", "unix:" + self.path(name + ".mactalk"))
+        self.motors[name] = process
+
+    def pull_out(self, name="motor"):
+        process = self.motors.pop(name)
+        process.terminate()
+        process.wait(LONG)
+        process.stdout.close()
+        process.stderr.close()
+
+    def axis(self, name="x", motor="motor", port=None, table="none", more=""):
+        return (f'[[axis]]\nname = "{name}"\ntable = "{table}"\n[axis.motor]\nport = "{self.path(motor)}"\n'
+                f'[axis.user]\nport = "{port or "unix:" + self.path(name)}"\n{more}')
+
+    def write(self, *axes, service=""):
+        """Punctual where it may be: machines that test are busy."""
+        config = self.path("nanoplc.toml")
+        with open(config, "w", encoding="utf-8") as file:
+            file.write(f'[service]\nstate_directory = "{self.path("state")}"\nreal_time_priority = 10\n{service}\n')
+            file.write("\n".join(axes))
+        return config
+
+    def start(self, config, wait_for="started with", **environment):
+        service = Service(config, **environment)
+        self.running.append(service)
+        self.until(lambda: wait_for in service.said() or service.process.poll() is not None, service)
+        return service
+
+    def end(self, service, how=signal.SIGTERM):
+        self.running.remove(service)
+        return service.end(how)
+
+    def until(self, come, seen=None):
+        end = time.monotonic() + LONG
+        while not come():
+            if time.monotonic() > end:
+                self.fail(f"never came: {seen.said() if seen else ''}")
+            time.sleep(0.02)
+
+    def ctl(self, *arguments, port="x", exit_code=0):
+        endpoint = port if port.startswith("/") else "unix:" + self.path(port)
+        result = subprocess.run([NANOCTL, "--port", endpoint, "--patience", "500", "--json", *arguments],
+                                capture_output=True, text=True, timeout=4 * LONG, check=False)
+        self.assertEqual(result.returncode, exit_code, f"{arguments}: {result.stdout} {result.stderr}")
+        return json.loads(result.stdout.splitlines()[-1])
+
+    def until_status(self, wanted, port="x"):
+        end = time.monotonic() + LONG
+        while time.monotonic() < end:
+            status = self.ctl("status", port=port)
+            if wanted(status):
+                return status
+        self.fail(f"never came: {status}")
+
+    def moves(self, port="x"):
+        """Orders are being executed."""
+        before = self.ctl("status", port=port)["orders"]
+        self.until_status(lambda status: status["orders"] > before + 4, port=port)
+
+    def mode(self, name="motor"):
+        result = subprocess.run([MACREG, "--port", "unix:" + self.path(name + ".mactalk"), "--patience", "500", "--json", "get",
+                                 "MODE_REG"], capture_output=True, text=True, timeout=LONG, check=False)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        return json.loads(result.stdout)["registers"][0]["value"]
+
+    def check(self, text, *flags):
+        config = self.path("checked.toml")
+        with open(config, "w", encoding="utf-8") as file:
+            file.write(text)
+        result = subprocess.run([NANOPLC, "check-config", config, *flags], capture_output=True, text=True, check=False)
+        return result.returncode, [line.removeprefix(config + ":") for line in result.stderr.splitlines()]
+
+
+class Running(Case):
+    def test_upload_run_and_an_orderly_end(self):
+        self.plug_in()
+        service = self.start(self.write(self.axis()))
+        self.assertEqual(self.ctl("status")["state"], "stopped")
+        self.ctl("upload", self.table, "--run")
+        self.moves()
+        self.assertEqual(self.end(service), 0, service.said())
+        self.assertIn("ends: Terminated", service.said())
+        self.assertIn("x: the sequence runs", service.said())
+        self.assertNotIn("has not taken the stop", service.said())
+        self.assertEqual(self.mode(), "INIT_MODE", "the motor has not been told to stop")
+
+    def test_every_end_signal_is_an_orderly_end(self):
+        self.plug_in()
+        for how in (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT):
+            service = self.start(self.write(self.axis()))
+            self.assertEqual(self.end(service, how), 0, service.said())
+
+    def test_after_an_orderly_end_the_stored_table_runs_by_itself(self):
+        self.plug_in()
+        config = self.write(self.axis())
+        service = self.start(config)
+        crc = self.ctl("upload", self.table)["crc32"]
+        self.end(service)
+        self.start(config)
+        self.moves()
+        self.assertEqual(self.ctl("status")["table_crc32"], crc)
+
+    def test_killed_in_mid_sequence_it_keeps_its_table_and_waits(self):
+        self.plug_in()
+        config = self.write(self.axis())
+        service = self.start(config)
+        crc = self.ctl("upload", self.table, "--run")["crc32"]
+        self.moves()
+        self.end(service, signal.SIGKILL)
+        again = self.start(config)
+        status = self.ctl("status")
+        self.assertEqual((status["state"], status["safe_reason"], status["table_crc32"]), ("stopped", "watchdog", crc))
+        self.assertIn("did not end in order", again.said())
+        self.ctl("run")
+        self.moves()
+
+    def test_a_crash_is_no_orderly_end(self):
+        self.plug_in()
+        config = self.write(self.axis())
+        service = self.start(config)
+        self.assertEqual(self.end(service, signal.SIGSEGV), -signal.SIGSEGV)
+        self.start(config)
+        self.assertEqual(self.ctl("status")["safe_reason"], "watchdog")
+
+    def test_a_start_that_failed_is_no_crash_and_hides_none(self):
+        self.plug_in("one")
+        self.plug_in("two")
+        config = self.write(self.axis("a", "one", table=self.table), self.axis("b", "two"))
+        for killed_before, reason in ((False, ""), (True, "watchdog")):
+            if killed_before:
+                os.remove(self.path("b"))  # the socket that the killed one left
+            with open(self.path("b"), "w", encoding="utf-8"):
+                self.assertEqual(self.end(self.start(config)), 3, "a file where b's socket should be")
+            os.remove(self.path("b"))
+            service = self.start(config)
+            if killed_before:
+                self.assertEqual(self.ctl("status", port="a")["safe_reason"], reason)
+            else:
+                self.moves("a")
+            self.end(service, signal.SIGKILL)
+
+    def test_the_configured_table_runs_while_none_is_stored(self):
+        self.plug_in()
+        self.start(self.write(self.axis(table=self.table)))
+        self.moves()
+        self.assertEqual(self.ctl("status")["stored_bytes"], 0)
+
+    def test_a_reset_over_the_port(self):
+        self.plug_in()
+        self.start(self.write(self.axis()))
+        self.ctl("upload", self.table)
+        self.ctl("reset")
+        self.moves()
+
+    def test_stored_settings_go_before_the_configuration(self):
+        self.plug_in()
+        config = self.write(self.axis(more="[axis.settings]\ndebounce = 5000\nautostart = false\n"))
+        service = self.start(config)
+        self.ctl("upload", self.table)
+        self.ctl("settings", "set", "debounce=4000", "--keep")
+        self.end(service)
+        service = self.start(config)
+        self.assertIn("setting debounce is 4000", service.said())
+        self.assertIn("5000 is not used", service.said())
+        self.assertEqual(self.ctl("status")["state"], "stopped", "autostart = false")
+
+    def test_the_motors_adapter_is_pulled_out_and_comes_back(self):
+        self.plug_in()
+        service = self.start(self.write(self.axis()))
+        self.ctl("upload", self.table, "--run")
+        self.moves()
+        self.pull_out()
+        self.until(lambda: "motor is gone" in service.said(), service)
+        status = self.until_status(lambda status: status["link"] == "down")
+        self.assertEqual((status["safe_reason"], status["outputs"]), ("link down", 0))
+        self.plug_in()
+        self.until(lambda: "motor is back" in service.said(), service)
+        self.moves()
+
+    def test_two_axes_know_nothing_of_each_other(self):
+        self.plug_in("one")
+        self.plug_in("two")
+        service = self.start(self.write(self.axis("a", "one"), self.axis("b", "two")))
+        for port in "ab":
+            self.ctl("upload", self.table, "--run", port=port)
+            self.moves(port)
+        self.ctl("stop", port="a")
+        self.assertEqual(self.ctl("status", port="b")["state"], "running")
+        self.ctl("run", port="a")
+        self.pull_out("two")
+        self.until(lambda: "two is gone" in service.said(), service)
+        self.moves("a")
+        self.assertEqual(self.end(service), 0)
+        self.assertTrue(os.path.isfile(self.path("state/a/store.bin")))
+        self.assertTrue(os.path.isfile(self.path("state/b/store.bin")))
+
+
+class Ports(Case):
+    def test_a_serial_port_for_the_user(self):
+        self.plug_in()
+        master, slave = os.openpty()
+        self.start(self.write(self.axis(port=os.ttyname(slave))))
+        # Register 1 of the gateway, address 128: "NPLG".
+        os.write(master, read_request(128, 1))
+        answer = b""
+        while len(answer) < 19:
+            answer += os.read(master, 64)
+        self.assertEqual(value_in(answer), 0x474C504E)
+        os.close(master)
+        os.close(slave)
+
+    def test_a_pseudo_terminal_and_several_clients_of_a_socket(self):
+        self.plug_in("one")
+        self.plug_in("two")
+        self.start(self.write(self.axis("a", "one", port="pty:" + self.path("pty")), self.axis("b", "two")))
+        self.assertEqual(self.ctl("status", port=self.path("pty"))["state"], "stopped")
+        with subprocess.Popen([NANOCTL, "--port", "unix:" + self.path("b"), "--patience", "2000", "watch"],
+                              stdout=subprocess.PIPE, text=True) as watch:
+            self.assertIn("stopped", watch.stdout.readline())
+            self.ctl("upload", self.table, "--run", port="b")
+            self.assertTrue(any("running" in line for line in watch.stdout), "it ended before")
+            watch.terminate()
+
+    def test_a_client_that_sends_nonsense_disturbs_nobody(self):
+        self.plug_in()
+        self.start(self.write(self.axis(port="pty:" + self.path("pty"))))
+        terminal = Terminal(self.path("pty"))
+        terminal.send(bytes(range(256)) * 8)
+        terminal.close()
+        self.assertEqual(self.ctl("status", port=self.path("pty"))["state"], "stopped")
+
+
+class Refusing(Case):
+    def test_every_mistake_is_named_at_once(self):
+        code, lines = self.check("""[service]
+log_levle = "info"
+real_time_priority = 120
+lock_memory = "yes"
+[[axis]]
+name = "X Axis"
+[axis.motor]
+prot = "/dev/ttyUSB0"
+[axis.inputs]
+IN0 = "gpiochip0:17"
+IN1 = {line = "/dev/gpiochip0:17", active_lo = true}
+[axis.settings]
+debounce = "3 ms"
+motor_baud = 19201
+[[axis]]
+name = "y"
+[axis.motor]
+port = "/dev/ttyS0"
+[axis.user]
+port = "/dev/ttyS0"
+[axis.outputs]
+OUT2 = {active_low = true}
+[[axis]]
+name = "y"
+[axis.motor]
+port = "/dev/ttyS1"
+[axis.user]
+port = "tcp:0.0.0.0:2000"
+""", "--no-devices")
+        self.assertEqual(code, 2)
+        expected = [
+            (2, "service.log_levle", "did you mean log_level?"),
+            (3, "service.real_time_priority", "120 is out of range; write a whole number from 0 to 99"),
+            (4, "service.lock_memory", "is a text; write true or false"),
+            (6, "axis[X Axis].name", "small letters"),
+            (7, "axis[X Axis].motor.port", "is missing"),
+            (8, "axis[X Axis].motor.prot", "did you mean port?"),
+            (11, "axis[X Axis].inputs.IN1.active_lo", "did you mean active_low?"),
+            (11, "axis[X Axis].inputs.IN1", "used twice: axis[X Axis].inputs.IN0 in line 10"),
+            (13, "axis[X Axis].settings.debounce", "is a text; write a whole number from 0 to 1000000"),
+            (14, "axis[X Axis].settings.motor_baud", "no standard speed"),
+            (20, "axis[y].user.port", "/dev/ttyS0 is used twice: axis[y].motor.port in line 18"),
+            (22, "axis[y].outputs.OUT2", "names no line"),
+            (23, "axis.name", "y is used twice"),
+            (28, "axis[y].user.port", "open to the network"),
+        ]
+        self.assertEqual(len(lines), len(expected), "\n".join(lines))
+        for line, (number, key, text) in zip(lines, expected):
+            self.assertTrue(line.startswith(f"{number}: {key}: "), f"{line} is not of {number}: {key}")
+            self.assertIn(text, line)
+
+    def test_what_is_no_toml_has_a_line(self):
+        code, lines = self.check('[service]\nlog_level = "info\n')
+        self.assertEqual((code, len(lines)), (2, 1))
+        self.assertTrue(lines[0].startswith("2: this is not TOML"), lines)
+
+    def test_a_missing_device_and_a_missing_file(self):
+        code, lines = self.check('[[axis]]\nname = "x"\ntable = "/no/table.bin"\n[axis.motor]\nport = "/dev/no-such-port"\n')
+        self.assertEqual(code, 3)
+        self.assertIn("3: axis[x].table: there is no file /no/table.bin", lines[0])
+        self.assertIn("5: axis[x].motor.port: there is no /dev/no-such-port; plug the adapter in", lines[1])
+
+    def test_a_gpio_chip_that_is_not_there(self):
+        self.plug_in()
+        config = self.write(self.axis(more='[axis.outputs]\nOUT0 = "gpiochip97:3"\n'))
+        service = self.start(config)
+        self.assertEqual(self.end(service), 3)
+        self.assertIn("there is no /dev/gpiochip97", service.said())
+
+    def test_a_store_that_another_one_uses(self):
+        self.plug_in("one")
+        self.plug_in("two")
+        self.start(self.write(self.axis("x", "one")))
+        second = self.start(self.write(self.axis("x", "two", port="unix:" + self.path("other"))))
+        self.assertEqual(self.end(second), 3)
+        self.assertIn("another program uses this memory", second.said())
+
+    def test_a_table_that_is_none(self):
+        self.plug_in()
+        with open(self.path("bad.bin"), "wb") as file:
+            file.write(b"\x00" * 12)
+        service = self.start(self.write(self.axis(table=self.path("bad.bin"))))
+        self.assertEqual(self.end(service), 3)
+        self.assertIn("make it with `seqc build`", service.said())
+
+    def test_wrong_usage(self):
+        for arguments in (["--confg", "x"], ["check-config"], ["wirings", "x"]):
+            result = subprocess.run([NANOPLC, *arguments], capture_output=True, text=True, check=False)
+            self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
+        result = subprocess.run([NANOPLC, "--config", "/no/such.toml"], capture_output=True, text=True, check=False)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("/no/such.toml: cannot be read", result.stderr)
+
+
+class Telling(Case):
+    def test_lines_for_the_journal_have_levels(self):
+        self.plug_in()
+        read_end, write_end = os.pipe()
+        status = os.fstat(write_end)
+        environment = {**os.environ, "JOURNAL_STREAM": f"{status.st_dev}:{status.st_ino}"}
+        with subprocess.Popen([NANOPLC, "--config", self.write(self.axis())], stderr=write_end, env=environment) as process:
+            os.close(write_end)
+            with os.fdopen(read_end, encoding="utf-8") as lines:
+                seen = [lines.readline()]
+                while "started with" not in seen[-1]:
+                    seen.append(lines.readline())
+                process.terminate()
+                seen += lines.readlines()
+            self.assertEqual(process.wait(LONG), 0)
+        self.assertTrue(all(line[0] == "<" and line[1] in "34567" and line[2] == ">" for line in seen), seen)
+        self.assertIn("<5>started with 1 axis\n", seen)
+        # SAFE_REASON 8, told to be, is a warning.
+        self.assertTrue(any(line.startswith("<4>x: SAFE: told to be") for line in seen), seen)
+
+    def test_systemd_is_told_and_its_watchdog_fed(self):
+        self.plug_in()
+        place = self.path("notify")
+        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager:
+            manager.bind(place)
+            manager.settimeout(LONG)
+            service = self.start(self.write(self.axis()), NOTIFY_SOCKET=place, WATCHDOG_USEC="1000000")
+            told = ""
+            while "READY=1" not in told or told.count("WATCHDOG=1") < 3 or "STATUS=x stopped" not in told:
+                told += manager.recv(4096).decode() + "\n"
+            self.ctl("upload", self.table, "--run")
+            while "STATUS=x runs" not in told:
+                told += manager.recv(4096).decode() + "\n"
+            self.end(service)
+            while "STOPPING=1" not in told:
+                told += manager.recv(4096).decode() + "\n"
+
+    def test_the_example_is_in_order(self):
+        result = subprocess.run([NANOPLC, "check-config", "--no-devices", EXAMPLE], capture_output=True, text=True, check=False)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+
+    def test_the_example_has_every_key(self):
+        with open(EXAMPLE, encoding="utf-8") as file:
+            text = file.read()
+        keys = subprocess.run([NANOPLC, "check-config", "--no-devices", "--keys", EXAMPLE], capture_output=True, text=True,
+                              check=False).stdout.split()
+        self.assertIn("axis.motor.rs485_before_ms", keys)
+        self.assertGreater(len(keys), 45)
+        for key in keys:
+            name = re.escape(key.split(".")[-1])
+            self.assertRegex(text, rf"(?m)^(# )?((\[+([a-z]+\.)?{name}\]+$)|({name} = )|(IN1 = \{{.*\b{name} = ))",
+                             f"{key} is not in the example")
+
+    def test_wiring(self):
+        config = self.write(self.axis(more='[axis.inputs]\nIN2 = {line = "GPIO5", active_low = true, bias = "pull_up"}\n'
+                                      '[axis.outputs]\nOUT1 = "gpiochip0:23"\n[axis.settings]\nsafe_outputs = 2\n'
+                                      'enable_input = 2\n'))
+        result = subprocess.run([NANOPLC, "wiring", config], capture_output=True, text=True, check=False)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        rows = {}
+        for line in filter(str.strip, result.stdout.splitlines()):
+            rows.setdefault(line.split()[0], line)
+        self.assertRegex(rows["IN2"], r"GPIO5 +0 V = 1, pulled up +input 2")
+        self.assertRegex(rows["OUT1"], r"gpiochip0:23 +1 = high, safe: 1 +output 1")
+        self.assertRegex(rows["IN0"], r"none +reads 0 always")
+        self.assertRegex(rows["motor"], r"RS422, 19200 baud, 8N1")
+        self.assertIn("IN2 is the enable input", result.stdout)
+
+    def test_help_manual_and_completion(self):
+        for arguments, part in ((["--help"], "Exit codes: 0"), (["--version"], "nanoplc "), (["man"], ".TH NANOPLC 8"),
+                                (["completion", "bash"], "-F _nanoplc nanoplc"), (["completion", "zsh"], "#compdef nanoplc")):
+            result = subprocess.run([NANOPLC, *arguments], capture_output=True, text=True, check=False)
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            self.assertIn(part, result.stdout)
+
+
+if __name__ == "__main__":
+    NANOPLC, MACSIM, NANOCTL, MACREG, SEQC, MENDING, EXAMPLE = sys.argv[1:8]
+    unittest.main(argv=sys.argv[:1] + sys.argv[8:])
