@@ -9,5 +9,5 @@ set(CMAKE_SIZE arm-none-eabi-size)
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 
 set(CMAKE_CXX_FLAGS_INIT "-mcpu=${NPLC_CPU} -mthumb -ffunction-sections -fdata-sections -fno-exceptions -fno-rtti \
--fno-threadsafe-statics -fno-unwind-tables -fno-asynchronous-unwind-tables")
+-fno-threadsafe-statics -fno-unwind-tables -fno-asynchronous-unwind-tables -fcallgraph-info=su")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "--specs=nano.specs --specs=nosys.specs -Wl,--gc-sections")
