@@ -21,7 +21,9 @@ Uart::Uart(const Place& place) : place_(place) {}
 void Uart::begin(std::uint32_t baud) {
     auto& uart = at(place_.address);
     connect_to_peripheral(place_.pin_port, place_.pins);
+    uart.IM = 0;
     uart.CTL = 0;
+    uart.LCRH = 0;  // empties the chip's buffers
     const std::uint32_t divider = (8 * kHertz / baud + 1) / 2;
     uart.IBRD = divider / 64;
     uart.FBRD = divider % 64;
@@ -30,6 +32,8 @@ void Uart::begin(std::uint32_t baud) {
     uart.ICR = 0x7FF;
     uart.IM = kImReceive | kImReceiveTimeout | kImOverrun;
     uart.CTL = kCtlEnable;
+    // A buffer that holds something already might never interrupt.
+    while ((uart.FR & kFrReceiverEmpty) == 0) static_cast<void>(uart.DR);
     cortex_m::enable_interrupt(place_.interrupt);
 }
 
