@@ -121,16 +121,14 @@ class Noise(Case):
             self.assertEqual(self.line.read(gw.STATUS) & 7, 0)
         self.assertEqual(self.line.log(), [])
 
-    def test_a_break_in_a_message_drops_it_and_nothing_else(self):
-        message = gw.read_message(gw.FW_VERSION)
-        for cut in range(1, len(message)):
-            before = self.line.read(gw.MESSAGES)
-            self.line.socket.sendall(message[:cut])
-            # The reading of a register would be answered had the break not been seen.
-            self.board.monitor.do("human-monitor-command", **{"command-line": "info chardev"})
-            self.board.monitor.do("chardev-send-break", id="user")
-            self.line.socket.sendall(message[cut:])
-            self.assertIn(self.line.read(gw.MESSAGES), (before + 1, before + 2))
+    def test_a_flood_costs_messages_and_nothing_else(self):
+        """The line has no speed here: so much at once overruns the receiver's buffer."""
+        flood = gw.write_message(gw.TABLE_DATA, bytes(128)) * 20
+        for _ in range(20):
+            self.line.socket.sendall(flood)
+            self.assertEqual(self.line.read(gw.STATUS) & 7, 0)
+        self.assertEqual(self.line.read(gw.UPLOAD_RECEIVED), 0, "no upload was begun")
+        self.assertEqual(self.line.log(), [])
 
 
 if __name__ == "__main__":
