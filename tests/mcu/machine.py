@@ -80,8 +80,8 @@ class Debugger:
 class Machine:
     """In real time, as the virtual motor is; with fast=True time is counted in instructions, and an idle core's is skipped."""
 
-    def __init__(self, image, folder, motor=None, fast=False):
-        self.image, self.folder, self.motor, self.fast = image, folder, motor, fast
+    def __init__(self, image, folder, motor=None, fast=False, has_memory=True):
+        self.image, self.folder, self.motor, self.fast, self.has_memory = image, folder, motor, fast, has_memory
         self.memory = os.path.join(folder, "memory")
         if not os.path.exists(self.memory):
             with open(self.memory, "wb") as file:
@@ -96,12 +96,13 @@ class Machine:
             if os.path.exists(self.path(name)):
                 os.unlink(self.path(name))
         motor = f"socket,id=motor,path={self.motor}" if self.motor else "null,id=motor"
+        memory = ["-drive", f"if=none,id=memory,format=raw,file={self.memory}",
+                  "-device", f"at24c-eeprom,bus=i2c,address=0x50,rom-size={MEMORY},drive=memory"]
         server = "server=on,wait=off"
         self.process = subprocess.Popen(
             ["qemu-system-arm", "-M", "lm3s6965evb", "-nodefaults", "-display", "none", "-nic", "none",
              *(["-icount", "shift=5,sleep=off"] if self.fast else []), "-kernel", self.image,
-             "-drive", f"if=none,id=memory,format=raw,file={self.memory}",
-             "-device", f"at24c-eeprom,bus=i2c,address=0x50,rom-size={MEMORY},drive=memory",
+             *(memory if self.has_memory else []),
              "-chardev", f"socket,id=user,path={self.path('user')},{server}", "-serial", "chardev:user",
              "-chardev", motor, "-serial", "chardev:motor",
              "-qmp", f"unix:{self.path('qmp')},{server}", "-gdb", f"unix:{self.path('gdb')},{server}",

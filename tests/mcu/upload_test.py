@@ -110,6 +110,20 @@ class Uploads(Case):
         self.upload(table(self.rng))
 
 
+class NoMemory(unittest.TestCase):
+    def test_a_board_without_its_memory_says_so_and_works_on(self):
+        with tempfile.TemporaryDirectory() as folder:
+            board = machine.Machine(IMAGE, folder, fast=True, has_memory=False).start()
+            self.addCleanup(board.cut_power)
+            line = gw.UserLine(board.path("user"))
+            self.addCleanup(line.close)
+            self.assertEqual(line.log(), [(gw.STORE_DAMAGED, 0), (gw.STORE_DAMAGED, 0)], "settings and table")
+            self.assertEqual(line.read(gw.STORE_FLAGS), 2, "initial settings are in use")
+            self.assertTrue(line.write(gw.COMMAND, number(gw.BEGIN)))
+            failed = machine.until(lambda: line.read(gw.UPLOAD_STATE), lambda state: state & 0xFF == gw.FAILED)
+            self.assertEqual(failed >> 8 & 0xFF, gw.STORAGE_FAILED)
+
+
 class Noise(Case):
     def test_whole_messages_are_understood_after_noise_and_breaks(self):
         print(f"seed {SEED}")

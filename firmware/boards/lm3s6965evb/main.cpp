@@ -28,7 +28,9 @@ using hal_mcu::LastWords;
 constexpr store::Area kTableArea{.begin = 0, .slot_bytes = 8 * 1024};
 constexpr store::Area kSettingsArea{.begin = 16 * 1024, .slot_bytes = 256};
 constexpr base::Milliseconds kBeyondLongestWait{500};  ///< of the scan, until the watchdog bites
-constexpr std::uint32_t kMactalkBaud = 19'200;         ///< of the motor's own MacTalk port
+/// Two slots of the store looked at and one loaded take 0.7 s at most on the memory's line.
+constexpr base::Milliseconds kStartUp{3'000};
+constexpr std::uint32_t kMactalkBaud = 19'200;  ///< of the motor's own MacTalk port
 
 /// The outputs' safe values, for what happens before the settings are read and when nothing works any more.
 struct SafeLevels {
@@ -133,7 +135,7 @@ void on_i2c0() {
     user_line.begin(settings.get(store::Setting::user_baud));
     motor_line.begin(settings.get(store::Setting::motor_baud));
     motor_mactalk_line.begin(kMactalkBaud);
-    base::Milliseconds bites_after = watchdog_time(settings);
+    base::Milliseconds bites_after = kStartUp;
     watchdog.begin(bites_after);
 
     static motor::JvlMotor drive(motor_line, gateway::driver_settings_of(settings.values()));

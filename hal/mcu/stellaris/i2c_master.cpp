@@ -98,16 +98,6 @@ void I2cMaster::receive_first() {
     i2c().MCS = kMcsRun | kMcsStart | (transfer_.in.size() == 1 ? kMcsStop : kMcsAcknowledge);
 }
 
-/// An error without an interrupt is seen here.
-I2cBus::State I2cMaster::state() {
-    if (state_ != State::busy) return state_;
-    cortex_m::forbid_interrupts();
-    const std::uint32_t status = i2c().MCS;
-    if (state_ == State::busy && (status & kMcsBusy) == 0 && (status & kMcsError) != 0) on_interrupt();
-    cortex_m::allow_interrupts();
-    return state_;
-}
-
 void I2cMaster::abandon() {
     i2c().MCR = 0;
     state_ = State::idle;

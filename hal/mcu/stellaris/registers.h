@@ -87,7 +87,6 @@ inline constexpr std::uint32_t kMcsRun = 1U << 0;
 inline constexpr std::uint32_t kMcsStart = 1U << 1;
 inline constexpr std::uint32_t kMcsStop = 1U << 2;
 inline constexpr std::uint32_t kMcsAcknowledge = 1U << 3;
-inline constexpr std::uint32_t kMcsBusy = 1U << 0;   // read
 inline constexpr std::uint32_t kMcsError = 1U << 1;  // read
 inline constexpr std::uint32_t kMcsLost = 1U << 4;   // read
 inline constexpr std::uint32_t kMcrMaster = 1U << 4;

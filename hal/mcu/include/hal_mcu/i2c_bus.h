@@ -6,7 +6,8 @@
 
 namespace nplc::hal_mcu {
 
-/// A chip's I2C master, one transfer at a time. Nothing blocks.
+/// A chip's I2C master, one transfer at a time. Nothing blocks. A bus that hangs may stay busy: how long that
+/// may be is the caller's to say.
 class I2cBus {
   public:
     enum class State : std::uint8_t {

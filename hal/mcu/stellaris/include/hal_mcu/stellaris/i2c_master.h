@@ -12,7 +12,7 @@ class I2cMaster final : public I2cBus {
     void begin_bus();
 
     void begin(const Transfer& transfer) override;
-    State state() override;
+    State state() override { return state_; }
     void abandon() override;
     void on_interrupt();
 
