@@ -98,11 +98,18 @@ class Graph:
         return self.known[title]
 
 
+def call_graph(object_file):
+    return object_file.with_suffix(".ci")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folders", nargs="+", type=pathlib.Path, help="where the compiler put its .ci files")
     parser.add_argument("--at-most", type=int, required=True, help="bytes that there are")
     arguments = parser.parse_args()
+    missing = [file for folder in arguments.folders for file in folder.rglob("*.cpp.obj") if not call_graph(file).exists()]
+    if missing:
+        sys.exit(f"{missing[0]} and {len(missing) - 1} more have no call graph; build anew: remove {arguments.folders[0]}")
     graph = Graph(sorted(file for folder in arguments.folders for file in folder.rglob("*.ci")))
     loop, path = max(graph.deepest(title) for title in graph.matching(ROOTS))
     interrupt, on_top = max(graph.deepest(title) for title in graph.matching(INTERRUPTS))
