@@ -44,10 +44,12 @@ Gateway::Gateway(const Ports& ports, const Settings& settings, StartCause cause)
 }
 
 sequencer::Table::LoadResult Gateway::load(std::span<const std::uint8_t> bytes, base::Instant now) {
-    if (run_state_ != RunState::stopped)
-        return {.ok = false, .table = {}, .fault = {base::Error::not_stopped, 0}};
-    auto result = sequencer::Table::load(bytes);
-    if (result.ok) result = checked_for_motor(result);
+    const bool stopped = run_state_ == RunState::stopped;
+    auto result = stopped ? sequencer::Table::load(bytes)
+                          : sequencer::Table::LoadResult{
+                                .ok = false, .table = {}, .fault = {base::Error::not_stopped, 0}};
+    if (!stopped) return result;
+    if (result.ok) refuse_if_not_for_motor(result);
     table_ = result.table;
     engine_.reset();
     if (!result.ok) {
@@ -67,13 +69,14 @@ void Gateway::start_by_itself(base::Instant now) {
         set_safe_reason(SafeReason::enable_lost, now);
 }
 
-sequencer::Table::LoadResult Gateway::checked_for_motor(const sequencer::Table::LoadResult& loaded) const {
+void Gateway::refuse_if_not_for_motor(sequencer::Table::LoadResult& loaded) const {
     for (std::size_t i = 0; i < loaded.table.size(); ++i) {
         if (motor_takes(loaded.table.term(i))) continue;
-        return {
-            .ok = false, .table = {}, .fault = {base::Error::not_for_motor, static_cast<std::uint16_t>(i)}};
+        loaded.ok = false;
+        loaded.table.clear();
+        loaded.fault = {base::Error::not_for_motor, static_cast<std::uint16_t>(i)};
+        return;
     }
-    return loaded;
 }
 
 void Gateway::read_inputs(base::Instant now) {

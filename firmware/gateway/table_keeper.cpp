@@ -39,12 +39,10 @@ sequencer::Table::LoadResult TableKeeper::take(std::size_t length, base::Instant
 
 Outcome TableKeeper::load_stored(base::Instant now) {
     const auto length = slots_.load(memory_);
-    if (!length) {
-        if (length.error() != base::Error::busy) static_cast<void>(take(0, now));
-        return {length.error() == base::Error::busy ? Result::busy : Result::nothing_stored};
-    }
+    if (!length && length.error() == base::Error::busy) return {Result::busy};
     if (slots_.is_fallback()) gateway_.end_start_up();
-    const auto loaded = take(length.value(), now);
+    const auto loaded = take(length ? length.value() : 0, now);
+    if (!length) return {Result::nothing_stored};
     if (!loaded.ok) return {result_of(loaded.fault.error), loaded.fault.term};
     gateway_.note(Event::table_activated);
     return {};

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The image of the core for the microcontroller must not hold what a controller of machines cannot afford.
+"""A board's image for the microcontroller must not hold what a controller of machines cannot afford.
 
 usage: mcu_image.py IMAGE [NM]
 
@@ -42,12 +42,12 @@ def main():
     nm_tool = sys.argv[2] if len(sys.argv) > 2 else "arm-none-eabi-nm"
     symbols = symbols_of(image, nm_tool)
     if "run_firmware" not in {re.sub(r"^_Z\d+(\w+?)v$", r"\1", symbol) for symbol in symbols}:
-        sys.exit(f"{image}: no run_firmware in it: it is not the image of size_probe")
+        sys.exit(f"{image}: no run_firmware in it: it is not a board's image")
     findings = list(findings_in(symbols))
     for finding in findings:
         print(f"{image}: {finding}")
     if findings:
-        print("The linker's map beside the build (size_probe.map) shows who asked for each.")
+        print("The linker's map beside the image shows who asked for each.")
     print(f"{len(symbols)} symbols checked, {len(findings)} findings")
     sys.exit(1 if findings else 0)
 

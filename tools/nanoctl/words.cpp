@@ -58,7 +58,7 @@ std::string_view name_of(RunState state) {
 }
 
 std::string_view name_of_event(std::uint8_t event) {
-    constexpr std::array<std::string_view, 28> kNames{"none",
+    constexpr std::array<std::string_view, 30> kNames{"none",
                                                       "not started",
                                                       "stop command",
                                                       "link down",
@@ -85,7 +85,9 @@ std::string_view name_of_event(std::uint8_t event) {
                                                       "upload failed",
                                                       "settings kept",
                                                       "stored table or settings damaged",
-                                                      "upload given up"};
+                                                      "upload given up",
+                                                      "the firmware gave up before this start",
+                                                      "it was at this code address"};
     if (event >= kNames.size() || kNames[event].empty()) return "unknown";
     return kNames[event];
 }

@@ -57,6 +57,12 @@ class Table {
     struct LoadResult;
     [[nodiscard]] static LoadResult load(std::span<const std::uint8_t> bytes);
 
+    void clear() {
+        size_ = 0;
+        begin_.fill(0);
+        end_.fill(0);
+    }
+
     std::size_t size() const { return size_; }
     bool empty() const { return size_ == 0; }
     TermView term(std::size_t index) const { return TermView(bytes_ + index * kTermBytes, kTermBytes); }

@@ -163,7 +163,7 @@ class Gateway {
     void enter_safe_state(SafeReason reason, base::Instant now);
     void set_safe_reason(SafeReason reason, base::Instant now);
     static motor::Order to_motor(const sequencer::MotorOrder& order);
-    sequencer::Table::LoadResult checked_for_motor(const sequencer::Table::LoadResult& loaded) const;
+    void refuse_if_not_for_motor(sequencer::Table::LoadResult& loaded) const;
     void start_by_itself(base::Instant now);
     void start_when_ready(base::Instant now);
     void watch_link(base::Instant now);

@@ -159,6 +159,8 @@ enum class Event : std::uint8_t {
     settings_kept = 25,
     store_damaged = 26,
     upload_given_up = 27,
+    gave_up = 28,
+    gave_up_at = 29,
 };
 
 enum class Access : std::uint8_t { read, read_write, write };

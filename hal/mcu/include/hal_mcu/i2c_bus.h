@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace nplc::hal_mcu {
+
+/// A chip's I2C master, one transfer at a time. Nothing blocks. A bus that hangs may stay busy: how long that
+/// may be is the caller's to say.
+class I2cBus {
+  public:
+    enum class State : std::uint8_t {
+        idle,  ///< the last transfer is done
+        busy,
+        refused,  ///< nobody acknowledged, or the bus was lost
+    };
+
+    /// Device and address are written, then `out`, then a stop. With `in` the device is begun anew and read.
+    /// The bytes must stay until the state is no longer busy.
+    struct Transfer {
+        std::uint8_t device = 0;  ///< 7 bits
+        std::array<std::uint8_t, 2> address{};
+        std::span<const std::uint8_t> out{};
+        std::span<std::uint8_t> in{};
+    };
+
+    /// Only while not busy.
+    virtual void begin(const Transfer& transfer) = 0;
+    virtual State state() = 0;
+    /// Gives up the transfer and frees the bus.
+    virtual void abandon() = 0;
+
+  protected:
+    ~I2cBus() = default;
+};
+
+}  // namespace nplc::hal_mcu

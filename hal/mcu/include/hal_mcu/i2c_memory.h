@@ -1,0 +1,54 @@
+#pragma once
+
+#include "hal_mcu/i2c_bus.h"
+#include "ports/clock.h"
+#include "ports/storage.h"
+
+namespace nplc::hal_mcu {
+
+/// A serial EEPROM with two address bytes (24C32 to 24C512). Writing and erasing are begun and go on by
+/// themselves; state() asks the memory whether its write cycle is over, which takes one transfer each time.
+/// Reading waits for the bus: 64 bytes take 1.6 ms at 400 kHz.
+class I2cMemory final : public ports::Storage {
+  public:
+    struct Kind {
+        std::uint32_t size;   ///< bytes
+        std::uint32_t page;   ///< bytes, kLargestPage at the most
+        std::uint8_t device;  ///< 7 bits
+    };
+    static constexpr std::uint32_t kLargestPage = 128;
+    static constexpr Kind k24C256{.size = 32 * 1024, .page = 64, .device = 0x50};
+
+    I2cMemory(I2cBus& bus, ports::Clock& clock, const Kind& kind) : bus_(bus), clock_(clock), kind_(kind) {}
+
+    /// For the start-up: waits until the memory answers, 20 ms at the most; a reset may have come in the
+    /// middle of a write cycle. False: it does not.
+    bool wait_until_ready();
+
+    ports::StorageGeometry geometry() const override;
+    base::Status read(std::uint32_t address, std::span<std::uint8_t> out) override;
+    base::Status program(std::uint32_t address, std::span<const std::uint8_t> bytes) override;
+    base::Status erase(std::uint32_t address) override;
+    ports::StorageState state() override;
+
+  private:
+    enum class Phase : std::uint8_t { rest, writing, write_cycle };
+
+    base::Status write(std::uint32_t address, std::span<const std::uint8_t> bytes);
+    I2cBus::Transfer at(std::uint32_t address) const;
+    ports::StorageState end(ports::StorageState result);
+    bool is_late() { return clock_.now() - begun_ > kLongest; }
+    void ask();
+
+    /// Longer than any such memory's write cycle (5 or 10 ms) and the transfer before it.
+    static constexpr base::Microseconds kLongest{20'000};
+
+    I2cBus& bus_;
+    ports::Clock& clock_;
+    Kind kind_;
+    Phase phase_ = Phase::rest;
+    ports::StorageState result_ = ports::StorageState::ready;
+    base::Instant begun_{};
+};
+
+}  // namespace nplc::hal_mcu

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+
+namespace nplc::hal_mcu::stellaris {
+
+inline constexpr std::uint32_t kHertz = 50'000'000;
+
+/// 50 MHz from an 8 MHz crystal by the PLL, and the clocks of the ports. False if the PLL does not lock.
+bool begin_clock();
+
+/// The chip says that its watchdog has reset it since this was last asked.
+bool take_watchdog_reset();
+
+}  // namespace nplc::hal_mcu::stellaris

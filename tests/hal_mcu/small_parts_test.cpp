@@ -1,0 +1,55 @@
+#include <gtest/gtest.h>
+
+#include "hal_mcu/interrupt_ring.h"
+#include "hal_mcu/last_words.h"
+#include "hal_mcu/tick_time.h"
+
+namespace nplc::hal_mcu {
+namespace {
+
+using base::Instant;
+using base::Microseconds;
+
+TEST(InterruptRing, KeepsOrderAndItsCapacityWhileItsCountersWrap) {
+    InterruptRing<std::uint32_t, 4> ring;
+    for (std::uint32_t i = 0; i < 70'000; i += 4) {
+        for (std::uint32_t k = 0; k < 4; ++k) EXPECT_TRUE(ring.push(i + k));
+        EXPECT_FALSE(ring.push(0));
+        EXPECT_EQ(ring.size(), 4U);
+        for (std::uint32_t k = 0; k < 4; ++k) EXPECT_EQ(ring.pop(), i + k);
+        EXPECT_TRUE(ring.empty());
+        EXPECT_EQ(ring.pop(), std::nullopt);
+    }
+}
+
+TEST(TickTime, GoesOnWhenTheMillisecondsWrap) {
+    TickTime time;
+    EXPECT_EQ(time.at(0xFFFF'FFFE, 999), Instant(Microseconds(4'294'967'294'999)));
+    EXPECT_EQ(time.at(0xFFFF'FFFF, 1), Instant(Microseconds(4'294'967'295'001)));
+    EXPECT_EQ(time.at(0, 0), Instant(Microseconds(4'294'967'296'000)));
+    EXPECT_EQ(time.at(7, 5), Instant(Microseconds(4'294'967'303'005)));
+}
+
+/// The counter began anew and its interrupt has not come yet: the sum is a millisecond short.
+TEST(TickTime, NeverRunsBack) {
+    TickTime time;
+    EXPECT_EQ(time.at(5, 999), Instant(Microseconds(5'999)));
+    EXPECT_EQ(time.at(5, 3), Instant(Microseconds(5'999)));
+    EXPECT_EQ(time.at(6, 4), Instant(Microseconds(6'004)));
+}
+
+TEST(LastWords, AreKnownFromWhatMemoryHoldsAfterPowerUp) {
+    LastWords words{};
+    EXPECT_FALSE(words.valid());
+    words.leave(EndCause::bus_fault, 0x1234);
+    LastWords kept = words;
+    EXPECT_TRUE(kept.valid());
+    EXPECT_EQ(kept.cause(), EndCause::bus_fault);
+    EXPECT_EQ(kept.code_address(), 0x1234U);
+    kept.forget();
+    EXPECT_FALSE(kept.valid());
+    EXPECT_EQ(kept.cause(), EndCause::none);
+}
+
+}  // namespace
+}  // namespace nplc::hal_mcu

@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+"""The real image on an emulated board, with a virtual motor on its motor line and the real tools on its user's line.
+
+usage: image_test.py IMAGE.bin MACSIM NANOCTL MACREG SEQC
+"""
+
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import machine
+import user_line as gw
+from machine import until
+
+IMAGE = MACSIM = NANOCTL = MACREG = SEQC = ""
+SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "machine.seq")
+IDLING, LAMP, ARRIVED = 1, 4, 8
+SAFE = 0b1010  # no step of machine.seq has these outputs
+GAVE_UP, GAVE_UP_AT = 28, 29  # events (REGISTERS.md)
+WATCHDOG, REASON_WATCHDOG = 1, 6
+# Instructions: b ., cpsie i, cpsid i, udf
+BRANCH_TO_ITSELF, INTERRUPTS, NO_INTERRUPTS, UNDEFINED = 0xE7FE, 0xB662, 0xB672, 0xDEFE
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.table = os.path.join(self.folder.name, "machine.bin")
+        subprocess.run([SEQC, "build", SOURCE, "-o", self.table], check=True, capture_output=True)
+        self.motor, line = machine.start_motor(MACSIM, self.folder.name)
+        self.addCleanup(self.end_motor)
+        self.board = machine.Machine(IMAGE, self.folder.name, motor=line).start()
+        self.addCleanup(lambda: self.board.process and self.board.cut_power())
+
+    def end_motor(self):
+        self.motor.kill()
+        self.motor.communicate()
+
+    def tool(self, program, *arguments):
+        return subprocess.run([program, "--port", self.board.endpoint(), "--patience", "2000", "--json", *arguments],
+                              capture_output=True, text=True, timeout=4 * machine.LONG, check=False)
+
+    def ctl(self, *arguments):
+        result = self.tool(NANOCTL, *arguments)
+        self.assertEqual(result.returncode, 0, f"{arguments}: {result.stdout} {result.stderr}")
+        return json.loads(result.stdout.splitlines()[-1])
+
+    def shows(self, outputs):
+        until(self.board.outputs, lambda seen: seen == outputs)
+
+    def on_the_line(self, what):
+        line = gw.UserLine(self.board.path("user"))
+        try:
+            return what(line)
+        finally:
+            line.close()
+
+    def upload_and_run(self):
+        self.ctl("settings", "set", f"safe_outputs={SAFE}", "--keep")
+        sent = self.ctl("upload", self.table, "--run")
+        self.assertTrue(sent["active"] and sent["started"])
+        self.shows(IDLING)
+        return sent
+
+
+class Image(Case):
+    def test_a_table_is_uploaded_and_runs_and_outlives_reset_and_power_cut(self):
+        sent = self.upload_and_run()
+        self.ctl("stop")
+        self.shows(SAFE)
+        self.ctl("reset")
+        self.shows(IDLING)
+        self.board.cut_power()
+        self.board.start()
+        self.shows(IDLING)
+        status = self.ctl("status")
+        self.assertEqual((status["state"], status["table_crc32"]), ("running", sent["crc32"]))
+        self.assertTrue(self.ctl("verify", self.table, "--bytes")["active"])
+
+    def test_pins_lead_the_motor_and_tell_where_it_is(self):
+        self.upload_and_run()
+        self.board.drive_input(5, 1)
+        self.shows(IDLING | LAMP)
+        self.board.drive_input(5, 0)
+        self.shows(IDLING)
+        for _ in range(2):
+            self.board.drive_input(0, 1)
+            self.shows(ARRIVED)
+            told = self.tool(MACREG, "--model", "MAC140", "--address", "254", "get", "P_IST")
+            self.assertEqual(told.returncode, 0, told.stdout + told.stderr)
+            self.board.drive_input(0, 0)
+            self.shows(IDLING)
+        self.assertGreaterEqual(self.ctl("status")["orders"], 6)
+
+    def stack_bound(self):
+        with open(re.sub(r"\.bin$", ".stack", IMAGE), encoding="utf-8") as file:
+            return int(file.read().split()[0])
+
+    def test_the_stack_stays_within_what_was_computed(self):
+        self.upload_and_run()
+        self.board.drive_input(0, 1)
+        self.shows(ARRIVED)
+        self.tool(MACREG, "--model", "MAC140", "--address", "254", "get", "P_IST", "V_IST")
+        used = self.board.stack_used()
+        print(f"{used} bytes of stack used, {self.stack_bound()} computed")
+        self.assertGreater(used, 400, "the painted stack was not looked at")
+        self.assertLessEqual(used, self.stack_bound())
+
+    def hang_with(self, *halfwords):
+        debugger = self.board.debugger()
+        debugger.run_code(*halfwords)
+        debugger.resume()
+
+    def bitten(self, line):
+        self.assertEqual(line.read(gw.SAFE_REASON), REASON_WATCHDOG)
+        self.assertEqual(line.read(gw.STATUS) & 7, 0, "it does not run by itself")
+        return line.log()
+
+    def test_the_watchdog_bites_a_loop_that_hangs_and_tells_where(self):
+        self.upload_and_run()
+        self.hang_with(INTERRUPTS, BRANCH_TO_ITSELF)
+        self.shows(SAFE)
+        log = self.on_the_line(self.bitten)
+        self.assertIn((GAVE_UP, WATCHDOG), log)
+        self.assertIn((GAVE_UP_AT, (machine.SCRATCH + 2) & 0xFFFF), log)
+        self.ctl("run")
+        self.shows(IDLING)
+
+    def test_the_watchdog_resets_a_core_that_takes_no_interrupts(self):
+        self.upload_and_run()
+        before = self.on_the_line(lambda line: line.read(gw.UPTIME))
+        self.hang_with(NO_INTERRUPTS, BRANCH_TO_ITSELF)
+        after = until(lambda: self.on_the_line(lambda line: line.read(gw.UPTIME)), lambda up: up < before)
+        self.assertLess(after, before)
+
+    def test_a_fault_of_the_core_ends_in_the_safe_state_with_its_reason(self):
+        self.upload_and_run()
+        self.hang_with(UNDEFINED)
+        self.shows(SAFE)
+        log = self.on_the_line(self.bitten)
+        causes = [detail for event, detail in log if event == GAVE_UP]
+        self.assertEqual(causes, [2], "an undefined instruction escalates to a hard fault")
+        self.assertIn((GAVE_UP_AT, machine.SCRATCH & 0xFFFF), log)
+
+
+if __name__ == "__main__":
+    IMAGE, MACSIM, NANOCTL, MACREG, SEQC = sys.argv[1:6]
+    unittest.main(argv=sys.argv[:1])

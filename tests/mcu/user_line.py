@@ -1,0 +1,89 @@
+"""MacTalk to the gateway's own registers (firmware/gateway/REGISTERS.md), a message at a time, as bytes on a socket."""
+
+import socket
+import time
+
+import sockets
+
+GATEWAY = 128
+FW_VERSION, TABLE_CRC, TABLE_BYTES, STORED_CRC, STORE_FLAGS, STATUS, SAFE_REASON = 2, 4, 5, 6, 9, 16, 17
+UPTIME, LOG_COUNT, RESULT, MESSAGES = 19, 30, 31, 38
+COMMAND, UPLOAD_STATE, UPLOAD_RECEIVED, UPLOAD_BYTES, UPLOAD_CRC, TABLE_POINTER, TABLE_DATA = 48, 56, 57, 58, 59, 60, 61
+STOP, RESET, KEEP, BEGIN, COMMIT, ACTIVATE = 2, 7, 8, 16, 17, 19
+STORED, FAILED = 4, 5  # upload states
+STORAGE_FAILED = 15  # a result
+STORE_DAMAGED = 26  # an event
+LOG = 128
+ACCEPT = b"\x11\x11\x11"
+
+
+def protected(data):
+    return b"".join(bytes([byte, byte ^ 0xFF]) for byte in data)
+
+
+def read_message(register):
+    return b"\x50\x50\x50" + protected([GATEWAY, register]) + b"\xAA\xAA"
+
+
+def write_message(register, data):
+    return b"\x52\x52\x52" + protected([GATEWAY, register, len(data), *data]) + b"\xAA\xAA"
+
+
+def number(value):
+    return value.to_bytes(4, "little")
+
+
+class UserLine:
+    def __init__(self, path):
+        self.socket = sockets.connected(path)
+
+    def close(self):
+        self.socket.close()
+
+    def drain(self):
+        self.socket.setblocking(False)
+        try:
+            while self.socket.recv(4096):
+                pass
+        except BlockingIOError:
+            pass
+
+    def ask(self, message, answer_bytes, seconds=2.0):
+        """The answer; empty if none came."""
+        self.drain()
+        self.socket.setblocking(True)
+        self.socket.sendall(message)
+        answer, end = b"", time.monotonic() + seconds
+        while len(answer) < answer_bytes:
+            self.socket.settimeout(max(0.01, end - time.monotonic()))
+            try:
+                answer += self.socket.recv(answer_bytes - len(answer))
+            except socket.timeout:
+                return b""
+        return answer
+
+    def read(self, register):
+        """Asked again when no answer comes: a reset may have eaten the message."""
+        for _ in range(200):
+            answer = self.ask(read_message(register), 19, 0.3)
+            if answer:
+                expected = b"\x52\x52\x52" + protected([0, register, 4])
+                if answer.startswith(expected) and answer.endswith(b"\xAA\xAA"):
+                    return int.from_bytes(answer[9:17:2], "little")
+        raise AssertionError(f"register {register} never answered")
+
+    def write(self, register, data):
+        """True if it was accepted."""
+        return self.ask(write_message(register, data), len(ACCEPT)) == ACCEPT
+
+    def must_write(self, register, value):
+        if not self.write(register, number(value)):
+            raise AssertionError(f"register {register} did not take {value}: RESULT {self.read(RESULT):08X}h")
+
+    def log(self):
+        """Events, oldest first, each with its detail."""
+        entries = []
+        for index in range(self.read(LOG_COUNT)):
+            entry = self.read(LOG + 2 * (index % 16) + 1)
+            entries.append((entry & 0xFF, entry >> 16))
+        return entries
