@@ -76,6 +76,11 @@ Said in_words(const gateway::EventLog::Entry& entry) {
         case Event::store_damaged:
             return {LogLevel::error,
                     "a stored table or the stored settings are damaged; upload, or set and keep, again"};
+        case Event::gave_up:
+            return {LogLevel::error,
+                    fmt::format("the firmware gave up before this start, cause {}", entry.detail)};
+        case Event::gave_up_at:
+            return {LogLevel::error, fmt::format("it gave up at code address {}", entry.detail)};
         case Event::upload_given_up:
             return {LogLevel::warning, fmt::format("an upload was given up after {} bytes", entry.detail)};
     }
