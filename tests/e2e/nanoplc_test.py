@@ -17,7 +17,8 @@ import time
 import unittest
 
 import simulator
-from macsim_test import Terminal, read_request, value_in
+from device_case import Terminal
+from macsim_test import read_request, value_in
 
 NANOPLC = MACSIM = NANOCTL = MACREG = SEQC = MENDING = EXAMPLE = ""
 LONG = 60  # seconds until something that must come is given up
