@@ -45,6 +45,7 @@ Gateway::Gateway(const Ports& ports, const Settings& settings, StartCause cause)
 
 sequencer::Table::LoadResult Gateway::load(std::span<const std::uint8_t> bytes, base::Instant now) {
     const bool stopped = run_state_ == RunState::stopped;
+    // One result only: a second one takes 800 bytes of a small stack.
     auto result = stopped ? sequencer::Table::load(bytes)
                           : sequencer::Table::LoadResult{
                                 .ok = false, .table = {}, .fault = {base::Error::not_stopped, 0}};

@@ -4,10 +4,11 @@ import os
 import select
 import socket
 import subprocess
-import tempfile
 import time
 import tty
-import unittest
+
+import simulator
+from program_case import ProgramCase
 
 LONG = 20  # seconds until something that must come is given up
 
@@ -47,33 +48,21 @@ class Socket:
         self.socket.close()
 
 
-class Case(unittest.TestCase):
+class Case(ProgramCase):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.running = []
+        super().setUp()
         self.clients = []
 
     def tearDown(self):
         for client in self.clients:
             client.close()
-        for process in self.running:
-            process.kill()
-            process.communicate()
-        self.folder.cleanup()
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
+        super().tearDown()
 
     def start_program(self, *command):
         """Runs it until it is ready; answers the process and what it printed before."""
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.running.append(process)
-        lines = []
-        for line in process.stdout:
-            if line == "ready\n":
-                return process, lines
-            lines.append(line.rstrip("\n"))
-        self.fail(f"ended before it was ready: {process.communicate()}")
+        return process, [line.rstrip("\n") for line in simulator.until_ready(process)]
 
     def kept(self, client):
         self.clients.append(client)

@@ -10,38 +10,21 @@ import pty
 import signal
 import subprocess
 import sys
-import tempfile
 import termios
 import time
 import unittest
 
-import simulator
 from noisy_proxy import NoisyProxy
+from program_case import ProgramCase
 
 MACREG = MACSIM = SIM = SEQC = SHUTTLE = ""
 LONG = 60  # seconds until something that must come is given up
 
 
-class Case(unittest.TestCase):
+class Case(ProgramCase):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.running = []
+        super().setUp()
         self.endpoint = "unix:" + self.path("port")
-
-    def tearDown(self):
-        for process in self.running:
-            process.kill()
-            process.communicate()
-        self.folder.cleanup()
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
-
-    def launch(self, *command):
-        """A simulator, when it is ready; its lines until then."""
-        process, lines = simulator.start(*command)
-        self.running.append(process)
-        return process, lines
 
     def motor(self, *arguments, endpoint=None, model="MAC140"):
         self.endpoint = endpoint or self.endpoint

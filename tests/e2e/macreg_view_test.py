@@ -13,12 +13,11 @@ import socket
 import struct
 import subprocess
 import sys
-import tempfile
 import unittest
 
-import simulator
-
 from xml.etree import ElementTree
+
+from program_case import ProgramCase
 
 MACREG = MACSIM = ""
 LONG = 60  # seconds until something that must come is given up
@@ -27,23 +26,10 @@ READ = "50 50 50 08 F7 0A F5 AA AA"
 READ_REPLY = "52 52 52 00 FF 0A F5 04 FB 34 CB 12 ED 00 FF 00 FF AA AA"
 
 
-class Case(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.running = []
-
-    def tearDown(self):
-        for process in self.running:
-            process.kill()
-            process.communicate()
-        self.folder.cleanup()
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
-
+class Case(ProgramCase):
     def motor(self, speed=10):
-        self.running.append(simulator.start(MACSIM, "--model", "MAC140", "--address", "8", "--speed", str(speed), "--fastmac",
-                                            "pty:" + self.path("f"), "--mactalk", "pty:" + self.path("m"))[0])
+        self.launch(MACSIM, "--model", "MAC140", "--address", "8", "--speed", str(speed), "--fastmac", "pty:" + self.path("f"),
+                    "--mactalk", "pty:" + self.path("m"))
 
     def call(self, *arguments, **options):
         return subprocess.run([MACREG, "--port", self.path("m"), "--patience", "500", *arguments],

@@ -16,39 +16,26 @@ import time
 import unittest
 import zlib
 
-import simulator
 import zsh
 from noisy_proxy import NoisyProxy
+from program_case import ProgramCase
 
 NANOCTL = SIM = SEQC = SHUTTLE = ""
 LONG = 60  # seconds until something that must come is given up
 
 
-class Case(unittest.TestCase):
+class Case(ProgramCase):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.running = []
+        super().setUp()
         self.table = self.path("shuttle.bin")
         built = subprocess.run([SEQC, "build", SHUTTLE, "-o", self.table], capture_output=True, text=True, check=False)
         self.assertEqual(built.returncode, 0, built.stderr)
         self.endpoint = "unix:" + self.path("port")
 
-    def tearDown(self):
-        for process in self.running:
-            process.kill()
-            process.communicate()
-        self.folder.cleanup()
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
-
     def start(self, *arguments, endpoint=None):
         """The gateway, when it is ready."""
         self.endpoint = endpoint or self.endpoint
-        process, _ = simulator.start(SIM, "run", *arguments, "--flash", self.path("flash"), "--realtime", "--mactalk",
-                                     self.endpoint)
-        self.running.append(process)
-        return process
+        return self.launch(SIM, "run", *arguments, "--flash", self.path("flash"), "--realtime", "--mactalk", self.endpoint)[0]
 
     def end(self, process):
         process.send_signal(signal.SIGTERM)

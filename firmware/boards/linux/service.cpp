@@ -111,16 +111,16 @@ int Service::run() {
     return kDone;
 }
 
-base::Instant Service::wanted_by_watchdog(base::Instant /*now*/) const {
+base::Instant Service::wanted_by_watchdog() const {
     return watchdog_time_ ? all_served_ + *watchdog_time_ / 3 : base::kNever;
 }
 
 void Service::round(base::Instant latest) {
-    base::Instant deadline = std::min(latest, wanted_by_watchdog(clock_.now()));
+    base::Instant deadline = std::min(latest, wanted_by_watchdog());
     for (const base::Instant next : next_) deadline = std::min(deadline, next);
     const auto marks = loop_->wait(deadline);
     const base::Instant now = clock_.now();
-    const bool all = now >= wanted_by_watchdog(now);
+    const bool all = now >= wanted_by_watchdog();
     if (all) all_served_ = now;
     for (const std::uint32_t mark : marks) {
         next_[mark / Axis::kMarks] = now;

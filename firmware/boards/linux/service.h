@@ -49,7 +49,7 @@ class Service {
     void tell_unstopped(const Axis& axis, const std::string& why);
     void round(base::Instant latest);
     void show_status();
-    base::Instant wanted_by_watchdog(base::Instant now) const;
+    base::Instant wanted_by_watchdog() const;
 
     const Config& config_;
     Journal& journal_;
