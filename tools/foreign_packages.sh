@@ -50,6 +50,23 @@ foreign_download() {
     }
 }
 
+# foreign_source PACKAGE: its upstream source, into $foreign_state/packages. From then on there are sources only.
+foreign_source() {
+    local release
+    release=$(. /etc/os-release && echo "${VERSION_CODENAME:-}")
+    sed -i 's/^deb /deb-src /' "$foreign_state/sources.list"
+    : >"$foreign_state/log"
+    foreign_try_source "$1/$release" || { foreign_update; foreign_try_source "$1/$release"; } || {
+        tail -n 10 "$foreign_state/log" >&2
+        return 1
+    }
+}
+
+foreign_try_source() {
+    (cd "$foreign_state/packages" && apt-get -q "${foreign_settings[@]}" source --download-only --tar-only "$1") \
+        >>"$foreign_state/log" 2>&1
+}
+
 # foreign_dependency PACKAGE: the first package that it depends on.
 foreign_dependency() {
     apt-cache "${foreign_settings[@]}" depends --important "$1" 2>>"$foreign_state/log" |

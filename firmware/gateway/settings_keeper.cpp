@@ -63,6 +63,9 @@ motor::JvlMotor::Settings driver_settings_of(const store::SettingValues& values)
     using protocol::fastmac::RegisterCode;
     motor::JvlMotor::Settings settings;
     settings.link.baud = values.get(Setting::motor_baud);
+    settings.link.silence = milliseconds(values, Setting::motor_silence);
+    // The adapter that is late with one is late with the other.
+    settings.link.proof_time = settings.link.silence;
     settings.safe_communication = values.is_on(Setting::safe_communication);
     settings.register_code =
         values.is_on(Setting::old_register_codes) ? RegisterCode::older_example : RegisterCode::format_list;

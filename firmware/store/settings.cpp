@@ -45,6 +45,8 @@ constexpr std::array<SettingInfo, kSettings> kAll{{
      "1: the motor has the older FlexMAC register codes; from the next reset on if kept"},
     {Setting::read_pause, "read_pause", "ms", 20, 0, 1'000, false, false,
      "least time between two reads of the motor for the user while the sequence runs"},
+    {Setting::motor_silence, "motor_silence", "ms", 20, 20, 200, false, true,
+     "silence of the motor that is a lost link; from the next reset on if kept"},
 }};
 
 }  // namespace

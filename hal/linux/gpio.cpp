@@ -115,6 +115,12 @@ std::string refusal(const ChipWanted& wanted, const ChipRequested& answer) {
 
 }  // namespace
 
+FoundLine find_line(const std::string& where) {
+    const Place place = place_of(where);
+    if (!place.problem.empty()) return {.problem = place.problem};
+    return {.place = place.chip + ":" + std::to_string(place.offset)};
+}
+
 struct GpioBits::Part {
     ChipWanted wanted{};
     std::vector<std::size_t> bits{};  ///< of each line

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "seqc/intel_hex.h"
+#include "intel_hex/intel_hex.h"
 #include "sequencer/table.h"
 #include "sim/text.h"
 
@@ -41,8 +41,8 @@ bool is_printable(const std::string& text) {
 }
 
 std::vector<std::uint8_t> bytes_of(const std::string& text, const std::string& path) {
-    if (!seqc::is_intel_hex(path, text)) return {text.begin(), text.end()};
-    seqc::HexImage image = seqc::from_intel_hex(text);
+    if (!intel_hex::is_file(path, text)) return {text.begin(), text.end()};
+    intel_hex::Image image = intel_hex::read(text);
     if (image.error.empty()) return std::move(image.bytes);
     throw InputError(
         fmt::format("{}:{}: {}; mend the file or build it again with seqc", path, image.line, image.error));
@@ -72,7 +72,7 @@ std::vector<std::uint8_t> read_table(const std::string& path) {
     const std::string text = read_input(path, "a sequence table as `seqc build` writes it");
     if (text.empty()) refuse(path, "a sequence table as `seqc build` writes it", "the file is empty");
     std::vector<std::uint8_t> bytes = bytes_of(text, path);
-    if (is_printable(text) && !seqc::is_intel_hex(path, text) && !sequencer::Table::load(bytes).ok) {
+    if (is_printable(text) && !intel_hex::is_file(path, text) && !sequencer::Table::load(bytes).ok) {
         throw InputError(
             fmt::format("{0}: text, not a raw table; if it is a program's source, build the table first: "
                         "seqc build {0} -o {1}",

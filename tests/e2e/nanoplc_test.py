@@ -386,6 +386,30 @@ port = "tcp:0.0.0.0:2000"
         self.assertEqual(self.end(service), 3)
         self.assertIn("make it with `seqc build`", service.said())
 
+    def test_a_table_in_intel_hex(self):
+        # C0h 01h 01h 01h 80h 05h 00 00 (001 §6.1.5) makes 148h with its length 08h: checksum 100h - 50h = B0h.
+        term, end = ":08000000C001010180050000B0", ":080008003F00000000000000B1"
+        wrong = {
+            "whole": (f"{term}\n{end}\n:00000001FF\n", None),
+            "cut": (f"{term}\n{end}\n", ":2: the end record (:00000001FF) is missing"),
+            "damaged": (f"{term[:-1]}1\n{end}\n:00000001FF\n", ":1: the checksum is B1 where the record makes B0"),
+            "no_end": (f"{term}\n:00000001FF\n", ": term 1: "),
+            "more": (f"{term}\n{end}\n:01001000AA45\n:00000001FF\n", ": term 1 ends the table and 1 bytes follow it"),
+        }
+        self.plug_in()
+        for name, (text, complaint) in wrong.items():
+            table = self.path(name + ".hex")
+            with open(table, "w", encoding="ascii") as file:
+                file.write(text)
+            code, lines = self.check(self.axis(table=table))
+            if complaint is None:
+                self.assertEqual((code, lines), (0, []))
+                continue
+            self.assertEqual((code, len(lines)), (3, 1), lines)
+            self.assertIn(f"axis[x].table: {table}{complaint}", lines[0])
+        service = self.start(self.write(self.axis(table=self.path("whole.hex"))))
+        self.assertIn(f"x: runs {self.path('whole.hex')} while no table is stored", service.said())
+
     def test_wrong_usage(self):
         for arguments in (["--confg", "x"], ["check-config"], ["wirings", "x"]):
             result = subprocess.run([NANOPLC, *arguments], capture_output=True, text=True, check=False)

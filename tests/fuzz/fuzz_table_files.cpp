@@ -5,23 +5,24 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "seqc/intel_hex.h"
+#include "intel_hex/intel_hex.h"
 #include "seqc/symbol_file.h"
 
 namespace {
 
 using namespace nplc::seqc;
+namespace intel_hex = nplc::intel_hex;
 
 void require(bool holds) {
     if (!holds) std::abort();
 }
 
 void hex(std::string_view text) {
-    const HexImage image = from_intel_hex(text);
+    const intel_hex::Image image = intel_hex::read(text);
     require(image.error.empty() != image.bytes.empty());
     require(image.error.empty() || image.line > 0);
     if (!image.error.empty()) return;
-    const HexImage again = from_intel_hex(to_intel_hex(image.bytes, image.base));
+    const intel_hex::Image again = intel_hex::read(intel_hex::write(image.bytes, image.base));
     require(again.error.empty() && again.base == image.base && again.bytes == image.bytes);
 }
 

@@ -212,6 +212,14 @@ TEST_F(UserPortTest, TheLogTellsReasonsWithTheirTimes) {
     EXPECT_EQ(read(reg::LOG_COUNT), 0U);
 }
 
+TEST(SettingsKeeper, TheMotorsSilenceIsTheDrivers) {
+    store::SettingValues values;
+    EXPECT_EQ(driver_settings_of(values).link.silence, base::Milliseconds(20));
+    ASSERT_TRUE(values.set(store::Setting::motor_silence, 150).ok());
+    EXPECT_EQ(driver_settings_of(values).link.silence, base::Milliseconds(150));
+    EXPECT_EQ(driver_settings_of(values).link.proof_time, base::Milliseconds(150));
+}
+
 TEST_F(UserPortTest, SettingsAreWrittenWhileStoppedAndKept) {
     const auto number = [](store::Setting setting) {
         return static_cast<std::uint8_t>(reg::SETTINGS + static_cast<int>(setting));

@@ -33,6 +33,18 @@ TEST_F(LostLink, ReadsErrorAndNotInPosition) {
     EXPECT_TRUE(driver.settled()) << "the sequence runs on and sees the error";
 }
 
+TEST_F(LostLink, TheLongestSilenceIsASetting) {
+    JvlMotor patient(line, {.link = {.silence = base::Milliseconds(100)}, .safe_communication = false});
+    Script<JvlMotor> peer{line, patient};
+    for (const int echo : {0x80, 0x00, 0x80, 0x00, 0x80}) peer.hear_times(4, static_cast<std::uint8_t>(echo));
+    ASSERT_EQ(patient.link(), Link::up);
+    for (int i = 0; i < 190; ++i) peer.silence();  // 99.0 ms
+    EXPECT_EQ(patient.link(), Link::up);
+    for (int i = 0; i < 3; ++i) peer.silence();  // 100.6 ms
+    EXPECT_EQ(patient.link(), Link::down);
+    EXPECT_TRUE(patient.error());
+}
+
 TEST_F(LostLink, DiscardsEveryOrderAndDeliversNoneLate) {
     lose();
     driver.send(command(0x45));

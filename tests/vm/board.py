@@ -65,6 +65,10 @@ class Lines:
 
 
 class Board:
+    # For boards with another system on them.
+    MEMORY = "256"
+    KERNEL_WORDS = ""
+
     def __init__(self, share, command, serials=(), adapters=(), watchdog="reset", reboots=False, echo=print):
         """`command` runs in `share`, which the board has as /share. The first of `serials` is /dev/ttyS0. `adapters` are
         those on USB (FTDI); the guest says `modprobe -a xhci_pci ftdi_sio` first. `watchdog`: what it does (reset,
@@ -176,9 +180,12 @@ class Board:
 
         threading.Thread(target=serve, daemon=True).start()
 
+    def make_initramfs(self, target):
+        image.make(target)
+
     def _start(self):
         initramfs, tree = os.path.join(self.folder, "initramfs"), os.path.join(self.folder, "tree")
-        image.make(initramfs)
+        self.make_initramfs(initramfs)
         arguments = self._hardware()
         subprocess.run([*arguments, "-M", f"virt,dumpdtb={tree}"], check=True, capture_output=True)
         subprocess.run(["fdtput", "-t", "s", tree, f"/pl061@{_PL061:x}", "gpio-line-names", *LINE_NAMES], check=True)
@@ -190,7 +197,7 @@ class Board:
         for name in self.adapters:
             arguments += ["-device", f"usb-serial,id={name},chardev={name}"]
         arguments += ["-M", "virt", "-dtb", tree, "-kernel", kernel(), "-initrd", initramfs]
-        arguments += ["-append", "console=ttyAMA0 quiet acpi=off nokaslr panic=-1", "-serial", "stdio"]
+        arguments += ["-append", f"console=ttyAMA0 quiet acpi=off nokaslr panic=-1 {self.KERNEL_WORDS}", "-serial", "stdio"]
         arguments += ["-qtest", f"unix:{self.folder}/qtest", "-qtest-log", "/dev/null"]
         arguments += ["-mon", "chardev=monitor,mode=control"]
         listeners = {name: self._listener(name) for name in names}
@@ -206,7 +213,7 @@ class Board:
         self._chip = self._find("pl061")
 
     def _hardware(self):
-        arguments = ["qemu-system-aarch64", "-cpu", "cortex-a53", "-m", "256", "-accel", "tcg", "-nodefaults"]
+        arguments = ["qemu-system-aarch64", "-cpu", "cortex-a53", "-m", self.MEMORY, "-accel", "tcg", "-nodefaults"]
         arguments += ["-display", "none", "-object", "can-bus,id=bus"]
         arguments += ["-device", "kvaser_pci,canbus=bus", "-device", "kvaser_pci,canbus=bus"]
         arguments += ["-device", "qemu-xhci", "-device", "i6300esb", "-watchdog-action", self.watchdog]

@@ -3,7 +3,8 @@
 # Makes program test_NAME of GoogleTest cases and gives every case to CTest as NAME.Suite.Case; with sanitizers, where
 # each start takes long, all of them as one test NAME. Tier `quick` (the default) is what one runs while working; `full`
 # cases run in the full test run only. Tests are optimised little, which halves the time to compile them; FAST ones,
-# which compute much themselves, are optimised as the rest is.
+# which compute much themselves, are optimised as the rest is. Built for another processor they are no tests of CTest's:
+# tests/emulated runs them.
 
 find_package(GTest)
 if(NOT GTest_FOUND)
@@ -19,6 +20,8 @@ target_precompile_headers(nplc_test_headers PRIVATE <gtest/gtest.h> <algorithm> 
   <functional> <map> <optional> <set> <span> <string> <string_view> <vector>)
 target_compile_options(nplc_test_headers PRIVATE $<$<CONFIG:Release>:-O1> -fpch-preprocess)
 
+add_custom_target(unit_tests)
+
 function(nplc_test name)
   cmake_parse_arguments(ARG "FAST" "TIER" "SOURCES;DEPENDS" ${ARGN})
   if(NOT ARG_TIER)
@@ -31,6 +34,10 @@ function(nplc_test name)
     target_precompile_headers(test_${name} REUSE_FROM nplc_test_headers)
   endif()
   set_target_properties(test_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
+  add_dependencies(unit_tests test_${name})
+  if(CMAKE_CROSSCOMPILING)
+    return()
+  endif()
   if(NPLC_SANITIZE)
     add_test(NAME ${name} COMMAND test_${name} --gtest_brief=1)
     set_tests_properties(${name} PROPERTIES LABELS ${ARG_TIER} TIMEOUT 1200)

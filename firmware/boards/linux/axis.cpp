@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <utility>
 
+#include "table_file.h"
 #include "words.h"
 
 namespace nplc::boards {
@@ -152,14 +150,9 @@ std::string Axis::load_table(base::Instant now) {
              has_stored ? "has a stored table" : "has no table; upload one with `nanoctl upload`");
         return {};
     }
-    std::ifstream file(config_.table.text, std::ios::binary);
-    const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
-    if (!file.is_open()) return fmt::format("{}: {}", config_.table.text, std::strerror(errno));
-    if (bytes.size() > table_memory_.size())
-        return fmt::format("{}: is longer than a table of {} terms; make it with `seqc build`",
-                           config_.table.text, sequencer::kMaxTerms);
-    const std::vector<std::uint8_t> table(bytes.begin(), bytes.end());
-    const auto result = tables_->use(table, now);
+    const TableFile table = read_table(config_.table.text);
+    if (!table.error.empty()) return table.error;
+    const auto result = tables_->use(table.bytes, now);
     if (!result.ok)
         return fmt::format("{}: term {}: {}; make it with `seqc build`", config_.table.text,
                            result.fault.term, sequencer::describe(result.fault.error));

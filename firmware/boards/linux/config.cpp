@@ -242,10 +242,6 @@ class Reader {
         }
     }
 
-    static std::string line_id(const std::string& where) {
-        return where.starts_with("/dev/") ? where.substr(5) : where;
-    }
-
     /// Links such as those in /dev/serial lead to one device.
     static std::string port_id(const std::string& port) {
         std::error_code error;
@@ -261,6 +257,10 @@ class Reader {
 
 bool is_endpoint(const std::string& port) {
     return port.starts_with("pty:") || port.starts_with("unix:") || port.starts_with("tcp:");
+}
+
+std::string line_id(const std::string& where) {
+    return where.starts_with("/dev/") ? where.substr(5) : where;
 }
 
 ReadConfig read_config(std::string_view text) {

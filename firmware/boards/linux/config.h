@@ -61,5 +61,7 @@ ReadConfig read_config(std::string_view text);
 std::vector<Mistake> missing_devices(const Config& config);
 
 bool is_endpoint(const std::string& port);
+/// The same for two ways to write a GPIO line, as far as its words tell.
+std::string line_id(const std::string& where);
 
 }  // namespace nplc::boards

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "config.h"
+#include "table_file.h"
 
 namespace nplc::boards {
 namespace {
@@ -59,34 +61,45 @@ void check_port(const Placed& port, std::vector<Mistake>& missing) {
                          port.text)});
 }
 
-/// Lines by name are found by the kernel when they are taken.
-void check_line(const Placed& line, std::vector<Mistake>& missing) {
-    const std::size_t colon = line.text.rfind(':');
-    if (colon == std::string::npos) return;
-    const std::string chip = line.text.substr(0, colon);
-    const std::string path = chip.starts_with('/') ? chip : "/dev/" + chip;
-    if (is_character_device(path)) return;
-    const auto chips = files_in("/dev", {"gpiochip"});
-    missing.push_back(
-        {line.line, line.key,
-         fmt::format("there is no {}; {}", path,
-                     chips.empty() ? "this machine has no GPIO chip; write \"none\" to do without"
-                                   : fmt::format("there are {}", fmt::join(chips, ", ")))});
-}
+/// One line by two names is seen here only: the kernel knows which line a name is.
+class LineCheck {
+  public:
+    explicit LineCheck(std::vector<Mistake>& missing) : missing_(missing) {}
+
+    void check(const Placed& line) {
+        const hal_linux::FoundLine found = hal_linux::find_line(line.text);
+        if (!found.problem.empty())
+            return complain(line, has_chips_ ? found.problem
+                                             : "this machine has no GPIO chip; write \"none\" to do without");
+        const auto [first, is_new] = seen_.emplace(found.place, line);
+        if (is_new || line_id(first->second.text) == line_id(line.text)) return;
+        complain(line,
+                 fmt::format("{} is {}, which {} in line {} has already, as {}; each line once", line.text,
+                             found.place, first->second.key, first->second.line, first->second.text));
+    }
+
+  private:
+    void complain(const Placed& line, const std::string& text) {
+        missing_.push_back({line.line, line.key, text});
+    }
+
+    std::vector<Mistake>& missing_;
+    std::map<std::string, Placed> seen_;
+    const bool has_chips_ = !files_in("/dev", {"gpiochip"}).empty();
+};
 
 }  // namespace
 
 std::vector<Mistake> missing_devices(const Config& config) {
     std::vector<Mistake> missing;
-    std::error_code error;
+    LineCheck lines(missing);
     for (const AxisConfig& axis : config.axes) {
         for (const Placed& port : {axis.motor_port, axis.mactalk_port, axis.user_port})
             check_port(port, missing);
-        for (const Placed& line : axis.gpio) check_line(line, missing);
-        if (axis.table.is_there() && !fs::is_regular_file(axis.table.text, error))
-            missing.push_back(
-                {axis.table.line, axis.table.key,
-                 fmt::format("there is no file {}; make it with `seqc build`", axis.table.text)});
+        for (const Placed& line : axis.gpio) lines.check(line);
+        if (!axis.table.is_there()) continue;
+        if (const TableFile table = read_table(axis.table.text); !table.error.empty())
+            missing.push_back({axis.table.line, axis.table.key, table.error});
     }
     if (const Placed& device = config.watchdog_device; device.is_there() && !is_character_device(device.text))
         missing.push_back({device.line, device.key,

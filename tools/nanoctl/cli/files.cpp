@@ -4,7 +4,7 @@
 
 #include "cli/session.h"
 #include "command_line/files.h"
-#include "seqc/intel_hex.h"
+#include "intel_hex/intel_hex.h"
 #include "sequencer/table.h"
 #include "whole_files/whole_files.h"
 
@@ -15,8 +15,8 @@ using command_line::read_whole;
 std::vector<std::uint8_t> read_table(const std::string& path) {
     const std::string content = read_whole(path);
     std::vector<std::uint8_t> table(content.begin(), content.end());
-    if (seqc::is_intel_hex(path, content)) {
-        const seqc::HexImage image = seqc::from_intel_hex(content);
+    if (intel_hex::is_file(path, content)) {
+        const intel_hex::Image image = intel_hex::read(content);
         if (!image.error.empty()) throw UserError(fmt::format("{}:{}: {}", path, image.line, image.error));
         table = image.bytes;
     }
@@ -35,7 +35,7 @@ std::vector<std::uint8_t> read_table(const std::string& path) {
 
 void write_table(const std::string& path, std::span<const std::uint8_t> table) {
     const std::string content =
-        seqc::has_hex_extension(path) ? seqc::to_intel_hex(table) : std::string(table.begin(), table.end());
+        intel_hex::has_extension(path) ? intel_hex::write(table) : std::string(table.begin(), table.end());
     if (const std::string problem = whole_files::write_files({{path, content}}); !problem.empty())
         throw UserError(problem);
 }

@@ -9,7 +9,7 @@
 #include "cli/common.h"
 #include "formats/symbols_format.h"
 #include "host/paths.h"
-#include "seqc/intel_hex.h"
+#include "intel_hex/intel_hex.h"
 #include "seqc/symbol_file.h"
 #include "sequencer/term.h"
 
@@ -99,7 +99,8 @@ BuildTargets targets_of(const BuildOptions& options) {
     BuildTargets targets;
     targets.problem = format_problem(options);
     if (!targets.problem.empty()) return targets;
-    targets.hex = options.format == "hex" || (options.format.empty() && has_hex_extension(options.output));
+    targets.hex =
+        options.format == "hex" || (options.format.empty() && intel_hex::has_extension(options.output));
     targets.table = options.output;
     if (targets.table.empty())
         targets.table =
@@ -118,8 +119,8 @@ std::vector<whole_files::OutputFile> files_of(const BuildTargets& targets, const
                                               const Compilation& compilation, const std::string& source) {
     const std::vector<std::uint8_t>& table = compilation.table;
     std::vector<whole_files::OutputFile> files = {
-        {targets.table,
-         targets.hex ? to_intel_hex(table, targets.base_address) : std::string(table.begin(), table.end())}};
+        {targets.table, targets.hex ? intel_hex::write(table, targets.base_address)
+                                    : std::string(table.begin(), table.end())}};
     if (!targets.listing.empty())
         files.push_back({targets.listing, listing(compilation, source, options.source)});
     if (!targets.symbols.empty())

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "host/paths.h"
-#include "seqc/intel_hex.h"
+#include "intel_hex/intel_hex.h"
 #include "seqc/symbol_file.h"
 #include "sequencer/term.h"
 #include "whole_files/whole_files.h"
@@ -45,8 +45,8 @@ std::size_t table_length(std::span<const std::uint8_t> bytes) {
 /// Whether there are bytes; raw ones are taken as they are.
 bool take_bytes(Input& input, const std::string& text, std::vector<std::uint8_t>& bytes) {
     bytes.assign(text.begin(), text.end());
-    if (!is_intel_hex(input.file, text)) return true;
-    HexImage image = from_intel_hex(text);
+    if (!intel_hex::is_file(input.file, text)) return true;
+    intel_hex::Image image = intel_hex::read(text);
     bytes = std::move(image.bytes);
     if (image.error.empty()) return true;
     input.exit_code = file_problem(fmt::format("{}:{}: {}", input.file, image.line, image.error));

@@ -33,6 +33,7 @@ enum class Setting : std::uint8_t {
     safe_communication = 16,
     old_register_codes = 17,
     read_pause = 18,
+    motor_silence = 19,
 };
 
 /// `none` in enable_input and status_output.
@@ -50,7 +51,7 @@ struct SettingInfo {
     std::string_view help;
 };
 
-inline constexpr std::size_t kSettings = 18;
+inline constexpr std::size_t kSettings = 19;
 const std::array<SettingInfo, kSettings>& all_settings();
 /// nullptr if there is none.
 const SettingInfo* find_setting(std::uint8_t id);

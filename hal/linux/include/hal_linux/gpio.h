@@ -24,6 +24,12 @@ struct GpioLine {
     GpioBias bias = GpioBias::as_is;
 };
 
+struct FoundLine {
+    std::string place{};    ///< /dev/gpiochip0:17, however the line was named
+    std::string problem{};  ///< or why it is not to be found, one line
+};
+FoundLine find_line(const std::string& where);
+
 class ChipRequest;
 
 /// Lines of one or more chips, as bits.

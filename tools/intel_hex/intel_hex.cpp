@@ -1,4 +1,4 @@
-#include "seqc/intel_hex.h"
+#include "intel_hex/intel_hex.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,8 @@
 #include <array>
 
 #include "host/paths.h"
-#include "syntax/names.h"
 
-namespace nplc::seqc {
+namespace nplc::intel_hex {
 namespace {
 
 constexpr std::size_t kBytesARecord = 16;
@@ -45,7 +44,7 @@ struct Block {
 
 class Reader {
   public:
-    HexImage run(std::string_view text) {
+    Image run(std::string_view text) {
         while (!text.empty() && ok()) {
             ++line_;
             const std::size_t end = std::min(text.find('\n'), text.size());
@@ -138,7 +137,7 @@ class Reader {
         }
     }
 
-    HexImage image_;
+    Image image_;
     std::vector<Block> blocks_;
     std::uint64_t base_ = 0;
     std::size_t line_ = 0;
@@ -148,7 +147,7 @@ class Reader {
 
 }  // namespace
 
-std::string to_intel_hex(std::span<const std::uint8_t> bytes, std::uint32_t base) {
+std::string write(std::span<const std::uint8_t> bytes, std::uint32_t base) {
     std::string text;
     std::uint64_t upper_half = 0;
     for (std::uint64_t at = base; !bytes.empty();) {
@@ -167,21 +166,22 @@ std::string to_intel_hex(std::span<const std::uint8_t> bytes, std::uint32_t base
     return text + record(kEnd, 0, {});
 }
 
-HexImage from_intel_hex(std::string_view text) {
+Image read(std::string_view text) {
     return Reader().run(text);
 }
 
-bool has_hex_extension(std::string_view file_name) {
-    const std::string extension = upper(host::name_of(host::path_of(file_name).extension()));
+bool has_extension(std::string_view file_name) {
+    std::string extension = host::name_of(host::path_of(file_name).extension());
+    for (char& c : extension) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
     return extension == ".HEX" || extension == ".IHX" || extension == ".IHEX";
 }
 
-bool is_intel_hex(std::string_view file_name, std::string_view content) {
-    if (has_hex_extension(file_name)) return true;
+bool is_file(std::string_view file_name, std::string_view content) {
+    if (has_extension(file_name)) return true;
     constexpr std::size_t kShortestRecord = 11;
     const std::string_view line = content.substr(0, content.find_first_of("\r\n"));
     return line.size() >= kShortestRecord && line[0] == ':' &&
            std::all_of(line.begin() + 1, line.end(), [](char c) { return digit(c) >= 0; });
 }
 
-}  // namespace nplc::seqc
+}  // namespace nplc::intel_hex

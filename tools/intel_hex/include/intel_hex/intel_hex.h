@@ -9,13 +9,13 @@
 
 /// Intel HEX (Hexadecimal Object File Format Specification, revision A, 1988): the text form in which flash
 /// programmers take and give bytes.
-namespace nplc::seqc {
+namespace nplc::intel_hex {
 
 /// Data records of 16 bytes from `base` on, extended linear address records where the upper half of the
 /// address changes, the end record. `base` + size must not pass 2^32.
-std::string to_intel_hex(std::span<const std::uint8_t> bytes, std::uint32_t base = 0);
+std::string write(std::span<const std::uint8_t> bytes, std::uint32_t base = 0);
 
-struct HexImage {
+struct Image {
     std::uint32_t base = 0;  ///< address of the first byte
     std::vector<std::uint8_t> bytes;
     std::size_t line = 0;  ///< of the mistake, from 1
@@ -24,11 +24,11 @@ struct HexImage {
 
 /// Takes data records in any order and of any length, with segment or linear addresses, as long as they leave
 /// no gap and never overlap. Start addresses (records 03, 05) are read over; so are blank lines.
-HexImage from_intel_hex(std::string_view text);
+Image read(std::string_view text);
 
 /// Whether a file is to be read as Intel HEX: its name ends in .hex, .ihx or .ihex in any case, or its first
 /// line is a colon and hex digits, which no sequence table begins with in earnest.
-bool is_intel_hex(std::string_view file_name, std::string_view content);
-bool has_hex_extension(std::string_view file_name);
+bool is_file(std::string_view file_name, std::string_view content);
+bool has_extension(std::string_view file_name);
 
-}  // namespace nplc::seqc
+}  // namespace nplc::intel_hex

@@ -1,13 +1,13 @@
 // Records put together by hand after the Hexadecimal Object File Format Specification: length, address high
 // byte first, type, data, and a checksum that makes the sum of all bytes 0 modulo 256.
-#include "seqc/intel_hex.h"
+#include "intel_hex/intel_hex.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <random>
 
-namespace nplc::seqc {
+namespace nplc::intel_hex {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -17,31 +17,31 @@ const std::string kEnd = ":00000001FF\n";  // 01 -> FF
 
 TEST(IntelHexWriting, OneRecordAndTheEnd) {
     // 10 + C0 + 01 + 80 + 3F = 190 -> checksum 70
-    EXPECT_EQ(to_intel_hex(kTable), ":10000000C0000001800000003F0000000000000070\n" + kEnd);
-    EXPECT_EQ(to_intel_hex({}), kEnd);
+    EXPECT_EQ(write(kTable), ":10000000C0000001800000003F0000000000000070\n" + kEnd);
+    EXPECT_EQ(write({}), kEnd);
 }
 
 TEST(IntelHexWriting, SixteenBytesARecord) {
     const Bytes bytes(17, 0);
     // 10 -> F0; 01 + 10 = 11 -> EF
-    EXPECT_EQ(to_intel_hex(bytes), ":1000000000000000000000000000000000000000F0\n:0100100000EF\n" + kEnd);
+    EXPECT_EQ(write(bytes), ":1000000000000000000000000000000000000000F0\n:0100100000EF\n" + kEnd);
 }
 
 TEST(IntelHexWriting, AFlashAddressTakesAnExtendedRecord) {
     // 02 + 04 + 08 + 01 = 0F -> F1
-    EXPECT_EQ(to_intel_hex(kTable, 0x0801'0000),
+    EXPECT_EQ(write(kTable, 0x0801'0000),
               ":020000040801F1\n:10000000C0000001800000003F0000000000000070\n" + kEnd);
 }
 
 TEST(IntelHexWriting, NoRecordCrosses64KiB) {
     // 08 + FF + F8 + C0 + 01 + 80 = 340 -> C0; 02 + 04 + 01 = 07 -> F9; 08 + 3F = 47 -> B9
-    EXPECT_EQ(to_intel_hex(kTable, 0xFFF8),
+    EXPECT_EQ(write(kTable, 0xFFF8),
               ":08FFF800C000000180000000C0\n:020000040001F9\n:080000003F00000000000000B9\n" + kEnd);
 }
 
 TEST(IntelHexWriting, TheLastAddressThereIs) {
     // 02 + 04 + FF + FF = 204 -> FC; 01 + FF + FF + AA = 2A9 -> 57
-    EXPECT_EQ(to_intel_hex(Bytes{0xAA}, 0xFFFF'FFFF), ":02000004FFFFFC\n:01FFFF00AA57\n" + kEnd);
+    EXPECT_EQ(write(Bytes{0xAA}, 0xFFFF'FFFF), ":02000004FFFFFC\n:01FFFF00AA57\n" + kEnd);
 }
 
 TEST(IntelHexReading, WhatItWrote) {
@@ -50,7 +50,7 @@ TEST(IntelHexReading, WhatItWrote) {
         for (const std::size_t size : {1U, 8U, 15U, 16U, 17U, 200U, 70'000U}) {
             Bytes bytes(size);
             for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random());
-            const HexImage image = from_intel_hex(to_intel_hex(bytes, base));
+            const Image image = read(write(bytes, base));
             EXPECT_EQ(image.error, "");
             EXPECT_EQ(image.base, base);
             EXPECT_EQ(image.bytes, bytes) << base << " " << size;
@@ -59,35 +59,34 @@ TEST(IntelHexReading, WhatItWrote) {
 }
 
 TEST(IntelHexReading, LineEndsBlanksAndSmallLetters) {
-    const HexImage image = from_intel_hex("\r\n:01000000aa55\r\n\r\n:00000001ff  \r\n\n \t\n");
+    const Image image = read("\r\n:01000000aa55\r\n\r\n:00000001ff  \r\n\n \t\n");
     EXPECT_EQ(image.error, "");
     EXPECT_EQ(image.bytes, Bytes{0xAA});
-    EXPECT_EQ(from_intel_hex(":01000000AA55\n:00000001FF").bytes, Bytes{0xAA});
+    EXPECT_EQ(read(":01000000AA55\n:00000001FF").bytes, Bytes{0xAA});
 }
 
 TEST(IntelHexReading, RecordsInAnyOrder) {
     // 01 + 01 + BB = BD -> 43
-    EXPECT_EQ(from_intel_hex(":01000100BB43\n:01000000AA55\n" + kEnd).bytes, (Bytes{0xAA, 0xBB}));
+    EXPECT_EQ(read(":01000100BB43\n:01000000AA55\n" + kEnd).bytes, (Bytes{0xAA, 0xBB}));
 }
 
 TEST(IntelHexReading, SegmentAddressesCountSixteens) {
     // Segment 1200h: the byte is at 12000h. 02 + 02 + 12 = 16 -> EA
-    const HexImage image = from_intel_hex(":020000021200EA\n:01000000AA55\n" + kEnd);
+    const Image image = read(":020000021200EA\n:01000000AA55\n" + kEnd);
     EXPECT_EQ(image.base, 0x12000U);
     EXPECT_EQ(image.bytes, Bytes{0xAA});
 }
 
 TEST(IntelHexReading, AddressesHoldUntilTheNextOne) {
     // 01 + FF + FF + AA = 2A9 -> 57; 02 + 04 + 01 = 07 -> F9
-    const HexImage image = from_intel_hex(":01FFFF00AA57\n:020000040001F9\n:01000000AA55\n" + kEnd);
+    const Image image = read(":01FFFF00AA57\n:020000040001F9\n:01000000AA55\n" + kEnd);
     EXPECT_EQ(image.base, 0xFFFFU);
     EXPECT_EQ(image.bytes, (Bytes{0xAA, 0xAA}));
 }
 
 TEST(IntelHexReading, StartAddressesAreReadOver) {
     // 04 + 03 + 38 = 3F -> C1; 04 + 05 + CD = D6 -> 2A
-    EXPECT_EQ(from_intel_hex(":0400000300003800C1\n:04000005000000CD2A\n:01000000AA55\n" + kEnd).bytes,
-              Bytes{0xAA});
+    EXPECT_EQ(read(":0400000300003800C1\n:04000005000000CD2A\n:01000000AA55\n" + kEnd).bytes, Bytes{0xAA});
 }
 
 struct Bad {
@@ -99,7 +98,7 @@ struct Bad {
 class IntelHexMistake : public testing::TestWithParam<Bad> {};
 
 TEST_P(IntelHexMistake, IsToldWithItsLine) {
-    const HexImage image = from_intel_hex(GetParam().text);
+    const Image image = read(GetParam().text);
     EXPECT_NE(image.error.find(GetParam().says), std::string::npos) << image.error;
     EXPECT_EQ(image.line, GetParam().line) << image.error;
     EXPECT_TRUE(image.bytes.empty());
@@ -135,18 +134,18 @@ INSTANTIATE_TEST_SUITE_P(
                     Bad{std::string("\0\0\n", 3), 1, "begins with ':'"}));
 
 TEST(IntelHexFile, KnownByNameOrByItsFirstLine) {
-    EXPECT_TRUE(is_intel_hex("a.hex", ""));
-    EXPECT_TRUE(is_intel_hex("a.IHX", "x"));
-    EXPECT_TRUE(is_intel_hex("a.iHex", "x"));
-    EXPECT_TRUE(is_intel_hex("a.bin", ":00000001FF"));
-    EXPECT_TRUE(is_intel_hex("a", ":00000001ff\r\n?"));
-    EXPECT_FALSE(is_intel_hex("hex", ""));
-    EXPECT_FALSE(is_intel_hex("a.bin", ""));
-    EXPECT_FALSE(is_intel_hex("a.bin", ":0000\n"));
+    EXPECT_TRUE(is_file("a.hex", ""));
+    EXPECT_TRUE(is_file("a.IHX", "x"));
+    EXPECT_TRUE(is_file("a.iHex", "x"));
+    EXPECT_TRUE(is_file("a.bin", ":00000001FF"));
+    EXPECT_TRUE(is_file("a", ":00000001ff\r\n?"));
+    EXPECT_FALSE(is_file("hex", ""));
+    EXPECT_FALSE(is_file("a.bin", ""));
+    EXPECT_FALSE(is_file("a.bin", ":0000\n"));
     // A raw table can begin with a colon: STATE 3Ah is step 58 with timer and counter at zero.
     const std::string term("\x3A\x01\x01\x02\x80\0\0\0\x3F\0\0\0\0\0\0\0", 16);
-    EXPECT_FALSE(is_intel_hex("a.bin", term));
+    EXPECT_FALSE(is_file("a.bin", term));
 }
 
 }  // namespace
-}  // namespace nplc::seqc
+}  // namespace nplc::intel_hex

@@ -1,0 +1,62 @@
+#include "table_file.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "intel_hex/intel_hex.h"
+#include "sequencer/table.h"
+
+namespace nplc::boards {
+namespace {
+
+constexpr std::size_t kLongest = (sequencer::kMaxTerms + 1) * sequencer::kTermBytes;
+/// In Intel HEX a byte is two digits, and a record of one byte has twelve more and the end of its line.
+constexpr std::size_t kLongestFile = kLongest * 16;
+
+std::string too_long(const std::string& path) {
+    return fmt::format("{}: is longer than a table of {} terms; make it with `seqc build`", path,
+                       sequencer::kMaxTerms);
+}
+
+std::string fault_of(const std::string& path, std::span<const std::uint8_t> bytes) {
+    if (bytes.size() > kLongest) return too_long(path);
+    const auto loaded = sequencer::Table::load(bytes);
+    if (!loaded.ok)
+        return fmt::format("{}: term {}: {}; make it with `seqc build`", path, loaded.fault.term,
+                           sequencer::describe(loaded.fault.error));
+    const std::size_t whole = (loaded.table.size() + 1) * sequencer::kTermBytes;
+    if (bytes.size() == whole) return {};
+    return fmt::format("{}: term {} ends the table and {} bytes follow it; make it with `seqc build`", path,
+                       loaded.table.size(), bytes.size() - whole);
+}
+
+}  // namespace
+
+TableFile read_table(const std::string& path) {
+    std::error_code missing;
+    if (!std::filesystem::is_regular_file(path, missing))
+        return {.error = fmt::format("there is no file {}; make it with `seqc build`", path)};
+    if (std::filesystem::file_size(path, missing) > kLongestFile) return {.error = too_long(path)};
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (!file.is_open() || file.bad())
+        return {.error = fmt::format("{}: cannot be read: {}; the service's user must be allowed to", path,
+                                     std::strerror(errno))};
+    TableFile table{.bytes = {text.begin(), text.end()}};
+    if (intel_hex::is_file(path, text)) {
+        intel_hex::Image image = intel_hex::read(text);
+        if (!image.error.empty())
+            return {.error = fmt::format("{}:{}: {}; make it with `seqc build -o FILE.hex`", path, image.line,
+                                         image.error)};
+        table.bytes = std::move(image.bytes);
+    }
+    if (std::string error = fault_of(path, table.bytes); !error.empty()) return {.error = std::move(error)};
+    return table;
+}
+
+}  // namespace nplc::boards
