@@ -67,8 +67,10 @@ class MidiBench {
         return holds();
     }
 
+    /// Up, and known to stand.
     void start() {
         ASSERT_TRUE(until([&] { return driver.link() == Link::up && driver.settled(); }));
+        pass(200ms);
     }
     void order(const Order& order) {
         ASSERT_TRUE(driver.has_room());

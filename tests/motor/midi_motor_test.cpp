@@ -31,7 +31,7 @@ struct MidiMotorTest : testing::TestWithParam<Way> {
 };
 
 INSTANTIATE_TEST_SUITE_P(BothLines, MidiMotorTest, testing::Values(Way::v24, Way::can),
-                         [](const auto& info) { return info.param == Way::can ? "Can" : "V24"; });
+                         [](const auto& way) { return way.param == Way::can ? "Can" : "V24"; });
 
 TEST_P(MidiMotorTest, GoesToAPosition) {
     set_profile();
@@ -299,13 +299,12 @@ TEST_P(MidiMotorTest, AHeldShaftIsNotInPositionAndNoError) {
 TEST_P(MidiMotorTest, ARampThatDoesNotExistIsAnErrorWhenItShows) {
     bench.order(word(registers::V_SOLL, 3'146));
     bench.order(word(registers::A_SOLL, 24));
-    bench.order_and_settle(fast(kPositionP2));
-    EXPECT_FALSE(driver.error()) << "P2 is where it is: nothing moves";
+    EXPECT_FALSE(driver.error()) << "nothing moves";
     go(4'096);
     EXPECT_TRUE(driver.error());
     EXPECT_EQ(driver.fault(), MidiFault::bad_value);
     EXPECT_EQ(driver.lack(), registers::midi::Lack::too_soft);
-    EXPECT_EQ(bench.count(midi::GO_TO), 1U);
+    EXPECT_EQ(bench.count(midi::GO_TO), 0U);
     bench.order(fast(kResetError));
     bench.order(word(registers::A_SOLL, 81));
     bench.order_and_settle(fast(kPositionP2));
