@@ -5,6 +5,8 @@ namespace {
 
 namespace midi = registers::midi;
 
+constexpr std::size_t kMostDeeds = 10'000;
+
 std::int32_t field(const midi::CommandRow& row, std::size_t number, std::uint32_t data) {
     return midi::unpack(row.fields[number], data);
 }
@@ -20,6 +22,13 @@ bool MidiModule::may_execute(const midi::CommandRow& row, std::uint32_t data) co
 }
 
 bool MidiModule::execute(std::uint8_t number, std::uint8_t sub_index, std::uint32_t data) {
+    if (!carry_out(number, sub_index, data)) return false;
+    if (deeds_.size() == kMostDeeds) deeds_.pop_front();
+    deeds_.push_back({Time{ticks_ * 125}, number, data});
+    return true;
+}
+
+bool MidiModule::carry_out(std::uint8_t number, std::uint8_t sub_index, std::uint32_t data) {
     const midi::CommandRow* row = midi::find_command(number);
     if (row == nullptr || sub_index != 0 || !may_execute(*row, data))
         return false;  // R: sub-index, unused numbers

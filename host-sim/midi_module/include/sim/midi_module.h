@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 
 #include "base/ring.h"
@@ -16,6 +17,13 @@ struct MidiOptions {
     std::uint8_t address = 0;        ///< V24 0..7Fh, CAN 1..7Fh
     std::uint8_t imax = 0x80;        ///< RAM AFh
     std::uint32_t release = 0x0704;  ///< as GET_RELEASE tells it; R: byte 3 is the release, byte 4 its index
+};
+
+/// A command that was carried out.
+struct MidiDeed {
+    Time at;
+    std::uint8_t number;
+    std::uint32_t data;
 };
 
 /// A MIDI MAC23, MAC34-1 or MAC34-2 as its commands show it, in virtual time. It knows no line: MidiV24End
@@ -39,6 +47,8 @@ class MidiModule {
     /// Carries out a command; false: refused. RESET, FACTORY and BAUD only begin with restart().
     bool execute(std::uint8_t number, std::uint8_t sub_index, std::uint32_t data);
     std::optional<std::uint32_t> answer(std::uint8_t query, std::uint8_t sub_index) const;
+    /// The last 10,000 commands carried out, oldest first.
+    const std::deque<MidiDeed>& deeds() const { return deeds_; }
     /// SYNC on the bus: like the command, without an answer.
     void sync() { start_prepared(); }
     /// A restart was ordered; the end calls restart() once its answer has left.
@@ -107,6 +117,7 @@ class MidiModule {
     std::uint32_t settings() const;
 
     // midi_commands.cpp
+    bool carry_out(std::uint8_t number, std::uint8_t sub_index, std::uint32_t data);
     bool may_execute(const registers::midi::CommandRow& row, std::uint32_t data) const;
     bool set_parameter(std::uint8_t number, std::uint32_t data);
     bool move(std::uint8_t number, std::uint32_t data);
@@ -138,6 +149,7 @@ class MidiModule {
 
     Model model_;
     MidiOptions options_;
+    std::deque<MidiDeed> deeds_;
     MidiMemory memory_;
     std::uint32_t memory_writes_ = 0;
     std::uint8_t baud_code_ = 3;

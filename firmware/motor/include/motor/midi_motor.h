@@ -1,0 +1,209 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "base/ring.h"
+#include "motor/midi_link.h"
+#include "motor/midi_registers.h"
+#include "motor/motor.h"
+#include "registers/midi_motor.h"
+
+namespace nplc::motor {
+
+/// Why a MidiMotor shows ERROR, for a person. A trip, and why no drive could do an order, are told by
+/// MidiMotor::drive_status() and lack().
+enum class MidiFault : std::uint8_t {
+    none,
+    link_lost,    ///< no answer, or none that could be read
+    restarted,    ///< the module started anew by itself
+    tripped,      ///< the drive's own fault: its power is off until "reset error"
+    end_stop,     ///< stopped by an end-stop on its way
+    not_arrived,  ///< stands, and not where it was sent; or stopped running by itself
+    refused,      ///< the drive did not take a command
+    unclear,      ///< nobody knows whether the drive took a command; it was told to stop
+    bad_value,    ///< an order that only showed at run time that the drive cannot do it: see lack()
+};
+
+/// What it is and what to do. Without a full stop.
+std::string_view text_of(MidiFault fault);
+
+/// A MAC23 or MAC34 of MIDI Ingenierie behind any of its lines. It keeps the registers that a sequence knows
+/// from a JVL motor, and leads the drive to what they say. The rules and the whole translation: MIDI.md in
+/// this folder.
+class MidiMotor final : public Motor {
+  public:
+    using Model = registers::midi::Model;
+    struct Settings {
+        Model model = Model::mac34_1;
+        base::Microseconds pace{5'000};        ///< between two queries while something moves
+        base::Microseconds rest_pace{20'000};  ///< and while nothing does
+        base::Microseconds probe{100'000};     ///< between two queries while nobody answers
+        std::uint8_t most_repeats = 3;  ///< of one command; and failures in a row until the link is down
+    };
+
+    MidiMotor(MidiLink& link, const Settings& settings);
+
+    void poll(base::Instant now) override;
+    base::Instant next_poll(base::Instant now) const override;
+    bool settled() const override;
+    bool can_execute(const Order& order) const override { return lack_of(order) == Lack::none; }
+    bool has_room() const override { return !orders_.full(); }
+    void send(const Order& order) override;
+    void stop() override;
+    bool begin_access(const Access& access) override;
+    AccessState access_state() const override { return access_state_; }
+    std::uint32_t access_value() const override { return access_value_; }
+    void drop_access() override;
+    bool in_position() const override;
+    bool error() const override;
+    Link link() const override;
+    Counters counters() const override { return counters_; }
+    bool longwords_only() const override { return false; }
+
+    using Lack = registers::midi::Lack;
+    Lack lack_of(const Order& order) const;
+
+    /// The first reason for the present ERROR; stays until "reset error" (01h).
+    MidiFault fault() const;
+    Lack lack() const { return lack_; }                        ///< of a `bad_value`
+    std::uint32_t drive_status() const { return status_; }     ///< GET_STATUS, as last heard
+    std::int32_t drive_position() const { return position_; }  ///< increments, as last heard
+
+  private:
+    enum class Phase : std::uint8_t { down, status, imax, speeds, settings, position, up, resetting };
+    enum class Motion : std::uint8_t {
+        unknown,
+        at_rest,
+        going,  ///< to goal_
+        running,
+        stopping,
+    };
+    using Message = std::optional<MidiMessage>;
+
+    // midi_motor.cpp: the link and its messages
+    void lose_link(MidiFault why, base::Instant now);
+    void work(base::Instant now);
+    Message next_message(base::Instant now);
+    Message start_up_query() const;
+    Message next_query(base::Instant now);
+    bool has_work() const;
+    void end_access(AccessState state);
+    void on_boot(base::Instant now);
+    void on_outcome(const MidiOutcome& outcome, base::Instant now);
+    void on_not_taken(base::Instant now);
+    void on_unclear(base::Instant now);
+    void on_refused(base::Instant now);
+    void on_accepted(base::Instant now);
+    void begin_motion(Motion motion, base::Instant now);
+    void begin_stop(base::Instant now);
+    void begin_reset(base::Instant now);
+    void forget_parameter();
+
+    // midi_replies.cpp: what the module tells
+    void on_value(std::uint32_t value, base::Instant now);
+    void keep(std::uint32_t value, base::Instant now);
+    void on_status();
+    void on_measures(base::Instant now);
+    void on_position(base::Instant now);
+    void check_steady(base::Instant now);
+    void conclude(base::Instant now);
+    void not_taken_after_all();
+    bool needs_position() const;
+    bool is_at_goal() const;
+    base::Microseconds steady_time() const;
+    std::uint32_t error_bits() const;
+    std::uint16_t read_word(unsigned number) const;
+    std::int32_t speed() const;
+    void finish_access();
+    Message serve_access();
+    void begin_write();
+
+    // midi_plan.cpp: from registers to commands
+    void execute(const Order& order);
+    void execute_number(std::uint8_t number);
+    void write(const Order& order);
+    void recheck();
+    void write_word(unsigned number, std::uint16_t value);
+    void reset_error();
+    Message next_command(base::Instant now);
+    Message next_for_run();
+    Message next_for_move();
+    Message stop_first();
+    bool ramp_fits(std::uint16_t period, std::uint8_t& ramp);
+    std::uint16_t mode() const { return registers_.word(registers::MODE_REG); }
+    std::int32_t v_soll() const;
+    std::optional<std::int32_t> target() const;
+    bool may_move() const;
+    void raise(MidiFault fault, Lack lack = Lack::none);
+    bool moves() const { return motion_ == Motion::going || motion_ == Motion::running; }
+
+    MidiLink& link_;
+    Settings settings_;
+    MidiRegisters registers_;
+    base::Ring<Order, 8> orders_;
+    MidiMessage message_;  ///< under way while link_.busy()
+    Phase phase_ = Phase::down;
+    Motion motion_ = Motion::unknown;
+    MidiFault fault_ = MidiFault::none;
+    Lack lack_ = Lack::none;
+    std::uint8_t failures_ = 0;  ///< in a row
+    std::uint8_t repeats_ = 0;   ///< of the command that is to be sent
+    std::uint8_t refusals_ = 0;
+    std::uint8_t turn_ = 0;  ///< of the queries
+
+    bool link_error_ = false;
+    bool was_up_ = false;
+    bool resetting_ = false;   ///< RESET was sent and the module is not back yet
+    bool ignore_ = false;      ///< the message under way is from before the link was lost
+    bool order_open_ = false;  ///< an order was begun whose commands are not all through
+    bool stop_wanted_ = false;
+    bool stop_hard_ = false;  ///< EMERGENCY_STOP instead of STOP
+    bool reset_wanted_ = false;
+    bool zero_wanted_ = false;
+    bool zero_unclear_ = false;   ///< the next position tells
+    std::uint8_t base_ = 0;       ///< 7 or 8: P_SOLL becomes the next position plus P7 or P8
+    bool relative_ = false;       ///< RELPOSPSOLL
+    bool resync_ = false;         ///< a query must be answered before anything else is sent
+    bool status_is_new_ = false;  ///< since the last command
+
+    // of the module
+    std::uint8_t imax_ = registers::midi::kMostTorque;
+    std::uint16_t period_ = 0;
+    std::uint8_t unstall_ = 0;
+    std::uint8_t ramp_ = 0;
+    std::uint8_t torque_ = 0;
+    std::uint8_t tolerance_ = 0;
+    std::uint32_t status_ = 0;
+    std::int32_t position_ = 0;
+    base::Instant position_at_{};
+    std::int32_t position_before_ = 0;
+    base::Microseconds position_step_{};  ///< between the two; 0: not known
+
+    // of the motion
+    std::int32_t goal_ = 0;
+    bool goal_holds_ = false;  ///< the module's position loop has it
+    std::uint16_t run_period_ = 0;
+    bool left_ = false;
+    bool doubtful_ = false;  ///< nobody knows yet whether it was taken
+    bool measured_ = false;  ///< not_busy_ is newer than the motion's command
+    bool not_busy_ = false;
+    bool arrived_ = false;
+    bool at_speed_ = false;
+    bool steady_begun_ = false;
+    std::int32_t steady_position_ = 0;
+    base::Instant steady_since_{};
+    base::Instant ramp_end_{};  ///< of a run, or the latest end of a stop
+    base::Instant next_query_{};
+    base::Instant retry_at_{};
+    base::Instant deaf_until_{};
+
+    Access access_;
+    AccessState access_state_ = AccessState::none;
+    std::uint32_t access_value_ = 0;
+    bool access_error_ = false;  ///< ERROR was there before the write
+    Counters counters_;
+};
+
+}  // namespace nplc::motor

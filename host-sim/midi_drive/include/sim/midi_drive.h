@@ -1,0 +1,91 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <random>
+
+#include "ports/can.h"
+#include "sim/can_bus.h"
+#include "sim/midi_can_end.h"
+#include "sim/midi_module.h"
+#include "sim/midi_v24_end.h"
+#include "sim/serial_line.h"
+
+namespace nplc::sim {
+
+/// A CAN controller of the gateway's on a virtual bus, on which frames may be lost.
+class VirtualCanPort final : public ports::CanPort {
+  public:
+    VirtualCanPort(CanBus& bus, std::uint64_t seed) : bus_(bus), random_(seed) {}
+
+    bool write(const ports::CanFrame& frame) override;
+    bool read(ports::CanFrame& frame) override;
+    bool filter(std::span<const ports::CanFilter> filters) override;
+    ports::CanState state() override { return state_; }
+    ports::CanFaults faults() override { return {}; }
+    bool restart() override;
+
+    /// A frame that has arrived.
+    void receive(const protocol::midi_can::Frame& frame);
+    void set_state(ports::CanState state) { state_ = state; }
+    /// Share of the frames that nobody gets, in either direction.
+    void lose(double share) { loss_ = share; }
+    bool loses() { return std::uniform_real_distribution<>(0, 1)(random_) < loss_; }
+    unsigned restarts() const { return restarts_; }
+
+  private:
+    CanBus& bus_;
+    std::mt19937_64 random_;
+    double loss_ = 0;
+    ports::CanState state_ = ports::CanState::active;
+    std::deque<ports::CanFrame> received_;
+    std::optional<std::vector<ports::CanFilter>> filters_;
+    unsigned restarts_ = 0;
+};
+
+struct MidiDriveOptions {
+    registers::midi::Model model = registers::midi::Model::mac34_1;
+    bool can = false;
+    std::uint8_t address = 0;  ///< V24 0..7Fh, CAN 1..7Fh
+    std::uint32_t rate = 0;    ///< baud or bit/s; 0: 38400 baud, 250 kbit/s
+    std::uint64_t seed = 1;    ///< of the line's faults
+    MidiOptions module{};      ///< `can` and `address` are taken from above
+};
+
+/// A virtual MIDI module and the line to it, with the gateway's port, in virtual time.
+class MidiDrive {
+  public:
+    explicit MidiDrive(const MidiDriveOptions& options);
+
+    ports::SerialPort& serial() { return line_.port(); }
+    VirtualCanPort& can() { return can_port_; }
+    VirtualSerialLine& line() { return line_; }
+    const VirtualSerialLine& line() const { return line_; }
+    MidiModule& module() { return module_; }
+    const MidiModule& module() const { return module_; }
+
+    /// Moves characters or frames on, after the module has done all that happens until then. True if
+    /// something has arrived at the gateway.
+    bool service(Time now);
+    /// Of the line, and of the module as far as it could speak by itself.
+    Time next_event(Time now) const;
+
+    void cut(bool cut);
+    void power(bool on);
+
+  private:
+    bool service_v24(Time now);
+    bool service_can(Time now);
+
+    bool is_can_;
+    MidiModule module_;
+    VirtualSerialLine line_;
+    MidiV24End v24_end_;
+    MidiCanEnd can_end_;
+    CanBus bus_;
+    VirtualCanPort can_port_;
+    bool cut_ = false;
+    Time asked_{0};
+};
+
+}  // namespace nplc::sim
