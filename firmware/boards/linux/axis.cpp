@@ -87,11 +87,11 @@ hal_linux::UartSettings Axis::uart_settings(const std::string& path, std::uint32
 }
 
 std::string Axis::open_ports() {
-    auto motor = uart_settings(config_.motor_port.text, setting(Setting::motor_baud));
-    motor.rs485 = config_.motor_rs485;
-    if (std::string error = motor_port_.open(config_.name, motor); !error.empty()) return error;
-    if (config_.mactalk_port.is_there()) {
-        const auto settings = uart_settings(config_.mactalk_port.text, 19'200);
+    if (std::string error = motor_.open(config_.name, config_.motor, setting(Setting::motor_baud));
+        !error.empty())
+        return error;
+    if (config_.motor.mactalk_port.is_there()) {
+        const auto settings = uart_settings(config_.motor.mactalk_port.text, 19'200);
         if (std::string error = mactalk_port_.emplace().open(config_.name, settings); !error.empty())
             return error;
     }
@@ -126,17 +126,17 @@ std::string Axis::start(gateway::StartCause cause, base::Instant now) {
     tables_.reset();
     gateway_.reset();
     told_events_ = 0;
-    driver_.emplace(motor_port_.uart(), gateway::driver_settings_of(settings_->values()));
-    const gateway::Gateway::Ports ports{*inputs_, *outputs_, watchdog_, *driver_};
+    motor::Motor& driver = motor_.start(settings_->values());
+    const gateway::Gateway::Ports ports{*inputs_, *outputs_, watchdog_, driver};
     gateway_.emplace(ports, gateway::settings_of(settings_->values()), cause);
     gateway_->pace(kPace);
     settings_->attach(*gateway_);
-    tables_.emplace(*gateway_, *driver_, *storage_, kTableArea, table_memory_);
+    tables_.emplace(*gateway_, driver, *storage_, kTableArea, table_memory_);
     own_registers_.emplace(*gateway_, *tables_, *settings_);
     ports::SerialPort* user = &no_line_;
     if (user_door_) user = &*user_door_;
     if (user_uart_) user = &user_uart_->uart();
-    user_port_.emplace(*user, mactalk_port_ ? &mactalk_port_->uart() : nullptr, *gateway_, *driver_,
+    user_port_.emplace(*user, mactalk_port_ ? &mactalk_port_->uart() : nullptr, *gateway_, driver,
                        *own_registers_, *settings_);
     return load_table(now);
 }
@@ -175,7 +175,7 @@ void Axis::watch(hal_linux::EventLoop& loop, std::uint32_t mark) {
 /// The motor's own MacTalk port is not among them: it is read when a person's message waits for its answer.
 void Axis::watch_ports() {
     rests_until_ = base::kNever;
-    loop_->watch(motor_port_.uart().descriptor(), mark_);
+    motor_.watch(*loop_, mark_);
     if (user_uart_) loop_->watch(user_uart_->uart().descriptor(), mark_);
 }
 
@@ -187,7 +187,7 @@ void Axis::serve(base::Instant now) {
                                   static_cast<std::uint8_t>(setting(Setting::motor_address))});
     gateway_->poll(now);
     user_port_->poll(now);
-    bool is_back = motor_port_.look(journal_, now);
+    bool is_back = motor_.look(journal_, now);
     if (mactalk_port_) mactalk_port_->look(journal_, now);
     if (user_uart_) is_back = user_uart_->look(journal_, now) || is_back;
     if (is_back) watch_ports();
@@ -210,15 +210,14 @@ void Axis::reset(base::Instant now) {
     tell(LogLevel::error, error + "; this axis does nothing any more: restart the service");
 }
 
-/// The motor repeats its status without pause, 1920 bytes a second. While nothing is under way it is read
+/// A JVL motor repeats its status without pause, 1920 bytes a second. While nothing is under way it is read
 /// every few milliseconds instead of at every byte: an edge or a message wakes the program all the same.
 void Axis::rest_or_watch(base::Instant now) {
     constexpr base::Milliseconds kRest{5};
     const bool rested = rests_until_ != base::kNever;
-    const bool is_quiet = motor::delivers(driver_->link()) && driver_->settled() &&
-                          !motor::is_open(driver_->access_state()) && !motor_port_.uart().gone();
+    const bool is_quiet = motor_.may_rest();
     rests_until_ = is_quiet ? now + kRest : base::kNever;
-    if (is_quiet && !rested) loop_->ignore(motor_port_.uart().descriptor());
+    if (is_quiet && !rested) motor_.ignore(*loop_);
     if (!is_quiet && rested) watch_ports();
 }
 
@@ -235,7 +234,7 @@ void Axis::watch_pins(base::Instant now) {
 base::Instant Axis::next(base::Instant now) {
     if (failed_) return base::kNever;
     base::Instant next = std::min(gateway_->next_poll(now), user_port_->next_poll(now));
-    next = std::min({next, rests_until_, motor_port_.next_look()});
+    next = std::min({next, rests_until_, motor_.next_look()});
     if (mactalk_port_) next = std::min(next, mactalk_port_->next_look());
     if (user_uart_) next = std::min(next, user_uart_->next_look());
     if (user_door_) next = std::min(next, user_door_->next_turn(now));
@@ -248,7 +247,7 @@ void Axis::begin_end(base::Instant now) {
 }
 
 bool Axis::has_stopped() const {
-    return failed_ || !motor::delivers(driver_->link()) || driver_->settled();
+    return failed_ || !motor::delivers(motor_.driver().link()) || motor_.driver().settled();
 }
 
 void Axis::write_safe_outputs() {
@@ -264,13 +263,14 @@ void Axis::tell_news() {
         const Said said = in_words(log.slot(told_events_ % gateway::EventLog::kSlots));
         tell(said.level, said.text);
     }
-    const motor::Link link = driver_->link();
+    for (const Said& said : motor_.news()) tell(said.level, said.text);
+    const motor::Link link = motor_.driver().link();
     if (motor::delivers(link) == motor::delivers(told_link_)) return;
     told_link_ = link;
     if (motor::delivers(link))
-        tell(LogLevel::notice, "the motor answers on " + config_.motor_port.text);
+        tell(LogLevel::notice, "the motor answers on " + config_.motor.line_in_words());
     else
-        tell(LogLevel::warning, "the motor does not answer on " + config_.motor_port.text);
+        tell(LogLevel::warning, "the motor does not answer on " + config_.motor.line_in_words());
 }
 
 void Axis::tell_stored_settings() {
@@ -288,7 +288,7 @@ void Axis::tell_stored_settings() {
 std::string Axis::state_in_words() const {
     using gateway::RunState;
     const bool is_safe = gateway_->safe_reason() != gateway::SafeReason::none;
-    const char* const link = motor::delivers(driver_->link()) ? "" : ", no motor";
+    const char* const link = motor::delivers(motor_.driver().link()) ? "" : ", no motor";
     switch (gateway_->run_state()) {
         case RunState::stopped:
             return fmt::format("{} stopped{}", config_.name, link);

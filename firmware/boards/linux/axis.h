@@ -14,7 +14,7 @@
 #include "hal_linux/gpio.h"
 #include "journal.h"
 #include "kept_uart.h"
-#include "motor/jvl_motor.h"
+#include "motor_part.h"
 #include "user_door.h"
 
 namespace nplc::boards {
@@ -44,7 +44,7 @@ class Axis {
     /// The orderly end: outputs safe, motor told to stop; then serve() until it has taken that.
     void begin_end(base::Instant now);
     bool has_stopped() const;
-    bool motor_answers() const { return driver_ && motor::delivers(driver_->link()); }
+    bool motor_answers() const { return motor_.has_driver() && motor::delivers(motor_.driver().link()); }
     /// From now on an end that is not orderly is a crash; a start that failed before is none.
     void note_running();
     /// The end was orderly: the next start is none after a crash.
@@ -83,13 +83,12 @@ class Axis {
     hal_linux::GpioBits output_bits_;
     std::optional<hal_linux::GpioInputs> inputs_;
     std::optional<hal_linux::GpioOutputs> outputs_;
-    KeptUart motor_port_;
+    MotorPart motor_;
     std::optional<KeptUart> mactalk_port_;
     std::optional<KeptUart> user_uart_;
     std::optional<UserDoor> user_door_;
 
     std::optional<gateway::SettingsKeeper> settings_;
-    std::optional<motor::JvlMotor> driver_;
     std::optional<gateway::Gateway> gateway_;
     std::array<std::uint8_t, (sequencer::kMaxTerms + 1) * sequencer::kTermBytes> table_memory_{};
     std::optional<gateway::TableKeeper> tables_;

@@ -26,11 +26,6 @@ bool is_name(const std::string& name) {
     });
 }
 
-Placed placed(Section& section, const std::string& key) {
-    const std::optional<std::string> text = section.text(key);
-    return {text && *text != "none" ? *text : "", section.line_of(key), section.path() + "." + key};
-}
-
 class Reader {
   public:
     ReadConfig read(std::string_view text) {
@@ -109,7 +104,7 @@ class Reader {
         else if (has_name && !is_name(axis.name))
             section.complain("name", "may have small letters, digits, - and _, 32 at the most");
         axis.table = placed(section, "table");
-        read_motor(section, axis);
+        axis.motor = read_motor(section, axis.line, findings_);
         Section user(section.table("user"), path + ".user", findings_);
         axis.user_port = placed(user, "port");
         check_port(user, axis.user_port, true);
@@ -119,46 +114,6 @@ class Reader {
         read_settings(section, axis);
         section.finish();
         result_.config.axes.push_back(std::move(axis));
-    }
-
-    void read_motor(Section& axis_section, AxisConfig& axis) {
-        Section motor(axis_section.table("motor"), axis_section.path() + ".motor", findings_);
-        axis.motor_port = placed(motor, "port");
-        if (!axis.motor_port.is_there())
-            motor.complain(motor.is_there() ? motor.line() : axis.line, "port",
-                           "is missing; name the serial port at the motor's FastMAC line, such as "
-                           "\"/dev/serial/by-id/...\"");
-        axis.mactalk_port = placed(motor, "mactalk_port");
-        check_port(motor, axis.motor_port, false);
-        check_port(motor, axis.mactalk_port, false);
-        const auto mode = motor.choice("rs485", {"off", "rts_on_send", "rts_after_send"});
-        const auto before = motor.number("rs485_before_ms", 0, 1000);
-        const auto after = motor.number("rs485_after_ms", 0, 1000);
-        if (mode.value_or(0) != 0) {
-            axis.motor_rs485 = {.rts_on_send = mode == 1U,
-                                .before_ms = static_cast<std::uint32_t>(before.value_or(0)),
-                                .after_ms = static_cast<std::uint32_t>(after.value_or(0))};
-        } else if (before || after) {
-            motor.complain(before ? "rs485_before_ms" : "rs485_after_ms",
-                           "has no meaning while rs485 is \"off\"; write \"rts_on_send\" or leave it out");
-        }
-        motor.finish();
-    }
-
-    /// Whoever reaches the port can move the motor: the network is not let in.
-    static void check_port(Section& section, const Placed& port, bool may_be_endpoint) {
-        const std::string key = port.key.substr(port.key.rfind('.') + 1);
-        if (!port.is_there() || port.text.starts_with('/')) return;
-        if (!may_be_endpoint)
-            section.complain(key, fmt::format("{} is no device; write such as \"/dev/ttyUSB0\"", port.text));
-        else if (!is_endpoint(port.text))
-            section.complain(key, fmt::format("{} is no port; write \"/dev/ttyUSB1\", \"unix:PATH\", "
-                                              "\"pty:PATH\", \"tcp:127.0.0.1:PORT\" or \"none\"",
-                                              port.text));
-        else if (port.text.starts_with("tcp:") && !port.text.starts_with("tcp:127."))
-            section.complain(key, fmt::format("{} is open to the network; write \"tcp:127.0.0.1:PORT\" and "
-                                              "come in through ssh -L",
-                                              port.text));
     }
 
     template <std::size_t count>
@@ -200,6 +155,10 @@ class Reader {
         Section section(axis_section.table("settings"), axis_section.path() + ".settings", findings_);
         for (const store::SettingInfo& info : store::all_settings()) {
             const std::string key(info.name);
+            if (axis.motor.midi && is_for_jvl_only(info.id) && section.any(key) != nullptr) {
+                section.complain(key, "is for a JVL motor, and this one is a MIDI drive; leave it out");
+                continue;
+            }
             if (info.highest == 1) {
                 if (const auto on = section.flag(key)) set(axis, info.id, *on ? 1 : 0);
                 continue;
@@ -229,16 +188,23 @@ class Reader {
         const auto take = [&](const std::string& what, const Placed& place) {
             const auto [first, is_new] = seen.emplace(what, place);
             if (is_new) return;
-            findings_.mistakes.push_back({place.line, place.key,
-                                          fmt::format("{} is used twice: {} in line {} has it already",
-                                                      place.text, first->second.key, first->second.line)});
+            const bool is_line = place.key.ends_with(".motor.port");
+            findings_.mistakes.push_back(
+                {place.line, place.key,
+                 fmt::format("{} is used twice: {} in line {} has it already{}", place.text,
+                             first->second.key, first->second.line,
+                             is_line ? "; a motor's serial line is its axis's alone (a CAN bus can be shared)"
+                                     : "")});
         };
         for (const AxisConfig& axis : result_.config.axes) {
             if (!axis.name.empty()) take("name " + axis.name, {axis.name, axis.line, "axis.name"});
             for (const Placed& line : axis.gpio) take("line " + line_id(line.text), line);
-            for (const Placed& port : {axis.motor_port, axis.mactalk_port, axis.user_port}) {
+            for (const Placed& port : {axis.motor.port, axis.motor.mactalk_port, axis.user_port}) {
                 if (port.is_there()) take("port " + port_id(port.text), port);
             }
+            if (axis.motor.is_on_can())
+                take("on " + axis.motor.line_in_words(),
+                     {axis.motor.line_in_words(), axis.motor.address.line, axis.motor.address.key});
         }
     }
 
@@ -254,10 +220,6 @@ class Reader {
 };
 
 }  // namespace
-
-bool is_endpoint(const std::string& port) {
-    return port.starts_with("pty:") || port.starts_with("unix:") || port.starts_with("tcp:");
-}
 
 std::string line_id(const std::string& where) {
     return where.starts_with("/dev/") ? where.substr(5) : where;

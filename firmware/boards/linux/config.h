@@ -8,20 +8,13 @@
 
 #include "hal_linux/gpio.h"
 #include "hal_linux/real_time.h"
-#include "hal_linux/uart.h"
 #include "journal.h"
+#include "motor_config.h"
+#include "placed.h"
 #include "store/settings.h"
 #include "toml_file.h"
 
 namespace nplc::boards {
-
-/// A text of the configuration and where it stands.
-struct Placed {
-    std::string text{};
-    int line = 0;
-    std::string key{};
-    bool is_there() const { return !text.empty(); }
-};
 
 template <std::size_t count>
 using Lines = std::array<std::optional<hal_linux::GpioLine>, count>;
@@ -30,10 +23,8 @@ using Lines = std::array<std::optional<hal_linux::GpioLine>, count>;
 struct AxisConfig {
     std::string name;
     Placed table;  ///< a file whose table runs while none is stored
-    Placed motor_port;
-    std::optional<hal_linux::Rs485> motor_rs485;
-    Placed mactalk_port;  ///< to the motor's own MacTalk port
-    Placed user_port;     ///< a device, or an endpoint pty:, unix: or tcp:
+    MotorConfig motor;
+    Placed user_port;  ///< a device, or an endpoint pty:, unix: or tcp:
     Lines<6> inputs;
     Lines<4> outputs;
     std::vector<Placed> gpio;         ///< every line that is named
@@ -60,7 +51,6 @@ ReadConfig read_config(std::string_view text);
 /// What it names and this machine has not.
 std::vector<Mistake> missing_devices(const Config& config);
 
-bool is_endpoint(const std::string& port);
 /// The same for two ways to write a GPIO line, as far as its words tell.
 std::string line_id(const std::string& where);
 

@@ -1,11 +1,13 @@
 // What the configuration names and this machine has not.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <net/if_arp.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <map>
 
 #include "config.h"
@@ -44,7 +46,7 @@ bool is_character_device(const std::string& path) {
     return ::stat(path.c_str(), &status) == 0 && S_ISCHR(status.st_mode);
 }
 
-void check_port(const Placed& port, std::vector<Mistake>& missing) {
+void check_serial(const Placed& port, std::vector<Mistake>& missing) {
     if (!port.is_there() || is_endpoint(port.text)) return;
     std::error_code error;
     if (!fs::exists(port.text, error))
@@ -59,6 +61,25 @@ void check_port(const Placed& port, std::vector<Mistake>& missing) {
             {port.line, port.key,
              fmt::format("you may not use {}; join the group dialout, or run as the service does",
                          port.text)});
+}
+
+/// One that is down is no mistake: it may come up later.
+void check_can(const Placed& can, std::vector<Mistake>& missing) {
+    if (!can.is_there()) return;
+    const std::string path = "/sys/class/net/" + can.text;
+    std::error_code error;
+    int type = 0;
+    std::ifstream(path + "/type") >> type;
+    if (!fs::exists(path, error))
+        missing.push_back({can.line, can.key,
+                           fmt::format("there is no interface {}; set it up, or name another: `ip -brief "
+                                       "link show type can` lists them",
+                                       can.text)});
+    else if (type != ARPHRD_CAN)
+        missing.push_back({can.line, can.key,
+                           fmt::format("{} is no interface for CAN; `ip -brief link show type can` lists "
+                                       "those",
+                                       can.text)});
 }
 
 /// One line by two names is seen here only: the kernel knows which line a name is.
@@ -94,8 +115,9 @@ std::vector<Mistake> missing_devices(const Config& config) {
     std::vector<Mistake> missing;
     LineCheck lines(missing);
     for (const AxisConfig& axis : config.axes) {
-        for (const Placed& port : {axis.motor_port, axis.mactalk_port, axis.user_port})
-            check_port(port, missing);
+        for (const Placed& port : {axis.motor.port, axis.motor.mactalk_port, axis.user_port})
+            check_serial(port, missing);
+        check_can(axis.motor.can, missing);
         for (const Placed& line : axis.gpio) lines.check(line);
         if (!axis.table.is_there()) continue;
         if (const TableFile table = read_table(axis.table.text); !table.error.empty())

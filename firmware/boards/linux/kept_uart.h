@@ -15,6 +15,7 @@ class KeptUart {
     /// Empty, or one line.
     std::string open(const std::string& who, const hal_linux::UartSettings& settings);
     hal_linux::Uart& uart() { return *uart_; }
+    bool gone() const { return uart_->gone(); }
     /// True if it has come back, with another descriptor. Says so, and says when it has gone.
     bool look(Journal& journal, base::Instant now);
     /// When look() is wanted at the latest.

@@ -148,6 +148,74 @@ END_STEP
 STEP T: OWN ERROR; IF IN5 THEN NEXT := S; END_IF END_STEP
 END_PROGRAM
 )"},
+    {"W015", "an order that waits until the motor stands",
+     R"(A MIDI drive refuses a new target, a new ramp, and the velocity of moves to positions while it moves (000 and 003, commands 13h, 0Fh
+and 0Dh). The gateway keeps such an order until the drive stands, and the scan waits with it; a JVL motor would take it at
+once. Wait for INPOS first, or send STOP.)",
+     R"(PROGRAM P
+MOTOR MAC34;
+VAR_MOTOR A AT P1 := 0 rev; B AT P2 := 10 rev; Fast AT V1 := 600 rpm; Soft AT A1 := 5000 rpm/s; END_VAR
+POWER_UP INIT(Fast, Soft); NEXT := S; END_POWER_UP
+STEP S:
+    OWN ERROR;
+    IF IN0 THEN POSITION(B); NEXT := Away; END_IF
+END_STEP
+STEP Away:
+    OWN ERROR;
+    IF IN1 THEN POSITION(A); NEXT := Home; END_IF
+END_STEP
+STEP Home: OWN ERROR; IF INPOS THEN NEXT := S; END_IF END_STEP
+END_PROGRAM
+)",
+     R"(PROGRAM P
+MOTOR MAC34;
+VAR_MOTOR A AT P1 := 0 rev; B AT P2 := 10 rev; Fast AT V1 := 600 rpm; Soft AT A1 := 5000 rpm/s; END_VAR
+POWER_UP INIT(Fast, Soft); NEXT := S; END_POWER_UP
+STEP S:
+    OWN ERROR;
+    IF IN0 THEN POSITION(B); NEXT := Away; END_IF
+END_STEP
+STEP Away:
+    OWN ERROR;
+    IF INPOS THEN POSITION(A); NEXT := Home; END_IF
+END_STEP
+STEP Home: OWN ERROR; IF INPOS THEN NEXT := S; END_IF END_STEP
+END_PROGRAM
+)"},
+    {"W016", "a ramp that may be impossible",
+     R"(The ramp of a MIDI drive is a number of increments, 120 to 30600, worked out from velocity and acceleration. Of the values that a
+program gives, some would need a longer one if they met. Whether they do depends on the way through the steps, which is
+followed without its conditions. The gateway would show ERROR when it happens.)",
+     R"(PROGRAM P
+MOTOR MAC34;
+VAR_MOTOR
+    A AT P1 := 0 rev; B AT P2 := 10 rev; Fast AT V1 := 1500 rpm; Slow AT V2 := 60 rpm;
+    Soft AT A1 := 10000 rpm/s; Mild AT A2 := 1000 rpm/s;
+END_VAR
+POWER_UP INIT(Fast, Soft); NEXT := S; END_POWER_UP
+STEP S:
+    OWN ERROR;
+    IF IN0 THEN INIT(Mild); NEXT := T; ELSIF IN1 THEN INIT(Slow, Mild); NEXT := T; END_IF
+END_STEP
+STEP T: OWN ERROR; IF IN2 THEN POSITION(B); NEXT := U; END_IF END_STEP
+STEP U: OWN ERROR; IF INPOS THEN INIT(Fast, Soft); NEXT := S; END_IF END_STEP
+END_PROGRAM
+)",
+     R"(PROGRAM P
+MOTOR MAC34;
+VAR_MOTOR
+    A AT P1 := 0 rev; B AT P2 := 10 rev; Fast AT V1 := 1500 rpm; Slow AT V2 := 60 rpm;
+    Soft AT A1 := 10000 rpm/s; Mild AT A2 := 1000 rpm/s;
+END_VAR
+POWER_UP INIT(Fast, Soft); NEXT := S; END_POWER_UP
+STEP S:
+    OWN ERROR;
+    IF IN0 THEN INIT(Fast, Soft); NEXT := T; ELSIF IN1 THEN INIT(Slow, Soft); NEXT := T; END_IF
+END_STEP
+STEP T: OWN ERROR; IF IN2 THEN POSITION(B); NEXT := U; END_IF END_STEP
+STEP U: OWN ERROR; IF INPOS THEN INIT(Fast, Soft); NEXT := S; END_IF END_STEP
+END_PROGRAM
+)"},
 };
 
 }  // namespace

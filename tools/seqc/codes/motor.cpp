@@ -6,7 +6,8 @@ namespace {
 constexpr CodeInfo kAll[] = {
     {"E030", "an unknown motor",
      R"(MOTOR names the motor whose registers the program uses: MAC50, MAC95, MAC140, MAC141 or MAC800. The MAC800 numbers and
-scales many registers in another way, so the name must be right.)",
+scales many registers in another way, so the name must be right. MAC23 and MAC34 (MAC34_1, MAC34_2) are drives of MIDI
+Ingenierie: their programs use the registers of a MAC140, and the gateway translates.)",
      R"(PROGRAM P
 MOTOR MAC14;
 STEP S: OWN ERROR; END_STEP
@@ -130,6 +131,32 @@ STEP S:
     IF IN0 THEN V_SOLL := 500 rpm; NEXT := T; END_IF
 END_STEP
 STEP T: OWN ERROR; IF IN5 THEN NEXT := S; END_IF END_STEP
+END_PROGRAM
+)"},
+    {"E044", "what a MIDI drive cannot do",
+     R"(A program for MAC23 or MAC34 has the registers and commands of a JVL motor, and the gateway translates them for MIDI's drive
+(firmware/motor/MIDI.md). What that has nothing for is refused here: the load factor (L1..L4), P_FNC, HOME, gear and analogue
+modes; and values beyond its reach: a speed below 0.95 rpm (MAC23: 3.8 rpm), acceleration 0, a ramp of more than 255 x 120
+increments, a window of 0 or above 104 counts (MAC23: 524). The ramp comes from velocity and acceleration together.)",
+     R"(PROGRAM P
+MOTOR MAC34;
+STEP S:
+    OWN ERROR;
+    IF IN0 THEN HOME; NEXT := T; END_IF
+END_STEP
+STEP T: OWN ERROR; IF IN5 THEN NEXT := S; END_IF END_STEP
+END_PROGRAM
+)",
+     R"(PROGRAM P
+MOTOR MAC34;
+VAR_MOTOR Search AT V1 := -60 rpm; Soft AT A1 := 1000 rpm/s; END_VAR
+POWER_UP INIT(Search, Soft); NEXT := S; END_POWER_UP
+STEP S:
+    OWN ERROR;
+    IF IN0 THEN VELOCITY(Search); NEXT := Homing; END_IF
+END_STEP
+STEP Homing: OWN ERROR; IF IN1 THEN STOP; TIMER := T#1s; NEXT := Homed; END_IF END_STEP
+STEP Homed: OWN ERROR; IF TIMER.Q THEN CLEAR_P_IST; NEXT := S; END_IF END_STEP
 END_PROGRAM
 )"},
 };

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "meaning/commands.h"
+#include "meaning/motors.h"
 #include "registers/mac.h"
 #include "syntax/names.h"
 #include "syntax/parser.h"
@@ -78,7 +79,7 @@ class Speller {
             if (tokens_.is_keyword(at_ - 1, "STEP")) steps_.declare(item.text);
             if (in_variables_ && tokens_.is_keyword(at_ + 1, "AT")) variables_.declare(item.text);
             if (tokens_.is_keyword(at_ - 1, "MOTOR"))
-                motor_ = registers::model_of(item.text).value_or(motor_);
+                motor_ = motor_named(item.text).value_or(MotorChoice{motor_}).map;
             if (in_scale_ && !is_unit(item.text)) units_.declare(item.text);
         }
     }
@@ -175,7 +176,7 @@ std::string Speller::name_here() const {
     if (behind_keyword("PROGRAM") || behind_keyword("STEP")) return std::string(text);
     const bool behind_next = at_ > 1 && behind_symbol(":=") && tokens_.is_keyword(at_ - 2, "NEXT");
     if (behind_next || behind_keyword("TERM")) return std::string(steps_.find(text).value_or(text));
-    if (behind_keyword("MOTOR")) return registers::model_of(text) ? upper(text) : std::string(text);
+    if (behind_keyword("MOTOR")) return motor_named(text) ? upper(text) : std::string(text);
     if (in_variables_ && tokens_.is_keyword(at_ + 1, "AT")) return std::string(text);
     if (in_variables_ && behind_symbol(":")) return upper(text);
     if (begins_statement() && !tokens_.is_symbol(at_ + 1, ":=")) return command(text);

@@ -7,6 +7,7 @@
 #include "base/crc32.h"
 #include "formats/symbols_format.h"
 #include "host/paths.h"
+#include "meaning/motors.h"
 #include "seqc/symbol_file.h"
 #include "sequencer/term.h"
 #include "syntax/names.h"
@@ -164,10 +165,11 @@ void read_table(const Node& table, const Node& terms, SymbolFile& file) {
     if (count != file.terms.size()) terms.fail(fmt::format("there must be {} of them", count));
 }
 
-registers::Model read_motor(const Node& node) {
-    const auto model = registers::model_of(node.text());
-    if (!model) node.fail("the motors are MAC50, MAC95, MAC140, MAC141 and MAC800");
-    return *model;
+void read_motor(const Node& node, Symbols& symbols) {
+    const auto choice = motor_named(node.text());
+    if (!choice) node.fail(std::string(kMotorNames));
+    symbols.motor = choice->map;
+    symbols.midi = choice->midi;
 }
 
 SymbolFile read(const Node& root) {
@@ -181,7 +183,7 @@ SymbolFile read(const Node& root) {
     SymbolFile file;
     file.symbols.program = root["program"].name();
     file.source = root["source"].text();
-    file.symbols.motor = read_motor(root["motor"]);
+    read_motor(root["motor"], file.symbols);
     if (root.has("scale")) {
         const Node scale = root["scale"];
         file.symbols.scale = {scale["revolutions"].positive(), scale["length"].positive(),

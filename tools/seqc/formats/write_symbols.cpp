@@ -4,6 +4,7 @@
 
 #include "base/crc32.h"
 #include "formats/symbols_format.h"
+#include "meaning/motors.h"
 #include "seqc/symbol_file.h"
 #include "sequencer/term.h"
 
@@ -79,7 +80,7 @@ std::string write_symbols(const Compilation& compilation, std::string_view sourc
                  {"version", kSymbolsVersion},
                  {"program", symbols.program},
                  {"source", file_name},
-                 {"motor", registers::name_of(symbols.motor)}};
+                 {"motor", motor_name(symbols)}};
     if (symbols.scale) {
         file["scale"] = {{"revolutions", symbols.scale->revolutions},
                          {"length", symbols.scale->length},

@@ -123,7 +123,8 @@ void ActionBuilder::add_assignment(const Statement& statement, const registers::
 }
 
 void ActionBuilder::add_send(const Statement& statement, std::uint8_t command) {
-    action_.sends.push_back({nullptr, command, 0, statement.span});
+    const Send send{nullptr, command, 0, statement.span};
+    if (scope_.is_for_drive(send)) action_.sends.push_back(send);
 }
 
 void ActionBuilder::add_command(const Statement& statement) {

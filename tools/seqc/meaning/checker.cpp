@@ -7,7 +7,9 @@
 #include <bitset>
 
 #include "meaning/actions.h"
+#include "meaning/motors.h"
 #include "meaning/single_term.h"
+#include "registers/midi_motor.h"
 #include "sequencer/term.h"
 #include "syntax/names.h"
 
@@ -397,7 +399,24 @@ class Checker {
         } else if (term.is_flex && term.flex.reg == 0) {
             report_.warning("W009", raw.span, "register 0: a gateway refuses a table with this term",
                             "bits 6..0 of the fourth byte name the register, 1..127");
+        } else if (const auto drive = symbols_.midi) {
+            warn_if_not_for_drive(raw.span, term, *drive);
         }
+    }
+
+    void warn_if_not_for_drive(Span span, const sequencer::Term& term, registers::midi::Model drive) {
+        using registers::midi::Lack;
+        Lack lack = Lack::none;
+        if (term.is_flex) {
+            const std::uint32_t value = std::uint32_t{term.flex.high_word} << 16 | term.flex.low_word;
+            lack = registers::midi::lack_of_write(drive, term.flex.reg, term.flex.longword, value);
+        } else if (term.fast.sends) {
+            lack = registers::midi::lack_of_command(term.fast.command);
+        }
+        if (lack == Lack::none) return;
+        report_.warning("W009", span,
+                        fmt::format("a gateway with a {} refuses a table with this term", name_of(drive)),
+                        std::string(text_of(lack)));
     }
 
     using StepSet = std::bitset<sequencer::kEndOfTable + 1U>;

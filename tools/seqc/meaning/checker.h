@@ -14,6 +14,11 @@ Plan check(const ast::Program& program, Scope& scope, Report& report);
 /// what waits for an INPOS that never comes.
 void check_motor_state(const Plan& plan, registers::Model model, Report& report);
 
+/// What a MIDI drive makes of a program's moves: ramps, which depend on velocity and acceleration together
+/// and go into `roundings`, and orders that wait until it stands.
+void check_midi_motion(const Plan& plan, registers::midi::Model model, Report& report,
+                       std::vector<Rounding>& roundings);
+
 /// Limits of the motor that a program sets, although reaching them does not show in ERROR (001 §5.2.1.6).
 void check_invisible_limits(const Plan& plan, registers::Model model, Report& report);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "meaning/motors.h"
 #include "syntax/names.h"
 #include "syntax/parser.h"
 
@@ -65,15 +66,17 @@ void Scope::declare_motor(const ast::Program& program) {
     if (!program.motor) return;
     motor_known_ = true;
     motor_span_ = program.motor->span;
-    const auto model = registers::model_of(program.motor->text);
-    if (model) {
-        model_ = *model;
-        result_.symbols.motor = *model;
+    if (const auto choice = motor_named(program.motor->text)) {
+        model_ = choice->map;
+        midi_ = choice->midi;
+        result_.symbols.motor = model_;
+        result_.symbols.midi = midi_;
         return;
     }
-    std::string help = suggestion(program.motor->text, {"MAC50", "MAC95", "MAC140", "MAC141", "MAC800"});
+    std::string help =
+        suggestion(program.motor->text, {"MAC50", "MAC95", "MAC140", "MAC141", "MAC800", "MAC23", "MAC34"});
     report_.error("E030", program.motor->span, fmt::format("there is no motor '{}'", program.motor->text),
-                  help.empty() ? "the motors are MAC50, MAC95, MAC140, MAC141 and MAC800" : help);
+                  help.empty() ? std::string(kMotorNames) : help);
 }
 
 void Scope::declare_scale(const ast::Program& program) {

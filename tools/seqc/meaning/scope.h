@@ -49,6 +49,9 @@ class Scope {
     std::optional<std::uint32_t> value(const ast::Value& value, const registers::Register& reg,
                                        std::string_view shown);
 
+    /// Reports what a MIDI drive has nothing for; true if there is nothing to report.
+    bool is_for_drive(const Send& send);
+
     /// Register values of VAR_MOTOR, in order.
     const std::vector<Send>& initial_values() const { return initial_values_; }
 
@@ -84,12 +87,18 @@ class Scope {
     void require_motor(Span span);
     bool note_rounding(const ast::Value& value, std::string_view shown, double exact, double raw,
                        double per_unit);
+    void note_drive_value(const ast::Value& value, const registers::Register& reg, std::string_view shown,
+                          double exact, double per_unit, std::uint32_t bits);
+    std::string motor_name() const;
+    void report_lack(const Send& send, std::string message);
+    bool is_on_drive(const registers::Register& reg, Span span);
     std::string_view text(Span span) const { return source_.substr(span.offset, span.length); }
 
     std::string_view source_;
     Report& report_;
     Compilation& result_;
     registers::Model model_ = registers::Model::mac140;
+    std::optional<registers::midi::Model> midi_;
     bool motor_known_ = false;
     Span motor_span_;
     std::optional<LengthUnit> length_;

@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "meaning/commands.h"
+#include "meaning/midi_value.h"
+#include "meaning/motors.h"
 #include "meaning/scope.h"
 #include "syntax/names.h"
 
@@ -38,6 +41,56 @@ double number_of_bits(double bits, Format format) {
     if (registers::is_32_bit(format)) return static_cast<std::int32_t>(static_cast<std::uint32_t>(bits));
     if (format == Format::word || bits > 0xFFFF) return bits;
     return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits));
+}
+
+std::string Scope::motor_name() const {
+    return std::string(seqc::motor_name(result_.symbols));
+}
+
+bool Scope::is_for_drive(const Send& send) {
+    if (!midi_ || lack_of(*midi_, send) == registers::midi::Lack::none) return true;
+    report_lack(send,
+                send.reg != nullptr
+                    ? fmt::format("a {} cannot take {} for {}", motor_name(), text(send.span), send.reg->name)
+                    : fmt::format("a {} cannot execute {}", motor_name(), describe_command(send.command)));
+    return false;
+}
+
+void Scope::report_lack(const Send& send, std::string message) {
+    report_
+        .error("E044", send.span, std::move(message),
+               std::string(registers::midi::text_of(lack_of(*midi_, send))))
+        .notes.push_back({motor_span_, "the drive is chosen here"});
+}
+
+/// Whether it is there at all, whatever the value.
+bool Scope::is_on_drive(const Register& reg, Span span) {
+    if (!midi_) return true;
+    const Send zero{&reg, 0, 0, span};
+    const Send one{&reg, 0, 1, span};
+    const auto lack = lack_of(*midi_, zero);
+    if (lack == registers::midi::Lack::none || lack != lack_of(*midi_, one)) return true;
+    report_lack(zero, fmt::format("a {} has no {}", motor_name(), reg.name));
+    return false;
+}
+
+/// What becomes of a value that the drive can take.
+void Scope::note_drive_value(const ast::Value& value, const Register& reg, std::string_view shown_name,
+                             double exact, double per_unit, std::uint32_t bits) {
+    const auto drive = drive_value(*midi_, reg, bits);
+    if (!drive) return;
+    const double error = exact == 0 ? 0 : (drive->raw - exact) / std::fabs(exact);
+    const std::string_view unit = value.is_time ? std::string_view("ms") : value.unit.text;
+    const std::string what =
+        fmt::format("{} := {} is {}, on a {} {} ({:.6g}{}{}, {:+.3f} %)", shown_name, text(value.span),
+                    static_cast<std::int64_t>(number_of_bits(bits, reg.format)), motor_name(), drive->text,
+                    drive->raw / per_unit, unit.empty() ? "" : " ", unit, error * 100);
+    result_.roundings.push_back({value.span, what});
+    if (std::fabs(error) <= kWorthAWarning) return;
+    Diagnostic& d =
+        report_.warning("W002", value.span, fmt::format("the drive is too coarse for this value: {}", what),
+                        "write what it will be, or live with the difference");
+    note_value(d, value, shown_name);
 }
 
 void Scope::note_declaration(Diagnostic& diagnostic, std::string_view name) const {
@@ -95,8 +148,7 @@ const Register* Scope::reg(const ast::Name& name) {
 }
 
 void Scope::report_no_register(const ast::Name& name) {
-    const std::string message =
-        fmt::format("'{}' is no register of {}", name.text, registers::name_of(model_));
+    const std::string message = fmt::format("'{}' is no register of {}", name.text, motor_name());
     for (registers::Model other : {registers::Model::mac140, registers::Model::mac800}) {
         if (registers::find(other, name.text) == nullptr || !motor_known_) continue;
         report_
@@ -129,15 +181,16 @@ const Register* Scope::reg(const ast::Value& number) {
     if (const Register* found = registers::find(model_, wanted)) return found;
     const Register* before = registers::find(model_, static_cast<std::uint8_t>(wanted - 1));
     const bool second_word = before != nullptr && registers::is_32_bit(before->format);
-    report_.error(
-        "E040", number.span, fmt::format("{} has no register {}", registers::name_of(model_), wanted),
-        second_word ? fmt::format("it is the upper half of {}: write REG({})", before->name, before->number)
-                    : "the register map is in the motor's manual");
+    report_.error("E040", number.span, fmt::format("{} has no register {}", motor_name(), wanted),
+                  second_word
+                      ? fmt::format("it is the upper half of {}: write REG({})", before->name, before->number)
+                      : "the register map is in the motor's manual");
     return nullptr;
 }
 
 std::optional<std::uint32_t> Scope::value(const ast::Value& value, const Register& reg,
                                           std::string_view shown_name) {
+    if (!is_on_drive(reg, value.span)) return std::nullopt;
     double number = value.number;
     std::string_view unit = value.unit.text;
     if (value.is_time) unit = "ms";
@@ -170,9 +223,15 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& value, const Registe
                         fmt::format("a wrong value in {} can damage the motor ({})", shown_name, reg.section),
                         "leave it alone unless its maker told you the value");
     }
-    if (!note_rounding(value, shown_name, exact, raw, *per_unit)) return std::nullopt;
-    const auto bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(raw));
-    return registers::is_32_bit(reg.format) ? bits : bits & 0xFFFFU;
+    const auto all_bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(raw));
+    const std::uint32_t bits = registers::is_32_bit(reg.format) ? all_bits : all_bits & 0xFFFFU;
+    if (!is_for_drive({&reg, 0, bits, value.span})) return std::nullopt;
+    const bool by_drive = midi_ && raw != 0 && drive_value(*midi_, reg, bits);
+    if (by_drive)
+        note_drive_value(value, reg, shown_name, exact, *per_unit, bits);
+    else if (!note_rounding(value, shown_name, exact, raw, *per_unit))
+        return std::nullopt;
+    return bits;
 }
 
 /// False if nothing is left of the value: a motor without acceleration, say, would never stop.

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "meaning/motors.h"
 #include "seqc/seqc.h"
 #include "sequencer/term.h"
 #include "syntax/names.h"
@@ -42,7 +43,7 @@ Disassembly disassemble(std::span<const std::uint8_t> table, std::string_view pr
         at / kTermBytes);
     if (symbols != nullptr)
         result.text += fmt::format("// The names are those of program {}, for {}.\n", symbols->program,
-                                   registers::name_of(symbols->motor));
+                                   motor_name(*symbols));
     if (result.trailing_bytes > 0) {
         result.text +=
             fmt::format("// {} bytes that followed the end are left out.\n", result.trailing_bytes);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "meaning/motors.h"
 #include "seqc/seqc.h"
 #include "sequencer/term.h"
 #include "text/describe.h"
@@ -25,7 +26,7 @@ std::string listing(const Compilation& compilation, std::string_view source, std
     const Symbols& symbols = compilation.symbols;
     const std::size_t terms = compilation.table.size() / kTermBytes;
     std::string text = fmt::format("{}: program {}, {}, {} terms, {} bytes\n\n", file_name, symbols.program,
-                                   registers::name_of(symbols.motor), terms, compilation.table.size());
+                                   motor_name(symbols), terms, compilation.table.size());
     text += " term   line  bytes                    what it does\n";
     for (std::size_t i = 0; i < terms; ++i) {
         const auto bytes = std::span(compilation.table).subspan(i * kTermBytes).first<kTermBytes>();
@@ -35,7 +36,9 @@ std::string listing(const Compilation& compilation, std::string_view source, std
     for (std::size_t i = 0; i < symbols.steps.size(); ++i) {
         if (!symbols.steps[i].empty()) text += fmt::format("{:5}  {}\n", i, symbols.steps[i]);
     }
-    if (!compilation.roundings.empty()) text += "\nrounded constants:\n";
+    if (!compilation.roundings.empty())
+        text += symbols.midi ? fmt::format("\nconstants on a {}:\n", motor_name(symbols))
+                             : std::string("\nrounded constants:\n");
     for (const Rounding& rounding : compilation.roundings) {
         text += fmt::format("{:>12}  {}\n",
                             fmt::format("line {}", position_of(source, rounding.span.offset).line),

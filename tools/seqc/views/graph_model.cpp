@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/crc32.h"
+#include "meaning/motors.h"
 #include "views/words.h"
 
 namespace nplc::seqc {
@@ -202,7 +203,7 @@ GraphModel graph_model_of(std::span<const std::uint8_t> table, const Symbols* sy
     GraphModel model;
     const bool named = symbols != nullptr && !symbols->program.empty();
     model.title = named ? symbols->program : title;
-    if (symbols != nullptr) model.motor = registers::name_of(symbols->motor);
+    if (symbols != nullptr) model.motor = motor_name(*symbols);
     const std::size_t steps = machine.used.count();
     const std::size_t terms = machine.terms + 1;
     model.footer = fmt::format("{} step{}, {} term{}, CRC-32 {:08X}", steps, steps == 1 ? "" : "s", terms,

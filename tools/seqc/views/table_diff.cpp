@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "meaning/motors.h"
 #include "sequencer/term.h"
 #include "views/deed.h"
 #include "views/power_up_values.h"
@@ -59,9 +60,9 @@ class Differ {
         diff_.same_bytes =
             std::equal(before.table.begin(), before.table.end(), now.table.begin(), now.table.end());
         if (before.symbols != nullptr && now.symbols != nullptr &&
-            before.symbols->motor != now.symbols->motor) {
-            diff_.motor_before = registers::name_of(before.symbols->motor);
-            diff_.motor_now = registers::name_of(now.symbols->motor);
+            motor_name(*before.symbols) != motor_name(*now.symbols)) {
+            diff_.motor_before = motor_name(*before.symbols);
+            diff_.motor_now = motor_name(*now.symbols);
         }
         list_steps();
         diff_.values = values_.changes(before.symbols, now.symbols);

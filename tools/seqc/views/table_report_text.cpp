@@ -5,6 +5,7 @@
 #include <set>
 
 #include "meaning/model.h"
+#include "meaning/motors.h"
 #include "sequencer/term.h"
 #include "views/table_report.h"
 #include "views/words.h"
@@ -32,7 +33,7 @@ std::size_t free_terms(const TableReport& report) {
 }
 
 std::string_view motor_of(const TableReport& report) {
-    return report.symbols ? registers::name_of(report.symbols->motor) : "";
+    return report.symbols ? motor_name(*report.symbols) : "";
 }
 
 std::string condition_of(const Transition& transition, const TableReport& report) {
@@ -115,7 +116,13 @@ const Transition* longest_from_start(const TableReport& report) {
     return nullptr;
 }
 
+/// The times are those of FastMAC and FlexMAC.
+bool is_for_midi(const TableReport& report) {
+    return report.symbols && report.symbols->midi;
+}
+
 std::string line_heading(const TableReport& report) {
+    if (is_for_midi(report)) return "\nhow long a MIDI drive's line is kept is not worked out\n";
     const auto ms = [&](std::uint32_t characters) { return milliseconds(characters, report.settings.baud); };
     std::string text = fmt::format("\nmotor's line at {} baud, {} communication\n", report.settings.baud,
                                    report.settings.safe_communication ? "safe" : "rapid");
@@ -129,6 +136,7 @@ std::string line_heading(const TableReport& report) {
 
 std::string line_text(const TableReport& report) {
     std::string text = line_heading(report);
+    if (is_for_midi(report)) return text;
     text += "\n chars   line ms   until done, ms    sent\n";
     std::size_t silent = 0;
     std::set<std::vector<std::string>> seen;
@@ -147,15 +155,17 @@ std::string line_text(const TableReport& report) {
 Json json_of(const Transition& transition, const TableReport& report) {
     const auto ms = [&](std::uint32_t characters) { return milliseconds(characters, report.settings.baud); };
     const LineUse& line = transition.line;
-    return {{"from", transition.from},
-            {"to", transition.to},
-            {"condition", condition_of(transition, report)},
-            {"orders", transition.orders},
-            {"messages", line.messages},
-            {"characters", line.characters},
-            {"line_ms", ms(line.characters)},
-            {"until_done_ms", ms(line.until_done)},
-            {"at_most_ms", ms(line.at_most)}};
+    Json json{{"from", transition.from},
+              {"to", transition.to},
+              {"condition", condition_of(transition, report)},
+              {"orders", transition.orders}};
+    if (is_for_midi(report)) return json;
+    json["messages"] = line.messages;
+    json["characters"] = line.characters;
+    json["line_ms"] = ms(line.characters);
+    json["until_done_ms"] = ms(line.until_done);
+    json["at_most_ms"] = ms(line.at_most);
+    return json;
 }
 
 }  // namespace
@@ -170,7 +180,7 @@ std::string summary_of(const TableReport& report) {
     std::string text = room_text(report) + line_heading(report);
     const auto later = std::find_if(report.transitions.begin(), report.transitions.end(),
                                     [](const Transition& t) { return t.from != 0 && !t.orders.empty(); });
-    if (later == report.transitions.end()) return text;
+    if (later == report.transitions.end() || is_for_midi(report)) return text;
     const auto ms = [&](std::uint32_t characters) { return milliseconds(characters, report.settings.baud); };
     return text + fmt::format("longest after it: {} -> {}, {}: {:.2f} to {:.2f} ms\n",
                               name_of(report, later->from), name_of(report, later->to),

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "registers/mac.h"
+#include "registers/midi.h"
 #include "seqc/diagnostic.h"
 
 namespace nplc::seqc {
@@ -34,7 +35,8 @@ struct Scale {
 /// What the numbers of a table are called in its source.
 struct Symbols {
     std::string program;
-    registers::Model motor = registers::Model::mac140;
+    registers::Model motor = registers::Model::mac140;  ///< whose registers they are
+    std::optional<registers::midi::Model> midi{};       ///< the drive that the gateway translates them for
     std::optional<Scale> scale;
     std::array<std::string, 63> steps;   ///< by step number; empty where the table has no such step
     std::array<std::string, 6> inputs;   ///< as declared, else IN0..IN5

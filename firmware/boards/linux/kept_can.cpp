@@ -1,0 +1,73 @@
+#include "kept_can.h"
+
+#include <fmt/format.h>
+
+namespace nplc::boards {
+namespace {
+
+using ports::CanState;
+
+constexpr base::Milliseconds kBetweenTries{250};
+
+/// Warning and passive still take part.
+CanState without_degrees(CanState state) {
+    return state == CanState::warning || state == CanState::passive ? CanState::active : state;
+}
+
+}  // namespace
+
+std::string KeptCan::open(const std::string& who, const hal_linux::CanSettings& settings) {
+    who_ = who;
+    interface_ = settings.interface;
+    can_.reset();
+    retry_at_ = base::kNever;
+    hal_linux::SocketCan::Opened opened = hal_linux::SocketCan::open(settings);
+    can_ = std::move(opened.can);
+    return opened.error;
+}
+
+void KeptCan::look(Journal& journal, base::Instant now) {
+    tell_state(journal);
+    tell_problem(journal);
+    if (!can_->gone()) {
+        retry_at_ = base::kNever;
+        return;
+    }
+    if (retry_at_ != base::kNever && now < retry_at_) return;
+    retry_at_ = now + kBetweenTries;
+    if (can_->reopen().empty()) tell_state(journal);
+}
+
+void KeptCan::tell_problem(Journal& journal) {
+    if (can_->state() != CanState::bus_off || can_->restart_problem().empty() ||
+        can_->restart_problem() == told_problem_)
+        return;
+    told_problem_ = can_->restart_problem();
+    journal.write(LogLevel::info, fmt::format("{}: {}", who_, told_problem_));
+}
+
+void KeptCan::tell_state(Journal& journal) {
+    if (can_->gone() != told_gone_) {
+        told_gone_ = can_->gone();
+        journal.write(told_gone_ ? LogLevel::error : LogLevel::notice,
+                      fmt::format("{}: {} {}", who_, interface_,
+                                  told_gone_ ? "is gone; plug the adapter in again" : "is back"));
+        told_ = CanState::down;
+    }
+    const CanState state = without_degrees(can_->state());
+    if (told_gone_ || state == told_) return;
+    told_ = state;
+    if (state == CanState::active) {
+        journal.write(LogLevel::notice, fmt::format("{}: {} takes part in the bus", who_, interface_));
+    } else if (state == CanState::bus_off) {
+        journal.write(LogLevel::error,
+                      fmt::format("{}: {} is off the bus; look at its bit rate, its wires and the 120 Ohm at "
+                                  "both ends; it is restarted",
+                                  who_, interface_));
+    } else {
+        journal.write(LogLevel::error, fmt::format("{}: {} is down; as root: ip link set {} up", who_,
+                                                   interface_, interface_));
+    }
+}
+
+}  // namespace nplc::boards

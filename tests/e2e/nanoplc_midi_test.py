@@ -1,0 +1,162 @@
+#!/usr/bin/env python3
+"""nanoplc with MIDI drives: virtual modules on V24 terminals, and what its configuration may say.
+
+usage: nanoplc_midi_test.py NANOPLC MACSIM NANOCTL MACREG SEQC MENDING.seq MIDISIM
+"""
+
+import re
+import subprocess
+import sys
+import unittest
+
+import nanoplc_test
+import simulator
+from nanoplc_test import LONG
+
+MIDISIM = ""
+INCREMENTS = 10000  # a revolution of a MAC34
+
+
+class Case(nanoplc_test.Case):
+    def plug_in(self, name="motor", model="MAC34-1", address="0"):
+        process, _ = simulator.start(MIDISIM, "--model", model, "--address", address, "--v24", "pty:" + self.path(name),
+                                     "--eeprom", self.path(name + ".eeprom"))
+        self.motors[name] = process
+
+    def axis(self, name="x", motor="motor", port=None, table="none", more=""):
+        text = super().axis(name, motor, port, table, more)
+        return text.replace("[axis.motor]\n", '[axis.motor]\nkind = "mac34-1"\n')
+
+    def position(self, name="motor"):
+        """As the module keeps it without power; written when a motion ends."""
+        with open(self.path(name + ".eeprom"), encoding="utf-8") as file:
+            return int(re.search(r"(?m)^position = (-?\d+)$", file.read())[1])
+
+
+class Running(Case):
+    def test_a_sequence_drives_a_module(self):
+        self.plug_in()
+        service = self.start(self.write(self.axis(table=self.table)), "the motor answers on address 0 on")
+        self.until_status(lambda status: status["state"] == "running")
+        self.moves()
+        # Place is 2048 counts, half a revolution.
+        self.until(lambda: self.position() == INCREMENTS // 2, service)
+        self.until(lambda: self.position() == 0, service)
+        self.assertEqual(self.end(service), 0, service.said())
+        self.assertNotIn("may be moving", service.said())
+
+    def test_a_module_that_falls_silent_and_comes_back(self):
+        self.plug_in()
+        service = self.start(self.write(self.axis(table=self.table)))
+        self.moves()
+        self.pull_out()
+        self.until(lambda: "SAFE: the motor does not answer" in service.said(), service)
+        self.plug_in()
+        self.until(lambda: "the link is up and acknowledged" in service.said(), service)
+        self.moves()
+
+    def test_a_table_that_the_drive_cannot_do_is_refused(self):
+        self.plug_in()
+        with open(self.path("home.seq"), "w", encoding="utf-8") as file:
+            file.write("PROGRAM P\nMOTOR MAC140;\nSTEP S: OWN ERROR; IF IN0 THEN HOME; NEXT := T; END_IF END_STEP\n"
+                       "STEP T: OWN ERROR; IF IN1 THEN NEXT := S; END_IF END_STEP\nEND_PROGRAM\n")
+        subprocess.run([nanoplc_test.SEQC, "build", self.path("home.seq"), "--quiet", "-o", self.path("home.bin")], check=True)
+        service = self.start(self.write(self.axis(table=self.path("home.bin"))))
+        self.assertEqual(self.end(service), 3)
+        self.assertRegex(service.said(), r"home.bin: term \d+: ")
+
+
+class Refusing(Case):
+    def mistakes(self, motor, more=""):
+        code, lines = self.check(f'[[axis]]\nname = "x"\n[axis.motor]\n{motor}\n{more}', "--no-devices")
+        self.assertEqual(code, 2 if lines else 0, lines)
+        return lines
+
+    def one(self, key, text, motor, more=""):
+        lines = self.mistakes(motor, more)
+        self.assertEqual(len(lines), 1, lines)
+        self.assertRegex(lines[0], rf"^\d+: axis\[x\]\.{re.escape(key)}: ")
+        self.assertIn(text, lines[0])
+
+    def test_what_is_right(self):
+        for motor in ('kind = "mac34-1"\nport = "/dev/ttyUSB0"', 'kind = "mac34-2"\ncan = "can0"\naddress = 127\nbitrate = 500000',
+                      'kind = "mac23"\nport = "/dev/ttyUSB0"\naddress = 0\nbaud = 9600', 'kind = "jvl"\nport = "/dev/ttyUSB0"'):
+            self.assertEqual(self.mistakes(motor), [])
+
+    def test_each_mistake_of_a_midi_drive_is_named(self):
+        self.one("motor.kind", 'write one of "jvl", "mac23", "mac34-1", "mac34-2"', 'kind = "mac34"\nport = "/dev/ttyS0"')
+        self.one("motor.can", "a MAC23 has no CAN", 'kind = "mac23"\ncan = "can0"')
+        self.one("motor.can", "leave one of them out", 'kind = "mac34-1"\ncan = "can0"\nport = "/dev/ttyS0"')
+        self.one("motor.port", 'or its bus: can = "can0"', 'kind = "mac34-1"')
+        self.one("motor.can", "no interface", 'kind = "mac34-1"\ncan = "/dev/can0"')
+        self.one("motor.address", "128 is out of range; write a whole number from 0 to 127",
+                 'kind = "mac34-1"\nport = "/dev/ttyS0"\naddress = 128')
+        self.one("motor.address", "0 is out of range; write a whole number from 1 to 127",
+                 'kind = "mac34-1"\ncan = "can0"\naddress = 0')
+        self.one("motor.baud", "write 9600, 19200 or 38400", 'kind = "mac34-1"\nport = "/dev/ttyS0"\nbaud = 10000')
+        self.one("motor.baud", "the rate of a bus is bitrate", 'kind = "mac34-1"\ncan = "can0"\nbaud = 9600')
+        self.one("motor.bitrate", "the speed of a V24 line is baud", 'kind = "mac34-1"\nport = "/dev/ttyS0"\nbitrate = 125000')
+        self.one("motor.rs485", "for a JVL motor", 'kind = "mac34-1"\nport = "/dev/ttyS0"\nrs485 = "rts_on_send"')
+        self.one("motor.mactalk_port", "for a JVL motor", 'kind = "mac34-1"\nport = "/dev/ttyS0"\nmactalk_port = "/dev/ttyS1"')
+        self.one("settings.motor_baud", "for a JVL motor", 'kind = "mac34-1"\nport = "/dev/ttyS0"',
+                 "[axis.settings]\nmotor_baud = 38400\n")
+        self.one("motor.can", "for a MIDI drive", 'port = "/dev/ttyS0"\ncan = "can0"')
+        self.one("motor.address", "for a MIDI drive", 'kind = "jvl"\nport = "/dev/ttyS0"\naddress = 2')
+
+    def test_two_axes_on_one_line(self):
+        def axis(name, motor):
+            return f'[[axis]]\nname = "{name}"\n[axis.motor]\n{motor}\n'
+
+        on_bus = 'kind = "mac34-1"\ncan = "can0"\naddress = {}'
+        self.assertEqual(self.check(axis("x", on_bus.format(1)) + axis("y", on_bus.format(2)), "--no-devices"), (0, []))
+        code, lines = self.check(axis("x", on_bus.format(3)) + axis("y", on_bus.format(3)), "--no-devices")
+        self.assertEqual((code, len(lines)), (2, 1), lines)
+        self.assertIn("12: axis[y].motor.address: address 3 on can0 is used twice: axis[x].motor.address in line 6 has it already",
+                      lines[0])
+        code, lines = self.check(axis("x", on_bus.format(1)) + axis("y", 'kind = "mac34-2"\ncan = "can0"'), "--no-devices")
+        self.assertEqual((code, len(lines)), (2, 1), lines)
+        self.assertIn("address 1 on can0 is used twice", lines[0])
+        serial = 'kind = "mac34-1"\nport = "/dev/ttyS7"\naddress = {}'
+        code, lines = self.check(axis("x", serial.format(0)) + axis("y", serial.format(1)), "--no-devices")
+        self.assertEqual((code, len(lines)), (2, 1), lines)
+        self.assertIn("axis[y].motor.port: /dev/ttyS7 is used twice", lines[0])
+        self.assertIn("a motor's serial line is its axis's alone (a CAN bus can be shared)", lines[0])
+
+    def test_an_interface_that_is_not_there_or_no_bus(self):
+        head = '[[axis]]\nname = "x"\n[axis.motor]\nkind = "mac34-1"\n'
+        code, lines = self.check(head + 'can = "can97"\n')
+        self.assertEqual((code, len(lines)), (3, 1), lines)
+        self.assertIn("5: axis[x].motor.can: there is no interface can97", lines[0])
+        code, lines = self.check(head + 'can = "lo"\n')
+        self.assertEqual((code, len(lines)), (3, 1), lines)
+        self.assertIn("lo is no interface for CAN", lines[0])
+
+
+class Telling(Case):
+    def wiring(self, motor):
+        config = self.path("wiring.toml")
+        with open(config, "w", encoding="utf-8") as file:
+            file.write(f'[[axis]]\nname = "x"\n[axis.motor]\n{motor}\n')
+        done = subprocess.run([nanoplc_test.NANOPLC, "wiring", config], capture_output=True, text=True, timeout=LONG, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout
+
+    def test_the_wiring_of_a_bus(self):
+        text = self.wiring('kind = "mac34-2"\ncan = "can0"\naddress = 5\nbitrate = 250000')
+        self.assertRegex(text, r"motor +can0 +CAN, 250000 bit/s +MAC34-2, address 5: J4")
+        # 003 §VIII
+        for pin in (r"CAN_L +J4 pin 2", r"CAN_H +J4 pin 7", r"GND +J4 pin 3", r"shield +J4 pin 5", "22 to 160 V", "120 Ohm"):
+            self.assertRegex(text, pin)
+        self.assertNotIn("FastMAC", text)
+
+    def test_the_wiring_of_a_serial_line(self):
+        text = self.wiring('kind = "mac23"\nport = "/dev/ttyUSB0"\nbaud = 19200')
+        self.assertRegex(text, r"motor +/dev/ttyUSB0 +V24 \(RS-232\), 19200 baud, 8N1 +MAC23, address 0")
+        self.assertIn("no connector pins", text)
+        self.assertIn("no pins of J4 for V24", self.wiring('kind = "mac34-1"\nport = "/dev/ttyUSB0"'))
+
+
+if __name__ == "__main__":
+    (nanoplc_test.NANOPLC, nanoplc_test.MACSIM, nanoplc_test.NANOCTL, nanoplc_test.MACREG, nanoplc_test.SEQC,
+     nanoplc_test.MENDING, MIDISIM) = sys.argv[1:8]
+    unittest.main(argv=sys.argv[:1] + sys.argv[8:])

@@ -1,0 +1,119 @@
+// Programs for MIDI drives: 1500 rpm is period 32 on a MAC34 (48000 / 32) and 160 on a MAC23 (240000 / 160);
+// a revolution is 10000 and 2000 increments (000 §I, §VI 0Dh).
+#include <gtest/gtest.h>
+
+#include "seqc/symbol_file.h"
+#include "support.h"
+
+namespace nplc::seqc {
+namespace {
+
+std::string program(const std::string& motor, const std::string& values) {
+    return "PROGRAM P\nMOTOR " + motor + ";\nSCALE 1 rev = 5 mm;\nVAR_MOTOR " + values +
+           " END_VAR\n"
+           "POWER_UP INIT(V1, A1); NEXT := S; END_POWER_UP\n"
+           "STEP S: OWN ERROR; IF IN0 THEN POSITION(P1); NEXT := T; END_IF END_STEP\n"
+           "STEP T: OWN ERROR; IF INPOS THEN NEXT := S; END_IF END_STEP\nEND_PROGRAM\n";
+}
+
+const std::string kValues = "There AT P1 := 60 mm; Fast AT V1 := 1500 rpm; Soft AT A1 := 81;";
+
+std::string lines_of(const std::string& source) {
+    const Compilation result = compile(source);
+    EXPECT_TRUE(result.ok) << test::shown(result, source);
+    std::string text;
+    for (const Rounding& rounding : result.roundings) text += rounding.text + "\n";
+    return text;
+}
+
+bool says(const std::string& source, const std::string& code) {
+    const Compilation result = compile(source);
+    for (const Diagnostic& d : result.diagnostics) {
+        if (d.code == code) return true;
+    }
+    return false;
+}
+
+TEST(MidiPrograms, TheTableIsThatOfAMac140) {
+    const auto jvl = compile(program("MAC140", kValues));
+    for (const char* name : {"MAC34", "mac34_1", "MAC34_2", "MAC23"}) {
+        const auto midi = compile(program(name, kValues));
+        ASSERT_TRUE(midi.ok) << name;
+        EXPECT_EQ(midi.table, jvl.table) << name;
+        EXPECT_TRUE(midi.symbols.midi) << name;
+    }
+    EXPECT_FALSE(jvl.symbols.midi);
+}
+
+TEST(MidiPrograms, TheListingHasTheDrivesOwnSteps) {
+    const std::string text = lines_of(program("MAC34", kValues));
+    EXPECT_NE(text.find("60 mm is 49152, on a MAC34 120000 increments (60 mm, +0.000 %)"), std::string::npos)
+        << text;
+    EXPECT_NE(text.find("1500 rpm is 3146, on a MAC34 period 32 (1500 rpm, +0.000 %)"), std::string::npos)
+        << text;
+    const std::string other = lines_of(program("MAC23", kValues));
+    EXPECT_NE(other.find("60 mm is 49152, on a MAC23 24000 increments"), std::string::npos) << other;
+    EXPECT_NE(other.find("1500 rpm is 3146, on a MAC23 period 160 (1500 rpm"), std::string::npos) << other;
+}
+
+// 250000 increments/s with 81 x 41391.1 increments/s^2: v^2 / 2a is 9320.9 increments, 77.67 x 120.
+TEST(MidiPrograms, TheRampComesFromVelocityAndAccelerationTogether) {
+    const std::string text = lines_of(program("MAC34", kValues));
+    EXPECT_NE(text.find("on a MAC34 a ramp of 78 x 120 increments"), std::string::npos) << text;
+}
+
+// 3000 rpm is period 16; the next ones are 3200 and 2823.5 rpm.
+TEST(MidiPrograms, CoarsePeriodsAreWarnedOf) {
+    const auto with_speed = [](const std::string& speed) {
+        return program("MAC34", "There AT P1 := 60 mm; Fast AT V1 := " + speed + "; Soft AT A1 := 200;");
+    };
+    EXPECT_FALSE(says(with_speed("3000 rpm"), "W002"));
+    EXPECT_TRUE(says(with_speed("2900 rpm"), "W002"));
+    EXPECT_FALSE(says(with_speed("-3000 rpm"), "W002"));
+}
+
+// The window is smaller than 104.9 counts on a MAC34 and 524.3 on a MAC23: 256 increments, of which the ends
+// count.
+TEST(MidiPrograms, WindowsHaveTheirDrivesLimits) {
+    const auto with_window = [](const std::string& motor, const std::string& window) {
+        return program(motor, kValues + " Near AT Z1 := " + window + ";");
+    };
+    EXPECT_FALSE(says(with_window("MAC34", "104"), "E044"));
+    EXPECT_TRUE(says(with_window("MAC34", "105"), "E044"));
+    EXPECT_FALSE(says(with_window("MAC23", "524"), "E044"));
+    EXPECT_TRUE(says(with_window("MAC23", "525"), "E044"));
+    EXPECT_TRUE(says(with_window("MAC34", "0"), "E044"));
+}
+
+TEST(MidiPrograms, WhatWaitsForStandstillIsSaid) {
+    const auto in_motion = [](const std::string& statement) {
+        return "PROGRAM P\nMOTOR MAC34;\nVAR_MOTOR V1_ AT V1 := 600 rpm; A1_ AT A1 := 40; END_VAR\n"
+               "POWER_UP INIT(V1, A1); NEXT := S; END_POWER_UP\n"
+               "STEP S: OWN ERROR; IF IN0 THEN VELOCITY(V1); NEXT := T; END_IF END_STEP\n"
+               "STEP T: OWN ERROR; IF IN1 THEN " +
+               statement +
+               " NEXT := U; END_IF END_STEP\n"
+               "STEP U: OWN ERROR; IF IN2 THEN STOP; NEXT := S; END_IF END_STEP\nEND_PROGRAM\n";
+    };
+    EXPECT_FALSE(says(in_motion("VELOCITY(V2);"), "W015"));
+    EXPECT_FALSE(says(in_motion("V_SOLL := 300 rpm;"), "W015"));
+    EXPECT_FALSE(says(in_motion("T_SOLL := 50 %peak;"), "W015"));
+    EXPECT_FALSE(says(in_motion("INIT(A1);"), "W015"));
+    EXPECT_FALSE(says(in_motion("STOP;"), "W015"));
+    EXPECT_TRUE(says(in_motion("VELOCITY(A1);"), "W015"));
+    EXPECT_TRUE(says(in_motion("A_SOLL := 41;"), "W015"));
+    EXPECT_TRUE(says(in_motion("POSITION(P1);"), "W015"));
+}
+
+TEST(MidiPrograms, TheDriveStandsInTheSymbolFile) {
+    const std::string source = program("MAC34_2", kValues);
+    const std::string text = write_symbols(compile(source), source, "p.seq");
+    EXPECT_NE(text.find("\"motor\": \"MAC34\""), std::string::npos) << text;
+    const SymbolReading back = read_symbols(text);
+    EXPECT_EQ(back.error, "");
+    EXPECT_TRUE(back.file.symbols.midi);
+    EXPECT_EQ(back.file.symbols.motor, registers::Model::mac140);
+}
+
+}  // namespace
+}  // namespace nplc::seqc

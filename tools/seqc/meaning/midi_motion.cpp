@@ -1,0 +1,277 @@
+// Velocities, accelerations and motion of a MIDI drive from step to step.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "meaning/checker.h"
+#include "meaning/commands.h"
+#include "meaning/midi_value.h"
+#include "meaning/motors.h"
+#include "meaning/units.h"
+#include "registers/midi_scale.h"
+
+namespace nplc::seqc {
+namespace {
+
+namespace midi = registers::midi;
+using protocol::fastmac::Group;
+using protocol::fastmac::Mode;
+using protocol::fastmac::Number;
+
+/// What may be true of the drive. Values that no statement gives are not among `v` and `a`.
+struct DriveState {
+    bool is_known = false;
+    bool positions = false;  ///< it may be on its way to a position
+    bool runs = false;       ///< it may turn at a velocity
+    Span motion;             ///< what made it move
+    std::set<std::int16_t> v;
+    std::set<std::uint16_t> a;
+
+    bool moves() const { return positions || runs; }
+    void stand() { positions = runs = false; }
+    bool join(const DriveState& other) {
+        const auto sizes = [this] { return std::array{v.size(), a.size()}; };
+        const auto before = sizes();
+        const bool moved = moves();
+        const bool changed = !is_known || (other.positions && !positions) || (other.runs && !runs);
+        is_known = true;
+        if (!moved) motion = other.motion;
+        positions = positions || other.positions;
+        runs = runs || other.runs;
+        v.insert(other.v.begin(), other.v.end());
+        a.insert(other.a.begin(), other.a.end());
+        return changed || sizes() != before;
+    }
+};
+
+/// What goes to the motor, by its effect on the drive.
+struct Effect {
+    std::optional<std::uint8_t> v{};      ///< V_SOLL becomes what this register holds, 0: the value itself
+    std::optional<std::uint8_t> a{};      ///< A_SOLL likewise
+    bool sets_position = false;           ///< P_SOLL, however
+    std::optional<std::uint32_t> mode{};  ///< of MODE_REG
+    bool stops = false;                   ///< V_SOLL = 0
+};
+
+constexpr std::uint8_t register_of(Selection selection) {
+    return static_cast<std::uint8_t>((selection.group == Group::v ? registers::V1 : registers::A1) +
+                                     selection.index - 1);
+}
+
+Effect effect_of_number(std::uint8_t number) {
+    switch (static_cast<Number>(number)) {
+        case Number::clear_v_soll:
+            return {.stops = true};
+        case Number::clear_p_soll:
+        case Number::move_p7_by_p_soll:
+        case Number::move_p8_by_p_soll:
+            return {.sets_position = true};
+        case Number::use_set_1:
+        case Number::use_set_2:
+        case Number::use_set_3:
+        case Number::use_set_4: {
+            const auto index =
+                static_cast<std::uint8_t>(number - static_cast<std::uint8_t>(Number::use_set_1));
+            return {.v = static_cast<std::uint8_t>(registers::V1 + index),
+                    .a = static_cast<std::uint8_t>(registers::A1 + index),
+                    .sets_position = true};
+        }
+        default:
+            return {};
+    }
+}
+
+Effect effect_of_write(const Send& send) {
+    switch (send.reg->number) {
+        case registers::MODE_REG:
+            return {.mode = send.value};
+        case registers::V_SOLL:
+            return {.v = std::uint8_t{0}, .stops = send.value == 0};
+        case registers::A_SOLL:
+            return {.a = std::uint8_t{0}};
+        case registers::P_SOLL:
+            return {.sets_position = true};
+        default:
+            return {};
+    }
+}
+
+Effect effect_of(const Send& send) {
+    if (send.reg != nullptr) return effect_of_write(send);
+    const auto select = select_command(send.command);
+    if (!select) return effect_of_number(send.command & 0x1F);
+    Effect effect{.mode = select->mode == Mode::init ? 0U : select->mode == Mode::velocity ? 1U : 2U};
+    if (select->selection.group == Group::v) effect.v = register_of(select->selection);
+    if (select->selection.group == Group::a) effect.a = register_of(select->selection);
+    effect.sets_position = select->selection.group == Group::p;
+    return effect;
+}
+
+class MidiWalk {
+  public:
+    MidiWalk(const Plan& plan, midi::Model model, Report& report, std::vector<Rounding>& roundings)
+        : plan_(plan), model_(model), report_(report), roundings_(roundings) {
+        for (const StepPlan& step : plan.steps) {
+            for (const Rule& rule : step.rules) {
+                for (const Send& send : rule.action.sends) {
+                    if (send.reg != nullptr) given_[send.reg->number].insert(send.value);
+                }
+            }
+        }
+    }
+
+    void run() {
+        states_[0].is_known = true;
+        bool changed = true;
+        while (changed) {
+            changed = false;
+            for (const StepPlan& step : plan_.steps) changed = pass_on(step) || changed;
+        }
+        for (const StepPlan& step : plan_.steps) {
+            if (!states_[step.number].is_known) continue;
+            for (const Rule& rule : step.rules) judge(step, rule);
+        }
+    }
+
+  private:
+    DriveState before(const StepPlan& step, const Rule& rule) const {
+        DriveState state = states_[step.number];
+        if ((rule.when & ~truth_of_bit(kInPosBit)).none()) state.positions = false;
+        return state;
+    }
+
+    bool pass_on(const StepPlan& step) {
+        if (!states_[step.number].is_known) return false;
+        bool changed = false;
+        for (const Rule& rule : step.rules) {
+            DriveState state = before(step, rule);
+            for (const Send& send : rule.action.sends) apply(send, effect_of(send), state);
+            changed = states_[rule.action.next.value_or(step.number)].join(state) || changed;
+        }
+        return changed;
+    }
+
+    template <typename Value>
+    std::set<Value> values_of(std::uint8_t number, const Send& send) const {
+        if (number == 0) return {static_cast<Value>(send.value)};
+        std::set<Value> values;
+        const auto found = given_.find(number);
+        if (found == given_.end()) return values;
+        for (const std::uint32_t value : found->second) values.insert(static_cast<Value>(value));
+        return values;
+    }
+
+    void apply(const Send& send, const Effect& effect, DriveState& state) const {
+        if (effect.v) state.v = values_of<std::int16_t>(*effect.v, send);
+        if (effect.a) state.a = values_of<std::uint16_t>(*effect.a, send);
+        if (effect.mode) {
+            state.stand();
+            state.runs = *effect.mode == 1;
+            state.positions = *effect.mode == 2;
+            state.motion = send.span;
+        } else if (effect.sets_position && state.moves()) {
+            state.motion = send.span;
+        }
+        if (effect.stops) state.stand();
+    }
+
+    void judge(const StepPlan& step, const Rule& rule) {
+        DriveState state = before(step, rule);
+        for (const Send& send : rule.action.sends) {
+            const Effect effect = effect_of(send);
+            const bool goes_on = !effect.mode || *effect.mode != 0;
+            if (state.moves() && goes_on && !effect.stops) judge_wait(effect, send, state);
+            apply(send, effect, state);
+            const bool starts = effect.mode ? *effect.mode != 0 : effect.sets_position && state.moves();
+            if (starts) judge_ramps(send, state);
+        }
+    }
+
+    /// What the drive refuses in motion, so that the gateway keeps it until the drive stands.
+    void judge_wait(const Effect& effect, const Send& send, const DriveState& state) {
+        const bool to_velocity = effect.mode ? *effect.mode == 1 : state.runs;
+        const char* what = effect.sets_position       ? "a position"
+                           : effect.a                 ? "an acceleration"
+                           : effect.v && !to_velocity ? "the velocity of moves to positions"
+                                                      : nullptr;
+        if (what == nullptr || !waited_.insert(send.span.offset).second) return;
+        report_
+            .warning(
+                "W015", send.span,
+                fmt::format("this waits until the motor stands: in motion a {} takes no {}", name_of(model_),
+                            std::string_view(what).substr(std::string_view(what).find(' ') + 1)),
+                "wait for INPOS before, or STOP first; leave it if waiting is what you want")
+            .notes.push_back({state.motion, "it may still move since this"});
+    }
+
+    void judge_ramps(const Send& send, const DriveState& state) {
+        std::vector<std::string> impossible;
+        midi::Lack lack = midi::Lack::none;
+        for (const std::int16_t v : state.v) {
+            for (const std::uint16_t a : state.a) {
+                const midi::Lack found = midi::lack_of_profile(model_, v, a);
+                if (found == midi::Lack::none) {
+                    note_ramp(send, v, a);
+                } else {
+                    lack = found;
+                    impossible.push_back(fmt::format("{:.6g} rpm with {:.6g} rpm/s", rpm(v), rpm_per_s(a)));
+                }
+            }
+        }
+        if (impossible.empty() || !refused_.insert(send.span.offset).second) return;
+        const bool always = impossible.size() == state.v.size() * state.a.size();
+        const std::string message = fmt::format("a {} cannot reach {}", name_of(model_), impossible.front());
+        if (always)
+            report_.error("E044", send.span, message, std::string(midi::text_of(lack)));
+        else
+            report_.warning("W016", send.span, message + ", if they meet here",
+                            std::string(midi::text_of(lack)));
+    }
+
+    /// The ramp is rounded up, so the motor accelerates at most as fast as wanted; what that costs is less
+    /// than 120 increments, so it is told and not warned of.
+    void note_ramp(const Send& send, std::int16_t v, std::uint16_t a) {
+        const auto period = midi::period_of_v_soll(model_, v);
+        if (v == 0 || !period || !noted_.insert({v, a}).second) return;
+        const int ramp = midi::ramp_of_a_soll(model_, a, *period).value_or(0);
+        const midi::Facts& facts = midi::facts_of(model_);
+        const double speed = static_cast<double>(midi::kTicksPerSecond) / *period;  // increments a second
+        const double done =
+            speed * speed / (2.0 * midi::kRampIncrements * ramp) / facts.increments_per_rev * 60;
+        const double error = (done - rpm_per_s(a)) / rpm_per_s(a);
+        const std::string what = fmt::format(
+            "{:.6g} rpm with {:.6g} rpm/s, on a {} a ramp of {} x {} increments ({:.6g} rpm/s, {:+.3f} %)",
+            rpm(v), rpm_per_s(a), name_of(model_), ramp, midi::kRampIncrements, done, error * 100);
+        roundings_.push_back({send.span, what});
+    }
+
+    double rpm(std::int16_t v) const { return v / *raw_per_unit(*reg(registers::V_SOLL), kMap, {}, "rpm"); }
+    double rpm_per_s(std::uint16_t a) const {
+        return a / *raw_per_unit(*reg(registers::A_SOLL), kMap, {}, "rpm/s");
+    }
+    static const registers::Register* reg(std::uint8_t number) { return registers::find(kMap, number); }
+
+    static constexpr registers::Model kMap = registers::Model::mac140;
+
+    const Plan& plan_;
+    midi::Model model_;
+    Report& report_;
+    std::vector<Rounding>& roundings_;
+    std::map<std::uint8_t, std::set<std::uint32_t>> given_;  ///< every value that a register is given
+    std::array<DriveState, 64> states_{};
+    std::set<std::uint32_t> waited_;
+    std::set<std::uint32_t> refused_;
+    std::set<std::pair<std::int16_t, std::uint16_t>> noted_;
+};
+
+}  // namespace
+
+void check_midi_motion(const Plan& plan, midi::Model model, Report& report,
+                       std::vector<Rounding>& roundings) {
+    MidiWalk(plan, model, report, roundings).run();
+}
+
+}  // namespace nplc::seqc
