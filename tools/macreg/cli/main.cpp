@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
     add_plot(app, common);
     add_monitor(app, common);
     add_ui(app, common);
+    add_midi(app, common);
     nplc::command_line::add_generated(app, common, about());
     return nplc::command_line::run(app, common, argc, argv);
 }
