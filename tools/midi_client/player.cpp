@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <optional>
 
 #include "registers/midi_scale.h"
@@ -273,6 +274,7 @@ void go_together(Master& master, const std::vector<Target>& targets, const PlayO
 void await_arrival(Master& master, const Target& target, const std::function<bool()>& goes_on,
                    const std::function<void(std::int32_t)>& seen) {
     constexpr base::Microseconds kLongestStandstill{1'500'000};
+    constexpr std::int64_t kMostTolerance = 0xFF;
     std::optional<std::int32_t> before;
     base::Instant changed = master.link().now();
     for (;;) {
@@ -286,11 +288,11 @@ void await_arrival(Master& master, const Target& target, const std::function<boo
         before = position;
         const std::string why = obstacles(master.status(target.address));
         if (!why.empty())
-            throw NotPlayed(
-                fmt::format("axis {} stopped at {} increments: {}", target.address, position, why));
+            throw NotPlayed(fmt::format("axis {} stopped at {} increments: {}", target.address,
+                                        master.position(target.address), why));
         // Within its tolerance it is not busy any more, and may still creep nearer.
         if (now - changed > kLongestStandstill) {
-            if (!busy) return;
+            if (!busy && std::abs(std::int64_t{position} - target.position) <= kMostTolerance) return;
             throw NotPlayed(
                 fmt::format("axis {} stands at {} increments and does not reach {}: is the shaft held, the "
                             "torque too low, or "

@@ -102,7 +102,7 @@ void path(const MidiCommon& midi, const PathOptions& options) {
 }
 
 struct CircleOptions {
-    std::string axes, radius, speed, centre, acceleration, segment = "50ms";
+    std::string axes, radius, speed, centre, acceleration, segment = "100ms";
     unsigned turns = 1;
     bool clockwise = false;
 };
