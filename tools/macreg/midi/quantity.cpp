@@ -140,7 +140,8 @@ TypedNumber typed_period(std::string_view text, std::optional<Model> model) {
         return wrong(fmt::format("'{}': no speed at all; `macreg midi stop` stops", text));
     const Ratio period = Ratio{reg::kTicksPerSecond, 1} / (quantity->size * *unit);
     const auto ticks = nearest(period);
-    if (!ticks || *ticks > 0xFFFF || *ticks < 1)
+    // Faster and slower ones would round to the ends.
+    if (!ticks || period.numerator > 0xFFFF * period.denominator || period.numerator < period.denominator)
         return wrong(fmt::format("'{}': a module turns at 122.1 to 8000000 inc/s (period 65535 to 1)", text));
     return {.value = quantity->negative ? -*ticks : *ticks, .exact = period.denominator == 1};
 }

@@ -187,7 +187,9 @@ std::string value_text(const Parameter& parameter, std::int64_t raw, const Scale
             return ramp_text(raw, scale);
         case Sort::torque:
             if (scale.imax == 0) return fmt::format("{}", raw);
-            return short_number(static_cast<double>(raw) * 100 / static_cast<double>(scale.imax)) + " %";
+            // Rounded up: what is typed is rounded down, and so comes back the same.
+            return short_number(static_cast<double>((raw * 10'000 + scale.imax - 1) / scale.imax) / 100) +
+                   " %";
         case Sort::choice:
             return name_of_choice(parameter, raw);
         case Sort::temperature:
