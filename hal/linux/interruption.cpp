@@ -13,7 +13,22 @@ void on_signal(int signal) {
     std::signal(signal, SIG_DFL);
 }
 
+void on_held_signal(int /*signal*/) {
+    g_interrupted = 1;
+}
+
+/// nohup has it ignored, and so it stays.
+void hold_hang_up() {
+    if (std::signal(SIGHUP, on_held_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+}
+
 }  // namespace
+
+void hold_interruptions() {
+    for (const int signal : {SIGINT, SIGTERM, SIGQUIT}) std::signal(signal, on_held_signal);
+    hold_hang_up();
+    std::signal(SIGPIPE, SIG_IGN);
+}
 
 void note_interruptions() {
     for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, on_signal);

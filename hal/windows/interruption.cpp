@@ -9,13 +9,14 @@ namespace {
 
 std::atomic<bool> g_interrupted = false;
 std::atomic<bool> g_noted = false;
+std::atomic<bool> g_held = false;
 
 constexpr DWORD kWindowsPatienceMs = 5'000;
 
 /// In a thread of Windows' own. Not taken the second time, which ends the program. What closes the console
 /// ends it when this returns: until then the program can leave line and motor as they were.
 BOOL WINAPI on_event(DWORD event) {
-    if (g_interrupted.exchange(true)) return FALSE;
+    if (g_interrupted.exchange(true) && !g_held) return FALSE;
     if (event != CTRL_C_EVENT && event != CTRL_BREAK_EVENT) ::Sleep(kWindowsPatienceMs);
     return TRUE;
 }
@@ -24,6 +25,11 @@ BOOL WINAPI on_event(DWORD event) {
 
 void note_interruptions() {
     if (!g_noted.exchange(true)) ::SetConsoleCtrlHandler(on_event, TRUE);
+}
+
+void hold_interruptions() {
+    g_held = true;
+    note_interruptions();
 }
 
 void end_at_interruptions() {

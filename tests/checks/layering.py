@@ -28,9 +28,9 @@ class Module:
 MODULES = [
     Module("hal/base", "base", (), core=True),
     Module("hal/ports", "ports", ("base",), core=True),
-    Module("hal/host", "host", ("base",)),
+    Module("hal/host", "host", ("base", "ports")),
     Module("hal/linux", "hal_linux", ("base", "ports", "host"), os=True, clock=True),
-    Module("hal/windows", "hal_windows", ("base", "host"), os=True, clock=True),
+    Module("hal/windows", "hal_windows", ("base", "ports", "host"), os=True, clock=True),
     Module("hal/mcu", "hal_mcu", ("base", "ports"), core=True, os=True, clock=True),
     Module("sequencer", "sequencer", ("base",), core=True),
     Module("firmware/protocol", "protocol", ("base",), core=True),
@@ -70,6 +70,7 @@ MODULES = [
     Module("tools/intel_hex", "intel_hex", ("host",)),
     Module("tools/arguments", "arguments", ()),
     Module("tools/mactalk_client", "mactalk_client", ("base", "protocol", "host")),
+    Module("tools/midi_client", "midi_client", ("base", "ports", "protocol", "registers", "host", "mactalk_client")),
     Module("tools/command_line", "command_line", ("arguments", "base", "host", "mactalk_client")),
     Module(
         "tools/nanoctl",
@@ -83,7 +84,8 @@ MODULES = [
     Module(
         "tools/macreg",
         "macreg",
-        ("arguments", "base", "protocol", "registers", "host", "mactalk_client", "command_line", "whole_files"),
+        ("arguments", "base", "protocol", "registers", "host", "mactalk_client", "midi_client", "command_line",
+         "whole_files"),
     ),
     Module("tools/macreg/ui", "macreg", ("base", "protocol", "registers", "mactalk_client"), os=True),
     Module("tools/cmake", None, ()),

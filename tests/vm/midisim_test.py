@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""midisim on a real CAN interface: cansend as a foreign master on the other controller of the bus, candump's log held
-against frames of 003.
+"""midisim on a real CAN interface: cansend as a foreign master on the other controller of the bus, then macreg; candump's
+log held against frames of 003.
 
 usage: midisim_test.py
 
@@ -37,9 +37,19 @@ reach 601#4000200000000000 581#42002000FFFFFC18
 ask 601#400820AF00000000 581#420820AF80000000
 ask 602#2304200000000000 582#8004200000000000
 ask 600#2318200000000000 581#6018200000000000
+/usr/bin/candump -L can1 >log2 &
+until [ $(grep -c '^ *can1 ' /proc/net/can/rcvlist_all) -gt 1 ]; do :; done
+m() { ./macreg --port can:can1 --patience 2000 --json midi --model MAC34-1 "$@" >>said 2>&1 || { echo "macreg $*"; cat said; exit 1; }; }
+m set SPEED 300rpm TORQUE 50%
+m --address 2 move 0
+m raw 01200000000000
+m together 1=100 2=-100
+m circle --axes 1,2 --radius 2000 --speed 2000inc/s --segment 200ms --acceleration 4000inc/s2
+m --address 2 get POSITION
+./macreg --port can:can9 midi status 2>&1 | grep -q "there is no interface 'can9'" || { echo "can9"; exit 1; }
 kill -TERM $module
 wait $module || { echo "midisim ended with $?"; cat out; exit 1; }
-grep -q '^position = -1000$' eeprom && grep -q '^position = 1000$' eeprom.2 || { cat eeprom*; exit 1; }
+grep -q '^position = 100$' eeprom && grep -q '^position = -100$' eeprom.2 || { cat eeprom*; exit 1; }
 """
 
 # What is left of the log without the questions for positions: 003 §V.2, §V.4, §V.6 to §V.8, §VII.
@@ -53,20 +63,35 @@ EXPECTED = """701#00 702#00
 600#2318200000000000 581#6018200000000000""".split()
 
 
+# Of macreg: 003 §VII 0Dh (300 rpm: A0h), 0Ch, 10h, 13h (64h, -64h), §V.4; what starts the circle, 1Eh to all.
+MACREG = """601#230D2000000000A0 601#230C200000000040
+602#2313200000000000
+601#2310200000000000 601#2313200000000064
+602#2310200000000000 602#23132000FFFFFF9C
+080#""".split()
+
+
 def is_position(frame):
     return frame[4:12] in ("40002000", "42002000")
 
 
+def frames_of(share, name):
+    with open(f"{share}/{name}", encoding="ascii") as file:
+        return [line.split()[2] for line in file]
+
+
 def run(share):
     board.prepare()
-    board_test.build(share, "board", {"midisim": "midisim"}, targets=["midisim"])
+    board_test.build(share, "board", {"midisim": "midisim", "macreg": "macreg"}, targets=["midisim", "macreg"])
     with board.Board(share, SCRIPT) as machine:
         status = machine.finish()
-    with open(f"{share}/log", encoding="ascii") as file:
-        frames = [line.split()[2] for line in file]
-    seen = [frame for frame in frames if not is_position(frame)]
-    if seen != EXPECTED:
+    seen = [frame for frame in frames_of(share, "log") if not is_position(frame)]
+    if seen[:len(EXPECTED)] != EXPECTED:
         print(f"vm: the bus had {seen}\nand not {EXPECTED}")
+        return 1
+    sent = [frame for frame in frames_of(share, "log2") if frame[:6] in ("601#23", "602#23", "600#23", "080#")]
+    if sent[:len(MACREG)] != MACREG or not sent[len(MACREG)].startswith("600#231E2000"):
+        print(f"vm: macreg sent {sent}\nand not {MACREG}")
         return 1
     return status
 

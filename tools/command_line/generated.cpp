@@ -29,28 +29,38 @@ std::vector<std::string> flags_of(const arguments::App& app) {
     return flags;
 }
 
-std::string bash_completion(const arguments::App& app, const About& about) {
+/// A group's commands are known by its name and a blank before theirs.
+std::string bash_cases(const arguments::App& app, const About& about, const std::string& before) {
     std::string cases;
     for (const arguments::App* command : app.get_subcommands()) {
+        const std::string name = before + command->get_name();
+        const auto inner = command_names(*command);
         std::vector<std::string> words = flags_of(*command);
-        for (const std::string& name : command_names(*command)) words.push_back(name);
-        if (const auto more = about.words.find(command->get_name()); more != about.words.end())
+        words.insert(words.end(), inner.begin(), inner.end());
+        if (const auto more = about.words.find(name); more != about.words.end())
             words.insert(words.end(), more->second.begin(), more->second.end());
-        cases += fmt::format("        {}) words=\"{}\"; files={} ;;\n", command->get_name(), joined(words),
-                             about.file_commands.count(command->get_name()));
+        cases += fmt::format("        \"{}\") words=\"{}\"; files={}{} ;;\n", name, joined(words),
+                             about.file_commands.count(name),
+                             inner.empty() ? "" : fmt::format("; group=\"{} \"", name));
+        cases += bash_cases(*command, about, name + " ");
     }
+    return cases;
+}
+
+std::string bash_completion(const arguments::App& app, const About& about) {
+    const std::string cases = bash_cases(app, about, "");
     std::string file_options;
     for (const std::string& option : about.file_options) file_options += "|" + option;
     return fmt::format(R"(# bash completion for {0}
 _{0}() {{
     local current="${{COMP_WORDS[COMP_CWORD]}}" previous="${{COMP_WORDS[COMP_CWORD-1]}}"
-    local common="{1}" words="{2}" files=0 word
+    local common="{1}" words="{2}" files=0 word group=""
     case "$previous" in
         --port{4}) COMPREPLY=($(compgen -f -- "$current")); return ;;
         --baud) COMPREPLY=($(compgen -W "9600 19200 38400 57600 115200 230400" -- "$current")); return ;;
     esac
     for word in "${{COMP_WORDS[@]:1:COMP_CWORD-1}}"; do
-        case "$word" in
+        case "$group$word" in
 {3}        esac
     done
     COMPREPLY=($(compgen -W "$words $common" -- "$current"))
@@ -88,22 +98,40 @@ std::string zsh_options(const arguments::App& app) {
     return text;
 }
 
-std::string zsh_arguments(const arguments::App& command, const About& about) {
+std::string zsh_cases(const arguments::App& app, const About& about, const std::string& before);
+
+/// What stands behind a command's name; of a group its commands, and what stands behind theirs.
+std::string zsh_arguments(const arguments::App& command, const About& about, const std::string& name) {
     const auto inner = command_names(command);
-    if (!inner.empty()) return fmt::format(" '1:what:({})'", joined(inner));
-    const auto words = about.words.find(command.get_name());
+    if (!inner.empty()) {
+        const bool plain = std::all_of(inner.begin(), inner.end(), [&](const std::string& one) {
+            return !about.words.contains(name + " " + one);
+        });
+        if (plain) return fmt::format(" '1:what:({})'", joined(inner));
+        return fmt::format(
+            " '1:what:({})' '*::argument:->inner'\n            [[ $state = inner ]] && case $line[1] in\n{}"
+            "            esac",
+            joined(inner), zsh_cases(command, about, name + " "));
+    }
+    const auto words = about.words.find(name);
     if (words == about.words.end()) return " '*:argument:_files'";
     return fmt::format(" '*:argument:({})'", joined(words->second));
 }
 
+std::string zsh_cases(const arguments::App& app, const About& about, const std::string& before) {
+    std::string cases;
+    for (const arguments::App* command : app.get_subcommands())
+        cases += fmt::format("        {})\n            _arguments{}{}{} ;;\n", command->get_name(),
+                             command_names(*command).empty() ? "" : " -C", zsh_options(*command),
+                             zsh_arguments(*command, about, before + command->get_name()));
+    return cases;
+}
+
 std::string zsh_completion(const arguments::App& app, const About& about) {
     std::string names;
-    std::string cases;
-    for (const arguments::App* command : app.get_subcommands()) {
+    for (const arguments::App* command : app.get_subcommands())
         names += fmt::format("        '{}:{}'\n", command->get_name(), zsh_text(command->get_description()));
-        cases += fmt::format("        {})\n            _arguments{}{} ;;\n", command->get_name(),
-                             zsh_options(*command), zsh_arguments(*command, about));
-    }
+    const std::string cases = zsh_cases(app, about, "");
     return fmt::format(R"(#compdef {0}
 # zsh completion for {0}
 _{0}() {{

@@ -5,6 +5,8 @@
 #include "cli/session.h"
 #include "command_line/generated.h"
 #include "host/byte_client.h"
+#include "host/can_client.h"
+#include "macreg/midi/parameters.h"
 #include "registers/mac.h"
 
 namespace {
@@ -38,10 +40,15 @@ std::vector<std::string> register_names() {
 nplc::command_line::About about() {
     nplc::command_line::About about{.version = NPLC_VERSION,
                                     .title = "the registers of a MAC motor from a terminal",
-                                    .file_commands = {"load", "diff", "plot"},
+                                    .file_commands = {"load", "diff", "plot", "midi path"},
                                     .file_options = {"-o", "--output"}};
     for (const char* command : {"get", "list", "record", "set", "watch"})
         about.words[command] = register_names();
+    for (const auto& parameter : nplc::macreg::midi::parameters()) {
+        about.words["midi get"].emplace_back(parameter.name);
+        if (parameter.command) about.words["midi set"].emplace_back(parameter.name);
+    }
+    for (const char* command : {"midi power", "midi reference"}) about.words[command] = {"on", "off"};
     return about;
 }
 
@@ -55,7 +62,9 @@ int main(int argc, char** argv) {
         "macreg");
     app.require_subcommand(1);
     app.set_version_flag("--version", std::string("macreg ") + NPLC_VERSION);
-    app.footer(fmt::format("PORT is {}.\n{}", nplc::host::ByteClient::forms(), kFooter));
+    const std::string can = nplc::host::CanClient::forms();
+    app.footer(fmt::format("PORT is {}{}.\n{}", nplc::host::ByteClient::forms(),
+                           can.empty() ? "" : fmt::format("; for midi also {}", can), kFooter));
     Common common;
     common.program = "macreg";
     common.date =
@@ -76,6 +85,7 @@ int main(int argc, char** argv) {
     add_plot(app, common);
     add_monitor(app, common);
     add_ui(app, common);
+    add_midi(app, common);
     nplc::command_line::add_generated(app, common, about());
     return nplc::command_line::run(app, common, argc, argv);
 }

@@ -119,12 +119,24 @@ std::string Session::model_name() const {
 }
 
 void Session::remark(const std::string& text) const {
-    if (!json()) fmt::print(stderr, "{}: {}\n", common_.program, text);
+    cli::remark(common_, text);
 }
 
 void Session::ask(const std::string& what) const {
-    if (common_.yes) return;
-    if (!host::is_terminal(stdin) || json())
+    cli::ask(common_, what);
+}
+
+void Session::progress(const std::string& text) const {
+    cli::progress(common_, text);
+}
+
+void remark(const Common& common, const std::string& text) {
+    if (!common.json) fmt::print(stderr, "{}: {}\n", common.program, text);
+}
+
+void ask(const Common& common, const std::string& what) {
+    if (common.yes) return;
+    if (!host::is_terminal(stdin) || common.json)
         throw UserError(what + "; nobody is there to be asked: say --yes if you mean it");
     fmt::print(stderr, "{}. Type yes to go on: ", what);
     std::fflush(stderr);
@@ -136,8 +148,8 @@ void Session::ask(const std::string& what) const {
     if (answer != "yes") throw UserError("not confirmed, nothing was changed");
 }
 
-void Session::progress(const std::string& text) const {
-    if (json() || !host::is_terminal(stderr)) return;
+void progress(const Common& common, const std::string& text) {
+    if (common.json || !host::is_terminal(stderr)) return;
     fmt::print(stderr, "\r\033[K{}", text);
     std::fflush(stderr);
 }

@@ -53,12 +53,8 @@ class Session {
     void tell(const std::string& text, const Json& document) const {
         command_line::tell(common_, text, document);
     }
-    /// A remark for a person: standard error, not with --json.
     void remark(const std::string& text) const;
-    /// Asks on the terminal and wants a typed "yes"; without one of them or --yes it throws UserError. `what`
-    /// is a sentence that says what will happen.
     void ask(const std::string& what) const;
-    /// A line on standard error that is drawn over, if a person looks on; empty removes it.
     void progress(const std::string& text) const;
 
   private:
@@ -67,6 +63,14 @@ class Session {
     mactalk_client::Master master_;
     std::unique_ptr<Motor> motor_;
 };
+
+/// A remark for a person: standard error, not with --json.
+void remark(const Common& common, const std::string& text);
+/// Asks on the terminal and wants a typed "yes"; without one of them or --yes it throws UserError. `what` is
+/// a sentence that says what will happen.
+void ask(const Common& common, const std::string& what);
+/// A line on standard error that is drawn over, if a person looks on; empty removes it.
+void progress(const Common& common, const std::string& text);
 
 /// Does the work of a subcommand with an open session; sets the exit code and tells what went wrong.
 void work(Common& common, const std::function<void(Session&)>& what);
@@ -82,8 +86,8 @@ std::string counted(std::size_t count, const std::string& what);
 /// {"name":, "number":, "raw":, "value":} of a register's value.
 Json value_document(const registers::Register& reg, registers::Model model, std::int64_t raw);
 
-/// From a file of its own each; `add_service`: flash, safe, reset, prepare.
-command_line::Subcommand<Common> add_diff, add_dump, add_find, add_get, add_list, add_load, add_monitor,
-    add_plot, add_record, add_service, add_set, add_ui, add_watch, add_why;
+/// From a file of its own each; `add_service`: flash, safe, reset, prepare; `add_midi`: cli/midi.h.
+command_line::Subcommand<Common> add_diff, add_dump, add_find, add_get, add_list, add_load, add_midi,
+    add_monitor, add_plot, add_record, add_service, add_set, add_ui, add_watch, add_why;
 
 }  // namespace nplc::macreg::cli

@@ -17,7 +17,8 @@ struct About {
     int section = 1;                      ///< of the manual
     std::set<std::string> file_commands;  ///< whose arguments are files
     std::set<std::string> file_options;   ///< with their dashes, beside --port
-    /// Words that a command's arguments may be, as names of registers.
+    /// Words that a command's arguments may be, as names of registers. One of a group is "group command",
+    /// here and in `file_commands`.
     std::map<std::string, std::vector<std::string>> words{};
 };
 

@@ -1,0 +1,257 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/midi.h"
+#include "host/terminal.h"
+#include "macreg/midi/quantity.h"
+
+namespace nplc::macreg::cli {
+namespace {
+
+using midi::Scale;
+
+std::uint32_t data_of(midi::reg::Command command, std::int64_t first, std::int64_t second = 0) {
+    const auto data = midi::reg::pack(*midi::reg::find_command(command), static_cast<std::int32_t>(first),
+                                      static_cast<std::int32_t>(second));
+    if (!data)
+        throw UserError(fmt::format("{} is out of range: {} to {} inc (003 §IV)", first,
+                                    midi::reg::kMinPosition, midi::reg::kMaxPosition));
+    return *data;
+}
+
+std::string seconds_text(base::Microseconds time) {
+    return fmt::format("{:.2f} s", static_cast<double>(time.count()) / 1e6);
+}
+
+struct MoveOptions {
+    std::string target;
+    std::string by;
+    bool no_wait = false;
+};
+
+std::int64_t distance(const std::string& text, const MidiCommon& midi) {
+    const midi::TypedNumber number = midi::typed_position(text, midi_model(midi));
+    if (!number.error.empty()) throw UserError(number.error);
+    return number.value;
+}
+
+/// A second one to the same place is refused while the first is under way, so doubt is resolved by asking
+/// twice.
+void start_move(MidiSession& session, std::int32_t target) {
+    const std::uint32_t data = data_of(midi::reg::GO_TO, target);
+    try {
+        session.module().order(midi::reg::GO_TO, data);
+    } catch (const midi_client::Doubtful&) {
+        if (!session.module().moves()) session.module().order(midi::reg::GO_TO, data);
+    }
+}
+
+void wait_for(MidiSession& session, std::int32_t target) {
+    const Scale scale = session.module().known_scale();
+    try {
+        midi_client::await_arrival(
+            session.master(), {session.address(), target}, goes_on,
+            [&](std::int32_t position) { progress(session.common(), midi::position_text(position, scale)); });
+        progress(session.common(), "");
+    } catch (const midi_client::Interrupted&) {
+        progress(session.common(), "");
+        const std::int32_t position = bring_to_rest(session);
+        throw midi_client::Interrupted(
+            fmt::format("interrupted; stopped at {}", midi::position_text(position, scale)));
+    } catch (const std::runtime_error&) {
+        progress(session.common(), "");
+        bring_to_rest(session);
+        throw;
+    }
+}
+
+void move(const MidiCommon& midi, const MoveOptions& options) {
+    if (options.target.empty() == options.by.empty())
+        throw UserError("move: say either a position, or --by and a distance");
+    const std::int64_t typed = distance(options.by.empty() ? options.target : options.by, midi);
+    if (options.by.empty()) data_of(midi::reg::GO_TO, typed);
+    MidiSession session(midi);
+    const Scale scale = session.module().known_scale();
+    const std::int64_t from = session.master().position(session.address());
+    const std::int64_t target = options.by.empty() ? typed : from + typed;
+    data_of(midi::reg::GO_TO, target);
+    hold_signals();
+    const base::Instant begun = session.link().now();
+    start_move(session, static_cast<std::int32_t>(target));
+    if (options.no_wait)
+        return session.tell(fmt::format("moves to {}", midi::position_text(target, scale)),
+                            {{"target", target}});
+    wait_for(session, static_cast<std::int32_t>(target));
+    const std::int32_t at = session.master().position(session.address());
+    session.tell(fmt::format("at {}, after {}", midi::position_text(at, scale),
+                             seconds_text(session.link().now() - begun)),
+                 {{"position", at}, {"target", target}, {"from", from}});
+}
+
+struct JogOptions {
+    std::string speed;
+    std::string time;
+};
+
+/// True when it is to end: its time, or Enter.
+bool jog_is_over(MidiSession& session, base::Instant end, bool keys) {
+    if (session.link().now() >= end) return true;
+    return keys && host::input_within(base::Milliseconds{0});
+}
+
+std::string turn(MidiSession& session, base::Microseconds time, bool keys) {
+    const Scale scale = session.module().known_scale();
+    const base::Instant end =
+        time.count() > 0 ? session.link().now() + time : base::Instant(base::Microseconds::max());
+    while (!jog_is_over(session, end, keys)) {
+        look_for_interruption();
+        const std::int32_t position = session.master().position(session.address());
+        const std::string why = midi_client::obstacles(session.master().status(session.address()));
+        if (!why.empty()) return why;
+        progress(session.common(), fmt::format("{}, {} stops", midi::position_text(position, scale),
+                                               keys ? "Enter" : "Ctrl-C"));
+        session.link().pause(
+            std::min<base::Microseconds>(base::Microseconds{50'000}, end - session.link().now()));
+    }
+    return {};
+}
+
+/// Whatever happens, the module stands at the end, or it is said that it may not.
+void jog(const MidiCommon& midi, const JogOptions& options) {
+    const midi::TypedNumber period = midi::typed_period(options.speed, midi_model(midi));
+    if (!period.error.empty()) throw UserError(period.error);
+    const midi::TypedNumber time = midi::typed_time(options.time.empty() ? "0" : options.time);
+    if (!time.error.empty()) throw UserError(fmt::format("--for {}", time.error));
+    const bool keys = host::is_terminal(stdin) && !midi.common.json;
+    if (!keys && time.value == 0)
+        throw UserError("jog: nobody is at the terminal to end it; say --for, as --for 2s");
+    MidiSession session(midi);
+    const Scale scale = session.module().known_scale();
+    const std::int32_t from = session.master().position(session.address());
+    hold_signals();
+    std::string why;
+    try {
+        const std::int64_t direction = period.value < 0 ? midi::reg::kTurnsLeft : 0;
+        session.module().order(midi::reg::RUN, data_of(midi::reg::RUN, direction, std::abs(period.value)));
+        why = turn(session, base::Microseconds{time.value}, keys);
+    } catch (const midi_client::Refused&) {
+        throw;
+    } catch (const midi_client::Interrupted&) {
+        progress(session.common(), "");
+        throw midi_client::Interrupted(
+            fmt::format("interrupted; stopped at {}", midi::position_text(bring_to_rest(session), scale)));
+    } catch (const std::runtime_error&) {
+        progress(session.common(), "");
+        bring_to_rest(session);
+        throw;
+    }
+    progress(session.common(), "");
+    const std::int32_t at = bring_to_rest(session);
+    if (!why.empty()) refuse(fmt::format("it was stopped at {}: {}", midi::position_text(at, scale), why));
+    session.tell(
+        fmt::format("turned by {}, stands at {}", midi::position_text(std::int64_t{at} - from, scale),
+                    midi::position_text(at, scale)),
+        {{"position", at}, {"from", from}});
+}
+
+struct StopOptions {
+    bool emergency = false;
+    bool all = false;
+};
+
+void stop(MidiSession& session, const StopOptions& options) {
+    const midi::reg::Command command = options.emergency ? midi::reg::EMERGENCY_STOP : midi::reg::STOP;
+    if (options.all) {
+        session.master().command(session.link().everyone(), command);
+        return session.tell("stopped: all modules, as the one that answers for them says", {{"all", true}});
+    }
+    session.module().order(command);
+    const Scale scale = session.module().known_scale();
+    hold_signals();
+    const std::int32_t at =
+        options.emergency ? session.master().position(session.address()) : bring_to_rest(session);
+    session.tell(fmt::format("stopped at {}", midi::position_text(at, scale)), {{"position", at}});
+}
+
+void power(MidiSession& session, const std::string& what, bool force) {
+    const bool on = what == "on";
+    // 000 §VI 1Ah
+    if (!on && !force && session.module().moves())
+        refuse(
+            "it turns, and to switch it off now can damage the supply; `macreg midi stop` stops it, --force "
+            "switches it off all the same");
+    session.module().order(on ? midi::reg::POWER_ON : midi::reg::POWER_OFF);
+    session.tell(on ? "the motor is on and holds" : "the motor is off and holds nothing", {{"power", what}});
+}
+
+void zero(MidiSession& session, bool force) {
+    const std::int32_t before = session.master().position(session.address());
+    if (!force && session.module().moves())
+        refuse("it turns; `macreg midi stop` stops it, --force makes its position 0 all the same");
+    session.module().order(midi::reg::ZERO_POSITION);
+    session.tell(
+        fmt::format("here is 0; it was {}", midi::position_text(before, session.module().known_scale())),
+        {{"before", before}});
+}
+
+void reference(MidiSession& session, const std::string& what) {
+    session.module().order(midi::reg::REFERENCE, what == "on" ? 1 : 0);
+    session.tell(what == "on"
+                     ? "the reference input sets the position to 0, turning clockwise, until the next start"
+                     : "the reference input does nothing",
+                 {{"reference", what}});
+}
+
+void add_moves(arguments::App& app, MidiCommon& midi) {
+    const auto move_options = std::make_shared<MoveOptions>();
+    arguments::App& move_command = command_line::add_command(
+        app, "move", "Go to a position with SPEED and RAMP, and wait until it is there; Ctrl-C stops it");
+    move_command.add_option("position", move_options->target, "20480, 2.5rev");
+    move_command.add_option("--by", move_options->by, "Instead: how far from here, as -1rev");
+    move_command.add_flag("--no-wait", move_options->no_wait, "Do not wait; nothing here stops it then");
+    move_command.callback([move_options, &midi] { midi_guard(midi, [&] { move(midi, *move_options); }); });
+
+    const auto jog_options = std::make_shared<JogOptions>();
+    arguments::App& jog_command = command_line::add_command(
+        app, "jog", "Turn at a speed until Enter or for a time; every end stops it, signals too");
+    jog_command
+        .add_option("speed", jog_options->speed, "300rpm, -2rev/s, 5000inc/s; negative is counter-clockwise")
+        ->required();
+    jog_command.add_option("--for", jog_options->time, "How long, as 2s or 500ms");
+    jog_command.callback([jog_options, &midi] { midi_guard(midi, [&] { jog(midi, *jog_options); }); });
+
+    const auto stop_options = std::make_shared<StopOptions>();
+    arguments::App& stop_command =
+        command_line::add_command(app, "stop", "Stop with the ramp; a second one does no harm");
+    stop_command.add_flag("--emergency", stop_options->emergency,
+                          "At once, with all torque, whatever moves; the position loop ends too");
+    stop_command.add_flag("--all", stop_options->all, "All modules on the line or bus");
+    stop_command.callback(
+        [stop_options, &midi] { midi_work(midi, [&](MidiSession& s) { stop(s, *stop_options); }); });
+}
+
+}  // namespace
+
+void add_midi_motion(arguments::App& app, MidiCommon& midi) {
+    add_moves(app, midi);
+    const auto what = std::make_shared<std::string>();
+    const auto force = std::make_shared<bool>(false);
+    arguments::App& power_command = command_line::add_command(app, "power", "The motor's power on or off");
+    power_command.add_option("what", *what, "on or off")->required()->one_of({"on", "off"});
+    power_command.add_flag("--force", *force, "Also while it turns");
+    power_command.callback(
+        [what, force, &midi] { midi_work(midi, [&](MidiSession& s) { power(s, *what, *force); }); });
+
+    arguments::App& zero_command = command_line::add_command(app, "zero", "Make this place position 0");
+    zero_command.add_flag("--force", *force, "Also while it turns");
+    zero_command.callback([force, &midi] { midi_work(midi, [&](MidiSession& s) { zero(s, *force); }); });
+
+    arguments::App& reference_command =
+        command_line::add_command(app, "reference", "Whether the reference input sets the position to 0");
+    reference_command.add_option("what", *what, "on or off")->required()->one_of({"on", "off"});
+    reference_command.callback(
+        [what, &midi] { midi_work(midi, [&](MidiSession& s) { reference(s, *what); }); });
+}
+
+}  // namespace nplc::macreg::cli

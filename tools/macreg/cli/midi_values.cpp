@@ -1,0 +1,195 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/midi.h"
+#include "macreg/midi/quantity.h"
+
+namespace nplc::macreg::cli {
+namespace {
+
+using midi::Parameter;
+
+const Parameter& named(const std::string& name) {
+    const Parameter* found = midi::find_parameter(name);
+    if (found == nullptr)
+        throw UserError(fmt::format("'{}' is no parameter; `macreg midi list` shows them", name));
+    return *found;
+}
+
+void list(const MidiCommon& midi) {
+    std::string text;
+    Json all = Json::array();
+    for (const Parameter& one : midi::parameters()) {
+        const std::string units = midi::units_text(one);
+        const bool at_rest = one.command && !midi::row_of(one).while_moving;
+        const std::string access = !one.command ? "read only"
+                                   : at_rest    ? units + "; not while moving"
+                                                : units;
+        text += fmt::format("{}{:<12} {} [{}]", text.empty() ? "" : "\n", one.name, one.title, access);
+        all.push_back({{"name", one.name},
+                       {"title", one.title},
+                       {"read", one.query.has_value()},
+                       {"write", one.command.has_value()},
+                       {"while_moving", !at_rest},
+                       {"units", units}});
+    }
+    command_line::tell(midi.common, text, {{"parameters", all}});
+}
+
+void get(MidiSession& session, const std::vector<std::string>& names) {
+    std::vector<const Parameter*> wanted;
+    for (const std::string& name : names) {
+        wanted.push_back(&named(name));
+        if (!wanted.back()->query) throw UserError(fmt::format("{} cannot be read", wanted.back()->name));
+    }
+    const midi::Scale scale = session.module().scale();
+    std::string text;
+    Json all = Json::array();
+    for (const Parameter* one : wanted) {
+        const std::int64_t raw = session.module().read(*one);
+        text += fmt::format("{}{} = {}   (raw {})", text.empty() ? "" : "\n", one->name,
+                            midi::value_text(*one, raw, scale), raw);
+        all.push_back(midi_document(*one, raw, scale));
+    }
+    session.tell(text, {{"parameters", all}});
+}
+
+struct Assignment {
+    const Parameter* parameter;
+    std::string text;
+};
+
+/// NAME VALUE or NAME=VALUE; a unit may stand apart.
+std::vector<Assignment> read_words(const std::vector<std::string>& words) {
+    std::vector<Assignment> all;
+    for (const std::string& word : words) {
+        const std::size_t equals = word.find('=');
+        const std::string name = word.substr(0, equals);
+        if (const Parameter* parameter = midi::find_parameter(name); parameter != nullptr) {
+            all.push_back({parameter, equals == std::string::npos ? "" : word.substr(equals + 1)});
+        } else {
+            if (all.empty() || equals != std::string::npos) named(name);
+            all.back().text += word;
+        }
+    }
+    for (const Assignment& one : all) {
+        if (one.text.empty()) throw UserError(fmt::format("{}: a value is missing", one.parameter->name));
+    }
+    return all;
+}
+
+struct Checked {
+    const Parameter* parameter;
+    midi::TypedValue value;
+};
+
+std::vector<Checked> check(const std::vector<Assignment>& all, midi::Scale scale) {
+    std::vector<Checked> checked;
+    for (const Assignment& one : all) {
+        midi::TypedValue value = midi::typed_value(*one.parameter, one.text, scale);
+        if (!value.error.empty()) throw UserError(value.error);
+        // An acceleration behind a new speed is one from that speed.
+        if (one.parameter->sort == midi::Sort::period) scale.period = value.raw;
+        checked.push_back({one.parameter, std::move(value)});
+    }
+    return checked;
+}
+
+void change(MidiSession& session, const std::vector<Checked>& all) {
+    std::string text;
+    Json done = Json::array();
+    for (const auto& [parameter, value] : all) {
+        if (!goes_on())
+            throw command_line::Failure(command_line::kInterrupted, "interrupted", {{"written", done}});
+        const midi::Outcome outcome = session.module().change(*parameter, value.raw);
+        const midi::Scale scale = session.module().scale();
+        const auto shown = [&](std::int64_t raw) { return midi::value_text(*parameter, raw, scale); };
+        if (!outcome.taken)
+            refuse(fmt::format("{}: {} was not taken, it is {}: {}", parameter->name, shown(value.raw),
+                               shown(outcome.after.value_or(0)), outcome.why),
+                   {{"parameter", parameter->name}, {"reason", outcome.why}, {"written", done}});
+        if (!value.rounding.empty()) remark(session.common(), value.rounding);
+        text +=
+            fmt::format("{}{} = {} (raw {}{})", text.empty() ? "" : "\n", parameter->name, shown(value.raw),
+                        value.raw, outcome.before ? "; was " + shown(*outcome.before) : "");
+        Json document = midi_document(*parameter, value.raw, scale);
+        if (outcome.before) document["before"] = *outcome.before;
+        if (!value.rounding.empty()) document["rounding"] = value.rounding;
+        done.push_back(std::move(document));
+    }
+    session.tell(text, {{"parameters", done}});
+}
+
+void set(const MidiCommon& midi, const std::vector<std::string>& words) {
+    const auto all = read_words(words);
+    for (const Assignment& one : all) {
+        if (!one.parameter->command) throw UserError(fmt::format("{} is read only", one.parameter->name));
+    }
+    MidiSession session(midi);
+    change(session, check(all, session.module().scale()));
+}
+
+struct Limits {
+    std::string lower, upper;
+    bool on = false;
+    bool off = false;
+};
+
+std::int64_t limit(const std::string& text, std::optional<midi::reg::Model> model, const char* which) {
+    const midi::TypedNumber number = midi::typed_position(text, model);
+    if (!number.error.empty()) throw UserError(fmt::format("{} limit: {}", which, number.error));
+    return number.value;
+}
+
+void limits(const MidiCommon& midi, const Limits& options) {
+    std::vector<Checked> all;
+    if (!options.lower.empty() || !options.upper.empty()) {
+        if (options.lower.empty() || options.upper.empty())
+            throw UserError("limits: both are needed, LOWER UPPER");
+        const std::int64_t lower = limit(options.lower, midi_model(midi), "lower");
+        const std::int64_t upper = limit(options.upper, midi_model(midi), "upper");
+        if (lower >= upper) throw UserError(fmt::format("limits: {} is not below {}", lower, upper));
+        all = {{&named("LOWER_STOP"), {.raw = lower}}, {&named("UPPER_STOP"), {.raw = upper}}};
+    }
+    MidiSession session(midi);
+    const Parameter& stops = named("END_STOPS");
+    if (options.on || options.off) {
+        const std::int64_t now = session.module().read(stops);
+        all.push_back({&stops, {.raw = options.on ? (now | 8) : (now & ~std::int64_t{8})}});
+    }
+    if (!all.empty()) return change(session, all);
+    get(session, {"LOWER_STOP", "UPPER_STOP", "END_STOPS"});
+}
+
+}  // namespace
+
+void add_midi_values(arguments::App& app, MidiCommon& midi) {
+    command_line::add_command(app, "list", "The parameters with their units. Needs no module")
+        .callback([&midi] { midi_guard(midi, [&] { list(midi); }); });
+
+    const auto names = std::make_shared<std::vector<std::string>>();
+    arguments::App& get_command = command_line::add_command(app, "get", "Read parameters");
+    get_command.add_option("parameters", *names, "Names")->required();
+    get_command.callback([names, &midi] { midi_work(midi, [&](MidiSession& s) { get(s, *names); }); });
+
+    const auto words = std::make_shared<std::vector<std::string>>();
+    arguments::App& set_command =
+        command_line::add_command(app, "set",
+                                  "Change parameters and read them back: SPEED 300rpm, TORQUE 50%, RAMP "
+                                  "2rev/s2, UPPER_STOP 10rev, or raw:N. "
+                                  "All are checked before the first is written");
+    set_command.add_option("values", *words, "NAME VALUE, or NAME=VALUE; several at once")->required();
+    set_command.callback([words, &midi] { midi_guard(midi, [&] { set(midi, *words); }); });
+
+    const auto options = std::make_shared<Limits>();
+    arguments::App& limits_command = command_line::add_command(
+        app, "limits", "The software end-stops: show them, set both, switch them on and off");
+    limits_command.add_option("lower", options->lower, "Lower one, in inc or rev");
+    limits_command.add_option("upper", options->upper, "Upper one");
+    limits_command.add_flag("--on", options->on, "Let them act; the hardware ones stay as they are");
+    limits_command.add_flag("--off", options->off, "Let them not act")->excludes("--on");
+    limits_command.callback([options, &midi] { midi_guard(midi, [&] { limits(midi, *options); }); });
+}
+
+}  // namespace nplc::macreg::cli

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "macreg/midi/values.h"
+#include "midi_client/master.h"
+
+/// One MIDI module on a line or bus.
+namespace nplc::macreg::midi {
+
+/// All that a module tells, at about one time.
+struct Readings {
+    std::int32_t position = 0;
+    std::uint32_t status = 0;
+    std::int32_t upper_stop = 0, lower_stop = 0;
+    std::uint32_t release = 0;
+    std::uint32_t speeds = 0, settings = 0, measures = 0;
+    std::uint32_t imax = 0;  ///< the four bytes of RAM from AFh on
+
+    /// Of a parameter that can be read.
+    std::int64_t raw(const Parameter& parameter) const;
+    std::int64_t raw(std::string_view name) const { return raw(*find_parameter(name)); }
+    bool busy() const { return (measures & reg::kNotBusy) == 0; }
+};
+
+struct Outcome {
+    std::optional<std::int64_t> before{}, after{};  ///< nothing where it cannot be read
+    bool taken = false;
+    std::string why{};  ///< a sentence if not
+};
+
+class Module {
+  public:
+    Module(midi_client::Master& master, std::uint8_t address, std::optional<reg::Model> model)
+        : master_(master), address_(address), scale_{.model = model} {}
+
+    midi_client::Master& master() { return master_; }
+    std::uint8_t address() const { return address_; }
+
+    /// With Imax and full speed as the module has them now.
+    const Scale& scale();
+    /// What needs no asking.
+    const Scale& known_scale() const { return scale_; }
+
+    std::int64_t read(const Parameter& parameter);
+    Readings read_all();
+
+    /// Writes and reads back; what is not certain to have been taken is written again. A parameter that
+    /// cannot be read is written once.
+    Outcome change(const Parameter& parameter, std::int64_t raw);
+
+    /// Two looks at its position, or BUSY.
+    bool moves();
+    /// Why it refused this command, as far as it lets one see: "it is refused while the axis moves; ...".
+    std::string refusal(std::uint8_t command, std::uint32_t data);
+    /// Throws midi_client::Refused with the reason.
+    void order(reg::Command command, std::uint32_t data = 0);
+
+  private:
+    midi_client::Master& master_;
+    std::uint8_t address_;
+    Scale scale_;
+    bool scale_read_ = false;
+};
+
+}  // namespace nplc::macreg::midi

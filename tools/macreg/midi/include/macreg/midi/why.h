@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "macreg/midi/module.h"
+
+/// Why does it not move? (000 §VI, 003 §IV, §VII)
+namespace nplc::macreg::midi {
+
+enum class Severity : std::uint8_t {
+    stops,    ///< it cannot move because of it
+    hinders,  ///< it may soon, moves less than wanted, or not everywhere
+    tells,    ///< good to know
+};
+
+struct Finding {
+    std::string code;  ///< stable, for programs: "torque_zero"
+    Severity severity = Severity::stops;
+    std::string sentence{};
+    std::vector<std::string_view> parameters{};  ///< whose values make it so
+    std::string remedy{};
+};
+
+/// What `why` judges: the same readings twice, some time apart.
+struct Condition {
+    Scale scale{};
+    Readings before{};
+    Readings now{};
+};
+/// 200 ms apart.
+Condition read_condition(Module& module);
+
+/// What to mend first in front. Pure; never empty.
+std::vector<Finding> why(const Condition& condition);
+
+}  // namespace nplc::macreg::midi

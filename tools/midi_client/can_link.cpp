@@ -1,0 +1,130 @@
+#include "midi_client/can_link.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace nplc::midi_client {
+
+namespace can = protocol::midi_can;
+
+namespace {
+
+std::string words_of(const ports::CanFrame& frame) {
+    std::string text = fmt::format("{:03X}#", frame.id);
+    for (std::size_t i = 0; i < frame.length; ++i) text += fmt::format("{:02X}", frame.data[i]);
+    return text;
+}
+
+can::Request message_of(const Request& request) {
+    return {.kind = request.query ? can::Request::Kind::query : can::Request::Kind::command,
+            .address = request.address,
+            .index = static_cast<std::uint16_t>(can::kIndices + request.number),
+            .sub_index = request.sub_index,
+            .data = request.data};
+}
+
+}  // namespace
+
+Answer CanLink::ask(const Request& request) {
+    const can::Request message = message_of(request);
+    drain();
+    send(message);
+    const base::Instant end = can_.now() + options_.patience;
+    for (base::Instant now = can_.now(); now < end; now = can_.now()) {
+        const can::Answer answer = hear(end - now);
+        if (!can::answers(answer, message)) continue;
+        if (answer.kind == can::Answer::Kind::accepted) return {.kind = Answer::Kind::accepted};
+        if (answer.kind == can::Answer::Kind::value)
+            return {.kind = Answer::Kind::value, .value = answer.data};
+        return {.kind = Answer::Kind::refused};
+    }
+    heard_.clear();
+    return {};
+}
+
+Answer CanLink::synchronise() {
+    drain();
+    send({.kind = can::Request::Kind::sync});
+    return {.kind = Answer::Kind::accepted};
+}
+
+void CanLink::pause(base::Microseconds time) {
+    const base::Instant end = can_.now() + time;
+    for (base::Instant now = can_.now(); now < end; now = can_.now()) hear(end - now);
+}
+
+CanLink::Programmed CanLink::program_address(std::uint8_t address) {
+    using Say = can::Answer::Kind;
+    drain();
+    send({.kind = can::Request::Kind::configure});
+    send({.kind = can::Request::Kind::set_address, .data = address});
+    bool taken = false;
+    bool refused = false;
+    for (const base::Instant end = can_.now() + options_.patience; can_.now() < end && !taken && !refused;) {
+        const Say kind = hear(end - can_.now()).kind;
+        taken = kind == Say::address_taken;
+        refused = kind == Say::address_refused;
+    }
+    // The module is in configuration whatever it said: it is always led back.
+    boots_.clear();
+    send({.kind = can::Request::Kind::operate});
+    for (const base::Instant end = can_.now() + options_.patience; can_.now() < end;) {
+        const can::Answer answer = hear(end - can_.now());
+        if (taken && answer.kind == Say::booted && answer.address == address) return Programmed::done;
+    }
+    return refused ? Programmed::refused : Programmed::silence;
+}
+
+std::vector<std::uint8_t> CanLink::take_boots() {
+    return std::exchange(boots_, {});
+}
+
+void CanLink::send(const can::Request& request) {
+    const can::Frame message = can::encode(request);
+    const ports::CanFrame frame{.id = message.id, .length = message.size, .data = message.data};
+    sent_ = words_of(frame);
+    heard_.clear();
+    if (can_.write(frame)) return;
+    const ports::CanState state = can_.state();
+    throw LineError(
+        LineError::Kind::port_gone,
+        name() +
+            (can_.gone() ? ": the interface is gone; was the adapter unplugged?"
+             : state == ports::CanState::down
+                 ? fmt::format(": the interface is down; as root: ip link set {} up", name().substr(4))
+             : state == ports::CanState::bus_off
+                 ? std::string(
+                       ": the controller went off the bus: are bit rate, wiring and terminators right?")
+                 : std::string(": nobody takes the frames: is a module connected, switched on, and at this "
+                               "bit rate?")));
+}
+
+can::Answer CanLink::hear(base::Microseconds wait) {
+    const auto frame = can_.read(wait);
+    if (!frame) {
+        if (can_.gone())
+            throw LineError(LineError::Kind::port_gone,
+                            name() + ": the interface is gone; was the adapter unplugged?");
+        return {};
+    }
+    if (frame->extended || frame->remote) return {};
+    heard_any_ = true;
+    const can::Answer answer = can::decode_answer(
+        {.id = static_cast<std::uint16_t>(frame->id), .size = frame->length, .data = frame->data});
+    if (answer.kind == can::Answer::Kind::booted) boots_.push_back(answer.address);
+    if (answer.kind != can::Answer::Kind::none) heard_ = words_of(*frame);
+    return answer;
+}
+
+/// Reads over what came before the request.
+void CanLink::drain() {
+    while (const auto frame = can_.read(base::Microseconds{0})) {
+        const can::Answer answer = can::decode_answer(
+            {.id = static_cast<std::uint16_t>(frame->id), .size = frame->length, .data = frame->data});
+        if (!frame->extended && !frame->remote && answer.kind == can::Answer::Kind::booted)
+            boots_.push_back(answer.address);
+    }
+}
+
+}  // namespace nplc::midi_client

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "base/time.h"
+#include "mactalk_client/master.h"
+
+/// The client's end of a line or bus with MIDI Ingenierie modules: one request, one answer.
+namespace nplc::midi_client {
+
+using mactalk_client::Interrupted;
+using mactalk_client::LineError;
+
+/// A command or query of registers/midi.h, which has the same number on both transports.
+struct Request {
+    std::uint8_t address = 0;
+    bool query = false;
+    std::uint8_t number = 0;
+    std::uint8_t sub_index = 0;
+    std::uint32_t data = 0;
+    bool operator==(const Request&) const = default;
+};
+
+struct Answer {
+    enum class Kind : std::uint8_t {
+        accepted,   ///< the command was carried out
+        value,      ///< the query was answered
+        refused,    ///< understood and not carried out
+        not_taken,  ///< the module did not understand: not carried out
+        unclear,    ///< a damaged answer; a command may have been carried out
+        silence,    ///< nothing came; a command may have been carried out
+    };
+    Kind kind = Kind::silence;
+    std::uint32_t value = 0;
+    /// `refused` was said with 18h, as some modules do; a single damaged bit makes that of Xon.
+    bool by_18h = false;
+};
+
+class Link {
+  public:
+    virtual ~Link() = default;
+    virtual const std::string& name() const = 0;
+    virtual bool is_can() const = 0;
+
+    /// Sends it once and waits for its answer. Throws LineError if the port is gone.
+    virtual Answer ask(const Request& request) = 0;
+    /// Starts what WAIT_SYNC prepared in all modules at once: command 11h to all (000 §VI), or SYNC (003
+    /// §V.4), to which nobody answers.
+    virtual Answer synchronise() = 0;
+    /// The address of all modules: all act, one answers (FFh and 00 on V24, 0 and 1 on CAN).
+    virtual std::uint8_t everyone() const = 0;
+    /// What a module from the factory has.
+    virtual std::uint8_t usual_address() const = 0;
+    /// A command with its answer takes this long at the least.
+    virtual base::Microseconds exchange_time() const = 0;
+
+    /// Lets time pass; what comes meanwhile is read over.
+    virtual void pause(base::Microseconds time) = 0;
+    virtual base::Instant now() = 0;
+
+    /// The last request and what came back, as a person writes it: "02 30 31 .. 03", "601#2313200000000320".
+    virtual std::string last_sent() const = 0;
+    virtual std::string last_heard() const = 0;
+    /// Something came since the link was opened, answer or not.
+    virtual bool heard_anything() const = 0;
+};
+
+}  // namespace nplc::midi_client

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "midi_client/link.h"
+#include "registers/midi.h"
+
+namespace nplc::midi_client {
+
+/// The module understood and said no.
+class Refused : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Whether the module carried a command out is not known.
+class Doubtful : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// A master of MIDI modules (000, 003). Asks again, up to `attempts` times, where that can do no harm:
+/// queries, what a module said not to have understood, and stops. Throws LineError, too.
+class Master {
+  public:
+    explicit Master(Link& link, unsigned attempts = 10) : link_(link), attempts_(attempts) {}
+
+    Link& link() { return link_; }
+
+    std::uint32_t query(std::uint8_t address, registers::midi::Query query, std::uint8_t sub_index = 0);
+    /// The same, asked once: for who looks whether anybody is there. Silence is nothing.
+    Answer try_query(std::uint8_t address, registers::midi::Query query);
+
+    /// Throws Refused, Doubtful.
+    void command(std::uint8_t address, registers::midi::Command command, std::uint32_t data = 0);
+    /// The last answer; never `not_taken` unless that was said `attempts` times.
+    Answer try_command(std::uint8_t address, registers::midi::Command command, std::uint32_t data = 0);
+    Answer try_request(const Request& request);
+
+    std::int32_t position(std::uint8_t address);
+    std::uint32_t status(std::uint8_t address);
+    /// The position is not the one wanted yet, or the module cannot follow (the BUSY output).
+    bool busy(std::uint8_t address);
+
+    /// EMERGENCY_STOP to each until accepted; the addresses that did not.
+    std::vector<std::uint8_t> stop_hard(std::span<const std::uint8_t> addresses);
+    /// Sleeps in steps as long as `goes_on`; throws Interrupted.
+    void pause(base::Microseconds time, const std::function<bool()>& goes_on);
+
+  private:
+    [[noreturn]] void no_answer(std::uint8_t address, unsigned asked, bool heard) const;
+
+    Link& link_;
+    unsigned attempts_;
+    bool answered_ = false;
+};
+
+/// A second one does no harm, a missing one does.
+constexpr bool is_stop(std::uint8_t command) {
+    using namespace registers::midi;
+    return command == STOP || command == EMERGENCY_STOP || command == POWER_OFF;
+}
+
+}  // namespace nplc::midi_client

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "midi_client/link.h"
+
+namespace nplc::midi_client {
+
+struct V24Options {
+    std::uint32_t baud = 38'400;  ///< what messages take on the line; sockets are taken to be as slow
+    /// Beyond the time that request and answer take on the line.
+    base::Microseconds patience{150'000};
+};
+
+/// 000 §II to §IV. What belongs to no answer is read over; after a request without a clear answer the line
+/// must have been silent for `patience` before the next one, for an answer does not say whose it is.
+class V24Link final : public Link {
+  public:
+    explicit V24Link(mactalk_client::Wire& wire, const V24Options& options = {})
+        : wire_(wire), options_(options) {}
+
+    const std::string& name() const override { return wire_.name(); }
+    bool is_can() const override { return false; }
+    Answer ask(const Request& request) override;
+    Answer synchronise() override;
+    std::uint8_t everyone() const override { return 0xFF; }
+    std::uint8_t usual_address() const override { return 0; }
+    base::Microseconds exchange_time() const override;
+    void pause(base::Microseconds time) override;
+    base::Instant now() override { return wire_.now(); }
+    std::string last_sent() const override;
+    std::string last_heard() const override;
+    bool heard_anything() const override { return heard_any_; }
+
+  private:
+    void settle();
+    std::size_t receive(std::span<std::uint8_t> out, base::Microseconds wait);
+    base::Microseconds on_line(std::size_t bytes) const;
+    [[noreturn]] void gone();
+
+    mactalk_client::Wire& wire_;
+    V24Options options_;
+    std::vector<std::uint8_t> sent_;
+    std::vector<std::uint8_t> heard_;
+    bool heard_any_ = false;
+    bool unsettled_ = false;
+};
+
+}  // namespace nplc::midi_client
