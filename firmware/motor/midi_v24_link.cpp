@@ -104,7 +104,7 @@ MidiOutcome MidiV24Link::receive(base::Instant now) {
 MidiOutcome MidiV24Link::finish(Kind kind, std::uint32_t value) {
     state_ = State::idle;
     decoder_.abandon();
-    noisy_ = noisy_ || kind == Kind::unclear || kind == Kind::not_taken;
+    noisy_ = noisy_ || kind == Kind::unclear;
     return {kind, value};
 }
 

@@ -29,16 +29,6 @@ store::SettingValues initial_settings(const WorldOptions& options) {
     return values;
 }
 
-void spoil(LineDirection& direction, const action::SpoilLine& what) {
-    LineFaults faults = direction.faults();
-    faults.drop = what.drop.value_or(faults.drop);
-    faults.damage = what.damage.value_or(faults.damage);
-    faults.framing = what.framing.value_or(faults.framing);
-    faults.delay = what.delay.value_or(faults.delay);
-    faults.longest_delay = what.longest_delay.value_or(faults.longest_delay);
-    direction.set_faults(faults);
-}
-
 }  // namespace
 
 World::World(std::vector<std::uint8_t> table, const WorldOptions& options)
@@ -51,6 +41,11 @@ World::World(std::vector<std::uint8_t> table, const WorldOptions& options)
       next_sample_(mac_.sample_period()) {
     line_.to_motor().set_faults(options.faults);
     line_.from_motor().set_faults(options.faults);
+    if (options.midi) {
+        midi_.emplace(*options.midi, options.faults);
+        motor_powered_ = false;
+        next_sample_ = MidiSide::kSamplePeriod;
+    }
     start_gateway(gateway::StartCause::power_up);
 }
 
@@ -71,17 +66,25 @@ void World::start_gateway(gateway::StartCause cause) {
     line_.set_rates(settings_->get(store::Setting::motor_baud), options_.baud);
     const std::uint32_t user_baud = settings_->get(store::Setting::user_baud);
     user_line_.set_rates(user_baud, user_baud);
-    driver_.emplace(line_.port(), gateway::driver_settings_of(settings_->values()));
-    const gateway::Gateway::Ports ports{board_, board_, board_, *driver_};
+    start_driver();
+    const gateway::Gateway::Ports ports{board_, board_, board_, *motor_};
     gateway_.emplace(ports, gateway::settings_of(settings_->values()), cause);
     if (options_.polling != Polling::steadily) gateway_->pace(base::Microseconds(250));
     settings_->attach(*gateway_);
     gateway_->observe(this);
-    tables_.emplace(*gateway_, *driver_, storage, kTableArea, table_memory_);
+    tables_.emplace(*gateway_, *motor_, storage, kTableArea, table_memory_);
     own_registers_.emplace(*gateway_, *tables_, *settings_);
     user_port_.emplace(user_line_.port(), options_.motor_mactalk_wired ? &mactalk_line_.port() : nullptr,
-                       *gateway_, *driver_, *own_registers_, *settings_);
+                       *gateway_, *motor_, *own_registers_, *settings_);
     start_table(first);
+}
+
+void World::start_driver() {
+    if (midi_) {
+        motor_ = &midi_->start_driver();
+    } else {
+        motor_ = &driver_.emplace(line_.port(), gateway::driver_settings_of(settings_->values()));
+    }
 }
 
 void World::start_table(bool first) {
@@ -112,10 +115,7 @@ Time World::next_event() const {
     const auto consider = [&](std::optional<Time> time) {
         if (time) next = std::min(next, *time);
     };
-    consider(line_.to_motor().next_arrival());
-    consider(line_.from_motor().next_arrival());
-    if (line_.has_waiting()) next = std::min(next, line_.to_motor().busy_until());
-    if (motor_powered_) next = std::min(next, motor_asks_);
+    consider(next_of_motor());
     for (const VirtualSerialLine* line : {&user_line_, &mactalk_line_}) {
         consider(line->to_motor().next_arrival());
         consider(line->from_motor().next_arrival());
@@ -123,6 +123,26 @@ Time World::next_event() const {
     }
     if (!user_waiting_.empty()) next = std::min(next, user_line_.from_motor().busy_until());
     return std::max(next, now_);
+}
+
+std::string_view World::why_not() const {
+    if (load_result_.ok || !midi_ || load_result_.fault.error != base::Error::not_for_motor) return {};
+    const auto loaded = sequencer::Table::load(table_);
+    if (!loaded.ok) return {};
+    const auto order = sequencer::order_of(loaded.table.term(load_result_.fault.term));
+    return registers::midi::text_of(midi_->driver().lack_of({.is_register_write = order.is_flex,
+                                                             .command = order.command,
+                                                             .reg = order.reg,
+                                                             .longword = order.longword,
+                                                             .value = order.value}));
+}
+
+Time World::next_of_motor() const {
+    if (midi_) return midi_->drive().next_event(now_);
+    Time next = line_.to_motor().next_arrival().value_or(Time::max());
+    next = std::min(next, line_.from_motor().next_arrival().value_or(Time::max()));
+    if (line_.has_waiting()) next = std::min(next, line_.to_motor().busy_until());
+    return motor_powered_ ? std::min(next, motor_asks_) : next;
 }
 
 void World::step(Time limit) {
@@ -137,6 +157,10 @@ void World::step(Time limit) {
 }
 
 void World::move_characters() {
+    if (midi_) {
+        if (midi_->drive().service(now_)) next_poll_ = now_;
+        return;
+    }
     while (const auto byte = line_.to_motor().take(now_)) {
         if (motor_powered_) mac_.receive(byte->value, byte->framing_error, instant());
     }
@@ -171,6 +195,11 @@ void World::move_mactalk_characters() {
 }
 
 void World::sample_motor() {
+    if (midi_) {
+        next_sample_ += MidiSide::kSamplePeriod;
+        if (std::exchange(motor_fails_, false)) midi_->drive().module().overload_amplifier();
+        return midi_->sample();
+    }
     next_sample_ += mac_.sample_period();
     if (!motor_powered_) return;
     mac_.sample();
@@ -196,6 +225,7 @@ void World::poll_gateway() {
     user_port_->poll(instant());
     follow_orders();
     line_.service(now_);
+    if (midi_) midi_->drive().service(now_);
     user_line_.service(now_);
     mactalk_line_.service(now_);
     next_poll_ = next_poll();
@@ -205,7 +235,7 @@ void World::poll_gateway() {
 
 /// The driver executes in the order given, and gives up all that waits behind the one under way, or all.
 void World::follow_orders() {
-    const motor::Counters& counters = driver_->counters();
+    const motor::Counters counters = motor_->counters();
     for (; followed_.orders != counters.orders && !on_their_way_.empty(); ++followed_.orders) {
         on_their_way_.pop_front();
     }
@@ -217,21 +247,23 @@ void World::follow_orders() {
 
 Snapshot World::take_snapshot() {
     const sequencer::State& state = gateway_->state();
-    return {.time = now_,
-            .step = state.step,
-            .timer = state.timer,
-            .counter = state.counter,
-            .inputs = board_.inputs(),
-            .outputs = board_.outputs(),
-            .in_position = driver_->in_position(),
-            .error = driver_->error(),
-            .p_ist = mac_.p_ist(),
-            .v_ist = mac_.v_ist(),
-            .shaft = mac_.plant().counts(),
-            .torque = mac_.torque(),
-            .link_up = motor::delivers(driver_->link()),
-            .running = gateway_->run_state() == gateway::RunState::running,
-            .orders = std::exchange(orders_, {})};
+    Snapshot snapshot{.time = now_,
+                      .step = state.step,
+                      .timer = state.timer,
+                      .counter = state.counter,
+                      .inputs = board_.inputs(),
+                      .outputs = board_.outputs(),
+                      .in_position = motor_->in_position(),
+                      .error = motor_->error(),
+                      .p_ist = mac_.p_ist(),
+                      .v_ist = mac_.v_ist(),
+                      .shaft = mac_.plant().counts(),
+                      .torque = mac_.torque(),
+                      .link_up = motor::delivers(motor_->link()),
+                      .running = gateway_->run_state() == gateway::RunState::running,
+                      .orders = std::exchange(orders_, {})};
+    if (midi_) midi_->fill(snapshot);
+    return snapshot;
 }
 
 void World::ordered(base::Instant now, const sequencer::MotorOrder& order) {
@@ -243,93 +275,6 @@ void World::ordered(base::Instant now, const sequencer::MotorOrder& order) {
 void World::scanned(base::Instant now, const sequencer::State& before, sequencer::InputImage image,
                     const sequencer::State& after) {
     if (options_.observer != nullptr) options_.observer->scanned(now, before, image, after);
-}
-
-void World::set_input(unsigned index, bool level) {
-    board_.set_input(index, level);
-    wake();
-}
-
-void World::toggle_input(unsigned index) {
-    set_input(index, (board_.inputs() >> index & 1) == 0);
-}
-
-void World::cut_line(bool cut) {
-    if (cut) {
-        line_.cut();
-    } else {
-        line_.restore();
-    }
-}
-
-void World::spoil_line(const action::SpoilLine& faults) {
-    if (faults.to_motor) spoil(line_.to_motor(), faults);
-    if (faults.from_motor) spoil(line_.from_motor(), faults);
-}
-
-void World::power_motor(bool on) {
-    if (on && !motor_powered_) {
-        mac_.surroundings().encoder_broken = false;
-        mac_.power_cycle();
-        motor_asks_ = std::max(now_, line_.from_motor().busy_until());
-    }
-    motor_powered_ = on;
-}
-
-void World::stop_motor(const action::StopMotor& stop) {
-    Load& load = mac_.plant().load();
-    const std::int64_t shaft = mac_.plant().counts();
-    const std::int64_t place = stop.above ? std::max(stop.counts, shaft) : std::min(stop.counts, shaft);
-    const bool rigid = stop.torque_per_count == 0;
-    (stop.above ? load.high_stop : load.low_stop) =
-        MechanicalStop{rigid ? place : stop.counts, std::llround(1024 * stop.torque_per_count)};
-}
-
-void World::free_motor() {
-    mac_.plant().load().low_stop.reset();
-    mac_.plant().load().high_stop.reset();
-}
-
-void World::connect_sensor(const action::MotorSensor& sensor) {
-    mac_.terminals().connect({.counts = sensor.counts, .on_above = sensor.on_above});
-}
-
-void World::set_analogue(double volts) {
-    mac_.terminals().set_analogue(static_cast<std::int32_t>(std::lround(1000 * volts)));
-}
-
-void World::set_pulses(const action::MotorPulses& pulses) {
-    mac_.terminals().set_pulse_rate(pulses.per_second, pulses.with_direction
-                                                           ? PulseFormat::pulse_and_direction
-                                                           : PulseFormat::quadrature);
-}
-
-void World::set_supply(const action::MotorSupply& supply) {
-    if (!supply.logic) {
-        mac_.supply().set_source(supply.volts);
-        return mac_.supply().settle();  // a motor at rest would never empty its bus
-    }
-    mac_.surroundings().logic_millivolts = static_cast<std::int32_t>(std::lround(1000 * supply.volts));
-}
-
-void World::gateway(action::Gateway what) {
-    wake();
-    switch (what) {
-        case action::Gateway::stop:
-            gateway_->stop(instant());
-            follow_orders();
-            return;
-        case action::Gateway::run:
-            static_cast<void>(gateway_->run());
-            return;
-        case action::Gateway::restart:
-            start_gateway(gateway::StartCause::power_up);
-            return;
-    }
-}
-
-void World::log(const std::string& text) {
-    if (on_log_) on_log_(text);
 }
 
 }  // namespace nplc::sim

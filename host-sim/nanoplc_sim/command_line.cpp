@@ -60,7 +60,7 @@ bool parse_delay(const std::string& text, LineFaults& faults) {
 
 void add_line_options(arguments::App& app, RunOptions& options) {
     const std::string share = "a share, such as 1%";
-    add_read(app, "--baud", "RATE", "rate of the line to the motor (19200)",
+    add_read(app, "--baud", "RATE", "rate of the line to the motor (19200; 38400 with a MIDI drive)",
              "a standard rate, 1200 to 921600",
              into(options.baud, [](const std::string& text) -> std::optional<std::uint32_t> {
                  const auto baud = whole<std::uint32_t>(text, 0, UINT32_MAX);
@@ -101,8 +101,17 @@ void add_run(arguments::App& parent, RunOptions& options) {
     app.add_option("--trace", options.csv, "write a trace as CSV")->type_name("T.csv");
     app.add_option("--vcd", options.vcd, "write a trace as VCD, for GTKWave")->type_name("T.vcd");
     add_read(app, "--motor", "MODEL", "the motor (the program's own; MAC140 for a table without names)",
-             "MAC50, MAC95, MAC140, MAC141 or MAC800",
-             into(options.motor, [](const std::string& text) { return registers::model_of(text); }));
+             "MAC50, MAC95, MAC140, MAC141, MAC800, or of MIDI MAC23, MAC34-1 or MAC34-2",
+             [&options](const std::string& text) {
+                 options.motor = registers::model_of(text);
+                 options.midi_motor = registers::midi::model_of(text);
+                 return options.motor || options.midi_motor;
+             });
+    add_read(app, "--midi", "LINE", "line to a MIDI drive: v24 or can (v24)", "v24 or can",
+             into(options.midi_can, [](const std::string& text) -> std::optional<bool> {
+                 if (text != "v24" && text != "can") return std::nullopt;
+                 return text == "can";
+             }));
     app.add_flag("--realtime", options.realtime, "wall-clock time; keys 0-5 toggle inputs, q ends");
     app.add_option(
            "--mactalk", options.mactalk,
@@ -139,7 +148,25 @@ void add_scan(arguments::App& parent, ScanOptions& options) {
         kExitCodes));
 }
 
+void check_midi(const RunOptions& run) {
+    if (run.midi_can && !run.midi_motor)
+        throw InputError("nanoplc-sim: --midi without a MIDI drive; add --motor MAC23, MAC34-1 or MAC34-2");
+    if (!run.midi_motor) return;
+    const auto& facts = registers::midi::facts_of(*run.midi_motor);
+    if (run.midi_can.value_or(false)) {
+        if (!facts.has_can)
+            throw InputError(fmt::format("nanoplc-sim: a {} has no CAN; leave out --midi can", facts.name));
+        if (run.baud)
+            throw InputError("nanoplc-sim: --baud is of a serial line; leave it out with --midi can");
+    } else if (run.baud && *run.baud != 9'600 && *run.baud != 19'200 && *run.baud != 38'400) {
+        throw InputError("nanoplc-sim: a MIDI drive's line has 9600, 19200 or 38400 baud");
+    }
+    if (run.rapid || run.old_register_codes)
+        throw InputError("nanoplc-sim: --rapid and --old-codes are of a JVL motor's line; leave them out");
+}
+
 void check_run(const RunOptions& run) {
+    check_midi(run);
     if (run.mactalk && !run.realtime)
         throw InputError("nanoplc-sim: --mactalk needs --realtime: outside programs live in real time");
     if (run.program.empty() && !run.flash && !run.mactalk)

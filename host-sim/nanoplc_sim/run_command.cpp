@@ -172,6 +172,11 @@ int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted
                    program.file, registers::name_of(program.names.motor), registers::name_of(*options.motor));
     }
     if (options.motor) program.names.motor = *options.motor;
+    if (options.midi_motor && program.names.motor == registers::Model::mac800)
+        throw InputError(
+            fmt::format("{}: is for a MAC800, whose registers a MIDI drive does not have; write it "
+                        "for MAC140",
+                        program.file));
     const Scenario scenario = load_scenario(options, program.names);
     if (!program.remark.empty()) fmt::print(stderr, "{}\n", program.remark);
     const auto flash = open_flash(options);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "registers/mac.h"
+#include "registers/midi.h"
 #include "sim/serial_line.h"
 #include "sim/text.h"
 
@@ -19,16 +20,20 @@ struct RunOptions {
     std::optional<std::string> mactalk;  ///< endpoint of the user's port
     std::optional<std::string> flash;    ///< file that keeps the gateway's flash
     std::optional<Time> length;
-    std::optional<registers::Model> motor;  ///< the program's own without it
+    std::optional<registers::Model> motor;             ///< the program's own without it
+    std::optional<registers::midi::Model> midi_motor;  ///< in the place of the program's
+    std::optional<bool> midi_can;                      ///< else its serial line
     bool realtime = false;
     bool quiet = false;
     bool rapid = false;
     bool old_register_codes = false;
     bool keep_motor = false;
     Time debounce = std::chrono::milliseconds{3};
-    std::uint32_t baud = 19'200;
+    std::optional<std::uint32_t> baud;  ///< 19200 of a JVL motor, 38400 of a MIDI drive
     std::uint64_t seed = 1;
     LineFaults faults;
+
+    std::uint32_t jvl_baud() const { return baud.value_or(19'200); }
 };
 
 }  // namespace nplc::sim

@@ -18,7 +18,13 @@ WorldOptions world_options(const RunOptions& options, const Names& names, ports:
     WorldOptions world;
     world.motor = names.motor;
     world.storage = storage;
-    world.baud = options.baud;
+    world.baud = options.jvl_baud();
+    if (options.midi_motor) {
+        world.midi = {.model = *options.midi_motor,
+                      .can = options.midi_can.value_or(false),
+                      .rate = options.baud.value_or(0),
+                      .seed = options.seed};
+    }
     world.seed = options.seed;
     world.faults = options.faults;
     world.safe_communication = !options.rapid;
@@ -86,6 +92,8 @@ Session::Session(const RunOptions& options, const Program& program, const Scenar
       runner_(scenario, program.names, world_),
       length_(options.length) {
     if (const auto& loaded = world_.load_result(); !loaded.ok) {
+        if (const auto why = world_.why_not(); !why.empty())
+            throw InputError(fmt::format("{}: term {}: {}", program.file, loaded.fault.term, why));
         throw InputError(fmt::format("{}: term {}: {}; write the program for {}", program.file,
                                      loaded.fault.term, sequencer::describe(loaded.fault.error),
                                      registers::name_of(program.names.motor)));
@@ -100,12 +108,13 @@ Session::Session(const RunOptions& options, const Program& program, const Scenar
 }
 
 std::string Session::doubts() const {
+    if (world_.midi() != nullptr) return {};
     struct Pair {
         store::Setting setting;
         std::uint32_t motor;
     };
     const Pair pairs[] = {
-        {store::Setting::motor_baud, options_.baud},
+        {store::Setting::motor_baud, options_.jvl_baud()},
         {store::Setting::motor_is_mac800, program_.names.motor == registers::Model::mac800 ? 1U : 0U},
         {store::Setting::old_register_codes, options_.old_register_codes ? 1U : 0U},
     };
@@ -122,15 +131,20 @@ std::string Session::doubts() const {
     return text;
 }
 
+std::string Session::motor_in_words() const {
+    if (world_.midi() != nullptr) return world_.midi()->in_words();
+    return fmt::format("{}, {} baud, {} communication", registers::name_of(program_.names.motor),
+                       world_.setting(store::Setting::motor_baud),
+                       world_.setting(store::Setting::safe_communication) == 0 ? "rapid" : "safe");
+}
+
 void Session::heading() const {
     const std::string seed =
         options_.faults == LineFaults{} ? "" : fmt::format(", faults with seed {}", options_.seed);
     const std::string names =
         program_.symbols.empty() ? "" : fmt::format(", names from {}", program_.symbols);
-    fmt::print("{}: {} terms, {}, {} baud, {} communication{}{}\n\n", program_.file,
-               world_.gateway().table().size(), registers::name_of(program_.names.motor),
-               world_.setting(store::Setting::motor_baud),
-               world_.setting(store::Setting::safe_communication) == 0 ? "rapid" : "safe", seed, names);
+    fmt::print("{}: {} terms, {}{}{}\n\n", program_.file, world_.gateway().table().size(), motor_in_words(),
+               seed, names);
     if (!options_.quiet) timeline_.heading();
 }
 
@@ -166,7 +180,8 @@ void Session::note_changes() {
         reason_ = reason;
         timeline_.remark(std::string(in_words(reason)));
     }
-    if (const auto note = world_.mac().note(); note != motor_note_) {
+    const MidiSide* midi = world_.midi();
+    if (const std::string note(midi != nullptr ? midi->note() : world_.mac().note()); note != motor_note_) {
         motor_note_ = note;
         if (!note.empty()) timeline_.alarm(fmt::format("motor: {}", note));
     }
@@ -222,14 +237,21 @@ void Session::summary() const {
     fmt::print(
         "{} scans; orders: {} executed, {} discarded; {} messages sent again, {} link losses, {} watchdog "
         "resets\n",
-        world_.gateway().scans(), driver.counters().orders, driver.counters().discarded, driver.resent(),
-        driver.counters().link_losses, world_.board().bites());
-    fmt::print("{}\n", in_words("line to the motor", world_.line().to_motor().counters()));
-    fmt::print("{}\n", in_words("line from the motor", world_.line().from_motor().counters()));
-    compare_orders();
+        world_.gateway().scans(), driver.counters().orders, driver.counters().discarded,
+        driver.counters().resent, driver.counters().link_losses, world_.board().bites());
+    lines_in_words();
     if (csv_) fmt::print("trace: {}\n", *options_.csv);
     if (vcd_) fmt::print("trace: {}\n", *options_.vcd);
     judgements();
+}
+
+void Session::lines_in_words() const {
+    const MidiSide* midi = world_.midi();
+    if (midi != nullptr && midi->is_can()) return;
+    const VirtualSerialLine& line = midi != nullptr ? midi->drive().line() : world_.line();
+    fmt::print("{}\n", in_words("line to the motor", line.to_motor().counters()));
+    fmt::print("{}\n", in_words("line from the motor", line.from_motor().counters()));
+    if (midi == nullptr) compare_orders();
 }
 
 void Session::compare_orders() const {

@@ -51,6 +51,8 @@ class Session {
     std::string doubts() const;
 
   private:
+    std::string motor_in_words() const;
+    void lines_in_words() const;
     void show();
     void note_changes();
     void summary() const;

@@ -38,7 +38,7 @@ class Diary final : public gateway::Observer {
             << " safe " << static_cast<int>(gateway.safe_reason()) << " link "
             << static_cast<int>(world.driver().link()) << " inpos " << world.driver().in_position() << " err "
             << world.driver().error() << " executed " << world.mac().orders().size() << " resent "
-            << world.driver().resent() << " events " << gateway.log().count();
+            << world.driver().counters().resent << " events " << gateway.log().count();
         if (now.str() == shown_) return;
         shown_ = now.str();
         text_ << world.now().count() << " ns " << shown_ << '\n';

@@ -138,7 +138,7 @@ Measured measure(const std::vector<MotorOrder>& orders, bool safe, std::uint32_t
         return measured;
     measured.done = world.now() - begin;
     measured.characters = world.line().to_motor().counters().sent - sent;
-    measured.not_delivered = world.driver().counters().discarded + world.driver().resent();
+    measured.not_delivered = world.driver().counters().discarded + world.driver().counters().resent;
     return measured;
 }
 

@@ -16,6 +16,7 @@
 #include "gateway/user_port.h"
 #include "motor/jvl_motor.h"
 #include "sim/mac_motor.h"
+#include "sim/midi_side.h"
 #include "sim/serial_line.h"
 #include "sim/sim_board.h"
 #include "sim/sim_storage.h"
@@ -33,6 +34,8 @@ enum class Polling : std::uint8_t {
 
 struct WorldOptions {
     registers::Model motor = registers::Model::mac140;
+    std::optional<MidiDriveOptions>
+        midi;                     ///< a MIDI drive in the motor's place; the motor stays without supply
     std::uint32_t baud = 19'200;  ///< the motor's; a standard rate. The gateway's too where nothing is stored
     std::uint64_t seed = 1;
     LineFaults faults;  ///< both directions
@@ -82,8 +85,11 @@ class World final : public Stage, private gateway::Observer {
     const gateway::Gateway& gateway() const { return *gateway_; }
     /// What the gateway said of the table; it may still not be for this motor.
     const sequencer::Table::LoadResult& load_result() const { return load_result_; }
-    const motor::JvlMotor& driver() const { return *driver_; }
+    const motor::Motor& driver() const { return *motor_; }
     const MacMotor& mac() const { return mac_; }
+    const MidiSide* midi() const { return midi_ ? &*midi_ : nullptr; }
+    /// Of a table that load_result() says is not for this motor; empty if nothing more is known.
+    std::string_view why_not() const;
     const VirtualSerialLine& line() const { return line_; }
     const SimBoard& board() const { return board_; }
 
@@ -110,10 +116,10 @@ class World final : public Stage, private gateway::Observer {
     void toggle_input(unsigned index) override;
     void cut_line(bool cut) override;
     void spoil_line(const action::SpoilLine& faults) override;
-    void seed(std::uint64_t value) override { line_.reseed(value); }
+    void seed(std::uint64_t value) override;
     void fail_motor() override { motor_fails_ = true; }
-    void load_motor(int torque) override { mac_.plant().load().torque = torque; }
-    void set_brake(int torque) override { mac_.plant().load().brake_torque = torque; }
+    void load_motor(int torque) override;
+    void set_brake(int torque) override;
     void power_motor(bool on) override;
     void stop_motor(const action::StopMotor& stop) override;
     void free_motor() override;
@@ -121,8 +127,8 @@ class World final : public Stage, private gateway::Observer {
     void set_analogue(double volts) override;
     void set_pulses(const action::MotorPulses& pulses) override;
     void set_supply(const action::MotorSupply& supply) override;
-    void set_temperature(int celsius) override { mac_.surroundings().celsius = celsius; }
-    void break_encoder() override { mac_.surroundings().encoder_broken = true; }
+    void set_temperature(int celsius) override;
+    void break_encoder() override;
     void gateway(action::Gateway what) override;
     void log(const std::string& text) override;
 
@@ -132,7 +138,10 @@ class World final : public Stage, private gateway::Observer {
                  const sequencer::State& after) override;
 
     Time next_event() const;
+    Time next_of_motor() const;
     base::Instant instant() const;
+    void start_driver();
+    void not_with_midi(const char* what);
     void start_gateway(gateway::StartCause cause);
     void start_table(bool first);
     void move_characters();
@@ -150,7 +159,9 @@ class World final : public Stage, private gateway::Observer {
     VirtualSerialLine line_;
     SimBoard board_{kWatchdogTime};
     MacMotor mac_;
+    std::optional<MidiSide> midi_;
     std::optional<motor::JvlMotor> driver_;
+    motor::Motor* motor_ = nullptr;
     std::optional<gateway::SettingsKeeper> settings_;
     std::optional<gateway::Gateway> gateway_;
     std::array<std::uint8_t, (sequencer::kMaxTerms + 1) * sequencer::kTermBytes> table_memory_{};

@@ -60,6 +60,7 @@ class MidiDrive {
     ports::SerialPort& serial() { return line_.port(); }
     VirtualCanPort& can() { return can_port_; }
     VirtualSerialLine& line() { return line_; }
+    const VirtualSerialLine& line() const { return line_; }
     MidiModule& module() { return module_; }
     const MidiModule& module() const { return module_; }
 

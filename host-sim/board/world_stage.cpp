@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "sim/world.h"
+
+namespace nplc::sim {
+
+void World::set_input(unsigned index, bool level) {
+    board_.set_input(index, level);
+    wake();
+}
+
+void World::toggle_input(unsigned index) {
+    set_input(index, (board_.inputs() >> index & 1) == 0);
+}
+
+void World::cut_line(bool cut) {
+    if (midi_) return midi_->drive().cut(cut);
+    if (cut) {
+        line_.cut();
+    } else {
+        line_.restore();
+    }
+}
+
+void World::spoil_line(const action::SpoilLine& faults) {
+    if (midi_) return midi_->spoil(faults);
+    if (faults.to_motor) spoil(line_.to_motor(), faults);
+    if (faults.from_motor) spoil(line_.from_motor(), faults);
+}
+
+void World::power_motor(bool on) {
+    if (midi_) return midi_->drive().power(on);
+    if (on && !motor_powered_) {
+        mac_.surroundings().encoder_broken = false;
+        mac_.power_cycle();
+        motor_asks_ = std::max(now_, line_.from_motor().busy_until());
+    }
+    motor_powered_ = on;
+}
+
+void World::stop_motor(const action::StopMotor& stop) {
+    if (midi_) return not_with_midi("a mechanical stop");
+    Load& load = mac_.plant().load();
+    const std::int64_t shaft = mac_.plant().counts();
+    const std::int64_t place = stop.above ? std::max(stop.counts, shaft) : std::min(stop.counts, shaft);
+    const bool rigid = stop.torque_per_count == 0;
+    (stop.above ? load.high_stop : load.low_stop) =
+        MechanicalStop{rigid ? place : stop.counts, std::llround(1024 * stop.torque_per_count)};
+}
+
+void World::free_motor() {
+    mac_.plant().load().low_stop.reset();
+    mac_.plant().load().high_stop.reset();
+}
+
+void World::connect_sensor(const action::MotorSensor& sensor) {
+    if (midi_) return not_with_midi("a home sensor");
+    mac_.terminals().connect({.counts = sensor.counts, .on_above = sensor.on_above});
+}
+
+void World::set_analogue(double volts) {
+    if (midi_) return not_with_midi("an analogue input");
+    mac_.terminals().set_analogue(static_cast<std::int32_t>(std::lround(1000 * volts)));
+}
+
+void World::set_pulses(const action::MotorPulses& pulses) {
+    if (midi_) return not_with_midi("a pulse input");
+    mac_.terminals().set_pulse_rate(pulses.per_second, pulses.with_direction
+                                                           ? PulseFormat::pulse_and_direction
+                                                           : PulseFormat::quadrature);
+}
+
+void World::set_supply(const action::MotorSupply& supply) {
+    if (midi_) {
+        midi_->drive().module().set_supply(static_cast<std::int32_t>(std::lround(1000 * supply.volts)));
+        return;
+    }
+    if (!supply.logic) {
+        mac_.supply().set_source(supply.volts);
+        return mac_.supply().settle();  // a motor at rest would never empty its bus
+    }
+    mac_.surroundings().logic_millivolts = static_cast<std::int32_t>(std::lround(1000 * supply.volts));
+}
+
+void World::seed(std::uint64_t value) {
+    line_.reseed(value);
+    if (midi_) midi_->drive().line().reseed(value);
+}
+
+void World::load_motor(int torque) {
+    if (midi_) return midi_->load(torque);
+    mac_.plant().load().torque = torque;
+}
+
+void World::set_brake(int torque) {
+    if (midi_) return not_with_midi("a brake");
+    mac_.plant().load().brake_torque = torque;
+}
+
+void World::set_temperature(int celsius) {
+    if (midi_) return midi_->drive().module().set_temperature(1000 * celsius);
+    mac_.surroundings().celsius = celsius;
+}
+
+void World::break_encoder() {
+    if (midi_) return midi_->drive().module().connect_encoder(false);
+    mac_.surroundings().encoder_broken = true;
+}
+
+/// The scenario goes on, and says so.
+void World::not_with_midi(const char* what) {
+    log(std::string("the virtual MIDI drive does not have ") + what);
+}
+
+void World::gateway(action::Gateway what) {
+    wake();
+    switch (what) {
+        case action::Gateway::stop:
+            gateway_->stop(instant());
+            follow_orders();
+            return;
+        case action::Gateway::run:
+            static_cast<void>(gateway_->run());
+            return;
+        case action::Gateway::restart:
+            start_gateway(gateway::StartCause::power_up);
+            return;
+    }
+}
+
+void World::log(const std::string& text) {
+    if (on_log_) on_log_(text);
+}
+
+}  // namespace nplc::sim
