@@ -55,6 +55,14 @@ class Running(Case):
         self.until(lambda: "the link is up and acknowledged" in service.said(), service)
         self.moves()
 
+    def test_a_fault_of_the_drive_is_told_in_words(self):
+        with open(self.path("motor.eeprom"), "w", encoding="utf-8") as file:
+            file.write("# EEPROM of a virtual MAC34-1\nupper_stop = 3000\nstops = 8\n")  # on the way to 5000
+        self.plug_in()
+        service = self.start(self.write(self.axis(table=self.table)))
+        self.until(lambda: "x: ERROR: an end-stop ended" in service.said(), service)
+        self.assertRegex(service.said(), r"x: ERROR: an end-stop [^\n]*\([^)]*upper[^)]*\)")
+
     def test_a_table_that_the_drive_cannot_do_is_refused(self):
         self.plug_in()
         with open(self.path("home.seq"), "w", encoding="utf-8") as file:

@@ -226,6 +226,16 @@ TEST(Format, ALineOfAnyLengthIsBroken) {
     EXPECT_GT(longest, 113U);  // " OR IN0" of 7 columns would not have fitted
 }
 
+/// With the comment before it the line would be broken, and then the block would not be on one line any more.
+TEST(Format, ABlockBehindAWideCommentIsLaidOutOnce) {
+    const std::string comment = "(* " + std::string(70, 'c') + " *)";
+    const std::string source =
+        "PROGRAM P\n" + comment + " STEP S: IF IN0 AND IN1 THEN OUT_ := 1; END_IF END_STEP\nEND_PROGRAM\n";
+    const std::string once = formatted(source);
+    EXPECT_EQ(formatted(once), once);
+    EXPECT_NE(once.find("STEP S:\n"), std::string::npos) << once;
+}
+
 TEST(Format, AResultThatIsNoProgramAnyMoreIsRefused) {
     // The first line is 72 columns wide, so all comments stand behind 74: 5 bytes become 77.
     std::string source = "PROGRAM P STEP S: OUT " + std::string(63, 'A');

@@ -55,7 +55,7 @@ SCRIPT = """
 for one in can0 can1; do
     /usr/bin/ip link set $one type can bitrate 125000 && /usr/bin/ip link set $one up || exit 1
 done
-./midisim --model MAC34-1 --address 5 --can can1 --eeprom eeprom &
+./midisim --model MAC34-1 --address 5 --can can1 --eeprom eeprom >sim.log 2>&1 &
 module=$!
 ./nanoplc --config nanoplc.toml 2>&1 &
 service=$!
@@ -63,7 +63,7 @@ while kill -0 $service 2>/dev/null; do
     if [ -e down ]; then rm down; /usr/bin/ip link set can0 down; fi
     if [ -e up ]; then rm up; /usr/bin/ip link set can0 up; fi
     if [ -e kill ]; then rm kill; kill -9 $module; fi
-    if [ -e start ]; then rm start; ./midisim --model MAC34-1 --address 5 --can can1 --eeprom eeprom & module=$!; fi
+    if [ -e start ]; then rm start; ./midisim --model MAC34-1 --address 5 --can can1 --eeprom eeprom >sim.log 2>&1 & module=$!; fi
     if [ -e term ]; then rm term; kill -TERM $service; fi
     sleep 0.05
 done

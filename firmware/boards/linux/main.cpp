@@ -20,15 +20,15 @@ using namespace nplc;
 using namespace nplc::boards;
 
 constexpr const char* kFooter =
-    "Runs the sequences of one or more JVL MAC motors on this board until SIGTERM or SIGINT: then outputs "
-    "get their\n"
-    "safe levels and the motors are told to stop. The configuration names, for each axis, the motor's serial "
-    "port,\n"
-    "the GPIO lines, the user's port and the first settings; the example that comes with the program "
-    "documents all\n"
-    "of it. A table is uploaded with `nanoctl --port PORT upload FILE` and kept; whatever is wrong is said "
-    "on\n"
-    "standard error, in the journal with its level.\n"
+    "Runs the sequences of one or more JVL MAC motors or MIDI Ingenierie MAC23 and MAC34 drives on this "
+    "board until\n"
+    "SIGTERM or SIGINT: then outputs get their safe levels and the motors are told to stop. The "
+    "configuration names,\n"
+    "for each axis, the motor's serial port or CAN bus, the GPIO lines, the user's port and the first "
+    "settings; the\n"
+    "example that comes with the program documents all of it. A table is uploaded with `nanoctl --port PORT "
+    "upload FILE`\n"
+    "and kept; whatever is wrong is said on standard error, in the journal with its level.\n"
     "Exit codes: 0 ended in order, or the configuration is in order; 2 wrong usage, or mistakes in the\n"
     "configuration; 3 a device, a port or the store could not be had.\n"
     "Example: nanoplc check-config /etc/nanoplc/nanoplc.toml && nanoplc --config /etc/nanoplc/nanoplc.toml";

@@ -73,6 +73,15 @@ class Shaper {
         return past(i);
     }
 
+    /// The comments that stand before a token on its line; those behind code go with that.
+    std::size_t led_by(std::size_t token) const {
+        std::size_t sum = 0;
+        std::size_t i = tokens_.place(token);
+        for (; i > 0 && items_[i].breaks == 0 && items_[i - 1].is_comment(); --i)
+            sum += width(items_[i - 1].text) + 1;
+        return i > 0 && items_[i].breaks == 0 ? 0 : sum;
+    }
+
     /// Whether tokens `first` to `last` stand on one line of the source and would fit on one here.
     bool stays_on_one_line(std::size_t first, std::size_t last, std::size_t level) const {
         if (is_end(last)) return false;
@@ -82,7 +91,7 @@ class Shaper {
             if (item.breaks > 0 || item.text.find('\n') != item.text.npos) return false;
             sum += item.blanks + width(item.text);
         }
-        return sum <= kWidestOneLiner;
+        return sum <= kWidestOneLiner && led_by(first) + sum <= kWidest;
     }
 
     /// Exactly one statement between two tokens, and no IF with more than one branch.

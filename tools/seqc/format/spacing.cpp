@@ -7,7 +7,6 @@
 namespace nplc::seqc::layout {
 namespace {
 
-constexpr std::size_t kWidest = 120;
 constexpr std::size_t kWidestAligned = 40;
 
 bool may_break_before(const std::vector<Item*>& code, std::size_t i) {
