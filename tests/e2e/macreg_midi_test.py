@@ -244,7 +244,7 @@ class Service(Case):
         self.modules("--speed", "20")
         self.told(2, "nobody is there to be asked", "address", "set", "7")
         self.assertEqual(self.reg("--yes", "address", "set", "7")["address"], 7)
-        found = self.reg("find")["modules"]
+        found = self.reg("--patience", "100", "find")["modules"]
         self.assertEqual([one["address"] for one in found], [7])
         self.assertEqual(self.reg("--address", "7", "--yes", "reset")["faults"], "")
         self.assertEqual(self.reg("--address", "7", "--yes", "baud", "19200")["baud"], 19200)
