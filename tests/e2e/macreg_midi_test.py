@@ -23,13 +23,13 @@ class Case(device_case.Case):
     def setUp(self):
         super().setUp()
         self.endpoint = "unix:" + self.path("line")
+        self.patience = "2000"  # a virtual module may be held up for long by other programs
 
     def modules(self, *arguments):
         return self.start_program(MIDISIM, "--model", "MAC34-1", *arguments, "--v24", self.endpoint)[0]
 
     def command(self, *arguments):
-        # A virtual module may be held up for long by other programs.
-        return [MACREG, "--port", self.endpoint, "--patience", "2000", *arguments[:1], "--model", "MAC34-1", *arguments[1:]]
+        return [MACREG, "--port", self.endpoint, "--patience", self.patience, *arguments[:1], "--model", "MAC34-1", *arguments[1:]]
 
     def call(self, *arguments, stdin=subprocess.DEVNULL):
         return subprocess.run(self.command("midi", *arguments), stdin=stdin, capture_output=True, text=True,
@@ -244,7 +244,9 @@ class Service(Case):
         self.modules("--speed", "20")
         self.told(2, "nobody is there to be asked", "address", "set", "7")
         self.assertEqual(self.reg("--yes", "address", "set", "7")["address"], 7)
-        found = self.reg("--patience", "100", "find")["modules"]
+        self.patience = "100"  # of each address that nobody has
+        found = self.reg("find")["modules"]
+        self.patience = "2000"
         self.assertEqual([one["address"] for one in found], [7])
         self.assertEqual(self.reg("--address", "7", "--yes", "reset")["faults"], "")
         self.assertEqual(self.reg("--address", "7", "--yes", "baud", "19200")["baud"], 19200)
