@@ -122,6 +122,11 @@ class Player {
             if (answer.kind == Kind::refused) {
                 by_18h_[axis] = answer.by_18h;
                 explain_refusal(axis);
+                if (i + 1 < kFifo)
+                    throw NotPlayed(
+                        fmt::format("axis {} refuses segments: is another motion of it under way? `macreg "
+                                    "midi stop` stops it",
+                                    addresses_[axis]));
                 return;
             }
             feed_.taken(axis);
