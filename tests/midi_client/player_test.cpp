@@ -126,6 +126,14 @@ TEST_F(OnALine, WithoutAddress00ThereIsNoCommonStart) {
     EXPECT_EQ(other.rack.module(1).position(), 0);
 }
 
+TEST_F(OnALine, AnAxisThatMovesAlreadyIsFoundBeforeAnythingElseTurns) {
+    master.command(1, midi::GO_TO, 1'000'000);
+    const std::string why = told([&] { play(master, zigzag(0, 1)); });
+    EXPECT_NE(why.find("axis 1 refuses segments"), std::string::npos) << why;
+    EXPECT_EQ(module(0).position(), 0);
+    expect_standing();
+}
+
 TEST_F(OnALine, MovesThatBeginTogether) {
     bool moved[2] = {};
     wire.on_step = [&] {

@@ -44,7 +44,7 @@ m set SPEED 300rpm TORQUE 50%
 m --address 2 move 0
 m raw 01200000000000
 m together 1=100 2=-100
-m circle --axes 1,2 --radius 2000 --speed 2000inc/s --segment 200ms --acceleration 4000inc/s2
+m circle --axes 1,2 --radius 1000 --speed 1000inc/s --segment 250ms
 m --address 2 get POSITION
 ./macreg --port can:can9 midi status 2>&1 | grep -q "there is no interface 'can9'" || { echo "can9"; exit 1; }
 kill -TERM $module

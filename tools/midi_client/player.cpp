@@ -33,9 +33,12 @@ Segment pause_of(base::Microseconds time) {
             .period = kPeriod};
 }
 
-/// The pauses that show that a module waits: while one passes, each axis must get another segment.
+/// The pauses that show that a module waits: while one passes, each axis must get another segment. Not
+/// shorter than a busy computer may be held up.
 Segment probe_for(const Link& link, std::size_t axes, base::Microseconds reserve) {
-    return pause_of(link.exchange_time() * static_cast<std::int64_t>(2 * axes) + reserve);
+    constexpr base::Microseconds kShortest{200'000};
+    return pause_of(
+        std::max(kShortest, link.exchange_time() * static_cast<std::int64_t>(2 * axes) + reserve));
 }
 
 /// Long enough to fill all FIFOs twice.
@@ -122,6 +125,11 @@ class Player {
             if (answer.kind == Kind::refused) {
                 by_18h_[axis] = answer.by_18h;
                 explain_refusal(axis);
+                if (i + 1 < kFifo)
+                    throw NotPlayed(
+                        fmt::format("axis {} refuses segments: is another motion of it under way? `macreg "
+                                    "midi stop` stops it",
+                                    addresses_[axis]));
                 return;
             }
             feed_.taken(axis);

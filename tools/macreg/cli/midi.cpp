@@ -147,8 +147,9 @@ void add_midi(arguments::App& app, Common& common) {
         ->in_range(0, 127);
     command.add_option("--model", midi->model, "MAC23, MAC34-1 or MAC34-2: for turns, volts and degrees")
         ->envname("MACREG_MIDI_MODEL");
-    command.add_option("--baud", midi->baud,
-                       "Speed of the serial line, 38400 if not said: 9600, 19200, 38400");
+    command
+        .add_option("--baud", midi->baud, "Speed of the serial line, 38400 if not said: 9600, 19200, 38400")
+        ->in_range(1U, 921'600U);
     // Its commands live as long as the command line, and so does what they refer to.
     command.callback([midi] {});
     add_midi_status(command, *midi);

@@ -78,7 +78,14 @@ void move(const MidiCommon& midi, const MoveOptions& options) {
     data_of(midi::reg::GO_TO, target);
     hold_signals();
     const base::Instant begun = session.link().now();
-    start_move(session, static_cast<std::int32_t>(target));
+    try {
+        start_move(session, static_cast<std::int32_t>(target));
+    } catch (const midi_client::Refused&) {
+        throw;
+    } catch (const std::runtime_error&) {
+        bring_to_rest(session);
+        throw;
+    }
     if (options.no_wait)
         return session.tell(fmt::format("moves to {}", midi::position_text(target, scale)),
                             {{"target", target}});

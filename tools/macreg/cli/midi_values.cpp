@@ -37,12 +37,16 @@ void list(const MidiCommon& midi) {
     command_line::tell(midi.common, text, {{"parameters", all}});
 }
 
-void get(MidiSession& session, const std::vector<std::string>& names) {
+std::vector<const Parameter*> readable(const std::vector<std::string>& names) {
     std::vector<const Parameter*> wanted;
     for (const std::string& name : names) {
         wanted.push_back(&named(name));
         if (!wanted.back()->query) throw UserError(fmt::format("{} cannot be read", wanted.back()->name));
     }
+    return wanted;
+}
+
+void get(MidiSession& session, const std::vector<const Parameter*>& wanted) {
     const midi::Scale scale = session.module().scale();
     std::string text;
     Json all = Json::array();
@@ -159,7 +163,7 @@ void limits(const MidiCommon& midi, const Limits& options) {
         all.push_back({&stops, {.raw = options.on ? (now | 8) : (now & ~std::int64_t{8})}});
     }
     if (!all.empty()) return change(session, all);
-    get(session, {"LOWER_STOP", "UPPER_STOP", "END_STOPS"});
+    get(session, readable({"LOWER_STOP", "UPPER_STOP", "END_STOPS"}));
 }
 
 }  // namespace
@@ -171,7 +175,13 @@ void add_midi_values(arguments::App& app, MidiCommon& midi) {
     const auto names = std::make_shared<std::vector<std::string>>();
     arguments::App& get_command = command_line::add_command(app, "get", "Read parameters");
     get_command.add_option("parameters", *names, "Names")->required();
-    get_command.callback([names, &midi] { midi_work(midi, [&](MidiSession& s) { get(s, *names); }); });
+    get_command.callback([names, &midi] {
+        midi_guard(midi, [&] {
+            const auto wanted = readable(*names);
+            MidiSession session(midi);
+            get(session, wanted);
+        });
+    });
 
     const auto words = std::make_shared<std::vector<std::string>>();
     arguments::App& set_command =
