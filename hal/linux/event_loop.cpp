@@ -19,7 +19,9 @@ constexpr std::uint64_t kSignals = kTimer + 1;
 
 timespec in_timespec(base::Microseconds time) {
     constexpr std::int64_t kSecond = 1'000'000;
-    return {.tv_sec = time.count() / kSecond, .tv_nsec = time.count() % kSecond * 1000};
+    // Both are of 32 bits on 32-bit Arm.
+    return {.tv_sec = static_cast<decltype(timespec::tv_sec)>(time.count() / kSecond),
+            .tv_nsec = static_cast<decltype(timespec::tv_nsec)>(time.count() % kSecond * 1000)};
 }
 
 }  // namespace

@@ -78,6 +78,10 @@ class Case(unittest.TestCase):
         process.stderr.close()
 
     def axis(self, name="x", motor="motor", port=None, table="none", more=""):
+        """Patient with the motor where nothing else is said: machines that test are busy."""
+        if "[axis.settings]" not in more:
+            more += "\n[axis.settings]\n"
+        more = more.replace("[axis.settings]\n", "[axis.settings]\nmotor_silence = 200\n")
         return (f'[[axis]]\nname = "{name}"\ntable = "{table}"\n[axis.motor]\nport = "{self.path(motor)}"\n'
                 f'[axis.user]\nport = "{port or "unix:" + self.path(name)}"\n{more}')
 

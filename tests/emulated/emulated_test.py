@@ -21,8 +21,8 @@ ARCHITECTURES = {
     "arm64": ("board", "aarch64-linux-gnu-g++", "qemu-aarch64-static"),
     "armhf": ("board-armhf", "arm-linux-gnueabihf-g++", "qemu-arm-static"),
 }
-# What an emulator of programs has not: it passes on the calls for a serial port, whose structures it does not know.
-NOT_EMULATED = {}
+# qemu-user 7.2 does not know TCSETS2, by which any speed of a serial port is set. The virtual board has real ports.
+NOT_EMULATED = {"hal_linux": "Uart.*"}
 LONGEST = 600
 
 

@@ -44,6 +44,8 @@ IN2 = "/dev/gpiochip0:2"
 [axis.outputs]
 OUT0 = "OUT_GRIP"
 OUT3 = {line = "gpiochip0:5"}
+[axis.settings]
+motor_silence = 200
 """
 # Starts it again whatever ends it, until the file `stop` is there; the files `kill` and `term` are signals.
 SCRIPT = """

@@ -90,8 +90,7 @@ class LineCheck {
     void check(const Placed& line) {
         const hal_linux::FoundLine found = hal_linux::find_line(line.text);
         if (!found.problem.empty())
-            return complain(line, has_chips_ ? found.problem
-                                             : "this machine has no GPIO chip; write \"none\" to do without");
+            return complain(line, has_chips_ ? found.problem : problem_without_chips(found.problem));
         const auto [first, is_new] = seen_.emplace(found.place, line);
         if (is_new || line_id(first->second.text) == line_id(line.text)) return;
         complain(line,
@@ -100,6 +99,11 @@ class LineCheck {
     }
 
   private:
+    static std::string problem_without_chips(const std::string& problem) {
+        return problem.substr(0, problem.find(';')) +
+               "; this machine has no GPIO chip at all, write \"none\" to do without";
+    }
+
     void complain(const Placed& line, const std::string& text) {
         missing_.push_back({line.line, line.key, text});
     }
