@@ -31,7 +31,7 @@ bool SimStorage::accepts(std::uint32_t address, std::uint32_t size, std::uint32_
 base::Status SimStorage::read(std::uint32_t address, std::span<std::uint8_t> out) {
     if (busy_ > 0) return base::Error::busy;
     if (address > geometry_.size || out.size() > geometry_.size - address) return base::Error::bad_geometry;
-    std::copy_n(bytes_.begin() + address, out.size(), out.begin());
+    std::copy_n(bytes_.data() + address, out.size(), out.begin());
     return {};
 }
 
@@ -69,9 +69,10 @@ void SimStorage::begin(const StorageOperation& operation) {
 
 void SimStorage::carry_out(const StorageOperation& operation) {
     if (operation.is_erase) {
-        std::fill_n(bytes_.begin() + operation.address, geometry_.erase_block, std::uint8_t{0xFF});
-        std::fill_n(programmed_.begin() + operation.address / geometry_.program_unit,
-                    geometry_.erase_block / geometry_.program_unit, false);
+        std::fill_n(bytes_.data() + operation.address, geometry_.erase_block, std::uint8_t{0xFF});
+        const std::uint32_t first = operation.address / geometry_.program_unit;
+        for (std::uint32_t i = 0; i < geometry_.erase_block / geometry_.program_unit; ++i)
+            programmed_[first + i] = false;
         return;
     }
     for (std::uint32_t i = 0; i < operation.bytes.size(); ++i) {
@@ -107,7 +108,7 @@ SimStorage SimStorage::torn(const StorageOperation& operation, const Tear& tear)
     const std::uint32_t done =
         std::min<std::uint32_t>(tear.bytes, static_cast<std::uint32_t>(operation.bytes.size()));
     StorageOperation whole{
-        false, operation.address, {operation.bytes.begin(), operation.bytes.begin() + done}};
+        false, operation.address, {operation.bytes.data(), operation.bytes.data() + done}};
     after.carry_out(whole);
     for (std::uint32_t i = done; i < operation.bytes.size() && i < done + geometry_.program_unit; ++i) {
         after.change(operation.address + i, operation.bytes[i], turned(tear.mask, i));

@@ -139,7 +139,8 @@ MotorConfig read_motor(Section& axis, int axis_line, Findings& findings) {
 bool is_for_jvl_only(store::Setting setting) {
     using store::Setting;
     return setting == Setting::motor_baud || setting == Setting::motor_is_mac800 ||
-           setting == Setting::safe_communication || setting == Setting::old_register_codes;
+           setting == Setting::safe_communication || setting == Setting::old_register_codes ||
+           setting == Setting::motor_silence;
 }
 
 }  // namespace nplc::boards
