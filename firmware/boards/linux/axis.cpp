@@ -25,6 +25,8 @@ constexpr store::Area kTableArea{.begin = 0, .slot_bytes = 5 * 2048};
 constexpr store::Area kSettingsArea{.begin = 10 * 2048, .slot_bytes = 2048};
 
 constexpr base::Microseconds kPace{250};
+/// Until the store is done, for a reset.
+constexpr base::Milliseconds kBetweenLooks{1};
 
 std::string line_of_file(const std::string& path) {
     std::ifstream file(path);
@@ -68,8 +70,11 @@ std::string Axis::open_store(const std::string& folder) {
             "{}: cannot be made: {}; name another state_directory, or let this user write there", folder,
             error.message());
     auto opened = hal_linux::FileStorage::open(folder + "/store.bin", kMemory);
-    storage_ = std::move(opened.storage);
-    return opened.error;
+    if (!opened.storage) return opened.error;
+    file_ = std::move(opened.storage);
+    auto background = hal_linux::BackgroundStorage::open(*file_);
+    storage_ = std::move(background.storage);
+    return background.error;
 }
 
 std::string Axis::open_lines() {
@@ -201,7 +206,7 @@ void Axis::serve(base::Instant now) {
     rest_or_watch(now);
     watch_pins(now);
     tell_news();
-    if (own_registers_->reset_asked()) reset(now);
+    if (own_registers_->reset_asked() && !stores()) reset(now);
 }
 
 /// As after a power-up. Without its ports the axis is dead; the watchdog, if there is one, restarts all.
@@ -241,6 +246,7 @@ void Axis::watch_pins(base::Instant now) {
 
 base::Instant Axis::next(base::Instant now) {
     if (failed_) return base::kNever;
+    if (own_registers_->reset_asked()) return now + kBetweenLooks;
     base::Instant next = std::min(gateway_->next_poll(now), user_port_->next_poll(now));
     next = std::min({next, rests_until_, motor_port_.next_look()});
     if (mactalk_port_) next = std::min(next, mactalk_port_->next_look());

@@ -9,6 +9,7 @@
 #include "gateway/gateway.h"
 #include "gateway/own_registers.h"
 #include "gateway/user_port.h"
+#include "hal_linux/background_storage.h"
 #include "hal_linux/event_loop.h"
 #include "hal_linux/file_storage.h"
 #include "hal_linux/gpio.h"
@@ -68,6 +69,7 @@ class Axis {
     void tell_stored_settings();
     void watch_ports();
     void rest_or_watch(base::Instant now);
+    bool stores() const { return storage_->state() == ports::StorageState::busy; }
     void reset(base::Instant now);
     void watch_pins(base::Instant now);
     std::uint32_t setting(store::Setting which) const { return settings_->at_start(which); }
@@ -78,7 +80,8 @@ class Axis {
     ports::Watchdog& watchdog_;
     std::string folder_;
 
-    std::unique_ptr<hal_linux::FileStorage> storage_;
+    std::unique_ptr<hal_linux::FileStorage> file_;
+    std::unique_ptr<hal_linux::BackgroundStorage> storage_;
     hal_linux::GpioBits input_bits_;
     hal_linux::GpioBits output_bits_;
     std::optional<hal_linux::GpioInputs> inputs_;
