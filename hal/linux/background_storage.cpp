@@ -34,8 +34,7 @@ int start_thread(pthread_t& thread, void* (*run)(void*), void* argument) {
 
 }  // namespace
 
-BackgroundStorage::BackgroundStorage(ports::Storage& target)
-    : target_(target), geometry_(target.geometry()) {
+BackgroundStorage::BackgroundStorage(ports::Storage& target) : target_(target), geometry_(target.geometry()) {
     bytes_.reserve(geometry_.program_page);
 }
 
@@ -91,7 +90,8 @@ void BackgroundStorage::work_on() {
         begun_.acquire();
         if (work_ == Work::end) return;
         const base::Status status = carry_out();
-        state_ = status && target_.state() == StorageState::ready ? StorageState::ready : StorageState::failed;
+        state_ =
+            status && target_.state() == StorageState::ready ? StorageState::ready : StorageState::failed;
         state_.notify_one();
     }
 }
