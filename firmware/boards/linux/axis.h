@@ -16,6 +16,7 @@
 #include "journal.h"
 #include "kept_uart.h"
 #include "motor/jvl_motor.h"
+#include "round_port.h"
 #include "user_door.h"
 
 namespace nplc::boards {
@@ -32,11 +33,11 @@ class Axis {
 
     /// Outputs first, at their safe levels. Empty, or one line; then nothing is held.
     std::string open(const std::string& state_directory, base::Instant now);
-    /// Two marks, `mark` and the one after it.
+    /// kMarks marks, `mark` the first of them.
     void watch(hal_linux::EventLoop& loop, std::uint32_t mark);
-    static constexpr std::uint32_t kMarks = 2;
+    static constexpr std::uint32_t kMarks = 8;  ///< serial lines, the door, six of input lines
     /// What is watched with `mark` has something to be read.
-    void knock(std::uint32_t mark) { door_knocks_ = door_knocks_ || mark != mark_; }
+    void knock(std::uint32_t mark);
 
     void serve(base::Instant now);
     /// When serve() is wanted at the latest if nothing of what is watched is readable.
@@ -68,9 +69,13 @@ class Axis {
     void tell_news();
     void tell_stored_settings();
     void watch_ports();
+    void look_at_inputs();
+    bool is_edge_alone(base::Instant now) const;
+    void run_sequence(base::Instant now);
     void rest_or_watch(base::Instant now);
     bool stores() const { return storage_->state() == ports::StorageState::busy; }
     void reset(base::Instant now);
+    void note_lost_pins();
     void watch_pins(base::Instant now);
     std::uint32_t setting(store::Setting which) const { return settings_->at_start(which); }
     hal_linux::UartSettings uart_settings(const std::string& path, std::uint32_t baud) const;
@@ -87,6 +92,7 @@ class Axis {
     std::optional<hal_linux::GpioInputs> inputs_;
     std::optional<hal_linux::GpioOutputs> outputs_;
     KeptUart motor_port_;
+    std::optional<RoundPort> motor_line_;
     std::optional<KeptUart> mactalk_port_;
     std::optional<KeptUart> user_uart_;
     std::optional<UserDoor> user_door_;
@@ -108,6 +114,8 @@ class Axis {
     hal_linux::EventLoop* loop_ = nullptr;
     std::uint32_t mark_ = 0;
     bool door_knocks_ = true;
+    bool line_knocks_ = false;
+    std::uint32_t edges_ = 0;  ///< descriptors of inputs at which some wait, bit 0 is the first
     /// The motor's line is looked at then; it does not wake us.
     base::Instant rests_until_ = base::kNever;
     std::uint32_t told_events_ = 0;
