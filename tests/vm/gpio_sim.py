@@ -17,7 +17,8 @@ mkdir -p $bank
 echo {LINES} >$bank/num_lines
 echo board >$bank/label
 echo 1 >$bank/../live
-lines=/sys/devices/platform/$(cat $bank/../dev_name)/$(cat $bank/chip_name)
+lines=/tmp/lines
+ln -s /sys/devices/platform/$(cat $bank/../dev_name)/$(cat $bank/chip_name) $lines
 simulated=$(cat $bank/chip_name)
 """
 # Obeys a Hand at a serial port.

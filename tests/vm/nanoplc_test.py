@@ -41,7 +41,8 @@ port = "/dev/ttyS0"
 port = "/dev/ttyS1"
 """
 # Starts it again whatever ends it, until the file `stop` is there; the files `kill` and `term` are signals, `away` and
-# `back` take the driver of the lines and give it back. `used` asks for the processor's time in 10 ms.
+# `back` take the driver of the lines and give it back, and the kernel gives the chip another number then. `used` asks for
+# the processor's time in 10 ms.
 SCRIPT = """
 driver=/sys/bus/DRIVER
 while [ ! -e stop ]; do
@@ -56,11 +57,11 @@ while [ ! -e stop ]; do
     done
     wait $pid
     echo "ended with $?"
-    if [ -e back ]; then rm back; echo DEVICE >$driver/bind; echo "the chip is back"; fi
+    if [ -e back ]; then rm back; echo DEVICE >$driver/bind; RENAME; echo "the chip is back"; fi
 done
 """
 # The board is emulated, and whoever emulates it busy: a lost link is a fault that the operator acknowledges.
-MOST_FAULTS = 40
+MOST_FAULTS = 100
 
 
 def join(one, other):
@@ -181,7 +182,7 @@ def lose_the_chip(machine):
     machine.vm.wait("ended with 3")
     machine.signal("back")
     machine.vm.wait("the chip is back")
-    machine.until("the sequence", lambda: machine.status()["state"] == "running")
+    machine.until("the sequence", lambda: machine.status().get("state") == "running")
     machine.cycle()
 
 
@@ -220,8 +221,10 @@ def config(lines, simulated):
 
 def script(simulated):
     if not simulated:
-        return SCRIPT.replace("DRIVER", "amba/drivers/pl061_gpio").replace("DEVICE", "9030000.pl061")
-    own = SCRIPT.replace("DRIVER", "platform/drivers/gpio-sim").replace("DEVICE", "gpio-sim.0")
+        return SCRIPT.replace("DRIVER", "amba/drivers/pl061_gpio").replace("DEVICE", "9030000.pl061").replace(
+            "RENAME", "ln -s gpiochip1 /dev/gpiochip0")
+    own = SCRIPT.replace("DRIVER", "platform/drivers/gpio-sim").replace("DEVICE", "gpio-sim.0").replace(
+        "RENAME", "ln -s gpiochip2 /dev/gpiochip1; ln -sfn /sys/devices/platform/gpio-sim.0/gpiochip2 $lines")
     return f"{gpio_sim.SCRIPT}{gpio_sim.AGENT}hand /dev/ttyS2 &\n{own}"
 
 
