@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "file_descriptor.h"
+#include "storage_bounds.h"
 
 namespace nplc::hal_linux {
 namespace {
@@ -19,33 +20,31 @@ namespace fs = std::filesystem;
 class DiskStorage final : public FileStorage {
   public:
     DiskStorage(FileDescriptor file, const ports::StorageGeometry& geometry)
-        : file_(std::move(file)), geometry_(geometry) {}
+        : file_(std::move(file)), geometry_(geometry) {
+        work_.reserve(geometry.erase_block);
+    }
 
     ports::StorageGeometry geometry() const override { return geometry_; }
 
     base::Status read(std::uint32_t address, std::span<std::uint8_t> out) override {
-        if (!inside(address, out.size())) return base::Error::bad_geometry;
+        if (!is_inside(geometry_, address, out.size())) return base::Error::bad_geometry;
         const ssize_t count = ::pread(file_.get(), out.data(), out.size(), static_cast<off_t>(address));
         if (count != static_cast<ssize_t>(out.size())) return base::Error::storage_failed;
         return {};
     }
 
     base::Status program(std::uint32_t address, std::span<const std::uint8_t> bytes) override {
-        const bool whole_units =
-            address % geometry_.program_unit == 0 && bytes.size() % geometry_.program_unit == 0;
-        const bool in_page = address % geometry_.program_page + bytes.size() <= geometry_.program_page;
-        if (!inside(address, bytes.size()) || bytes.empty() || !whole_units || !in_page)
-            return base::Error::bad_geometry;
-        std::vector<std::uint8_t> kept(bytes.size());
-        if (const auto status = read(address, kept); !status) return status;
-        for (std::size_t i = 0; i < bytes.size(); ++i) kept[i] = kept[i] & bytes[i];
-        return write(address, kept);
+        if (!may_program(geometry_, address, bytes.size())) return base::Error::bad_geometry;
+        work_.resize(bytes.size());
+        if (const auto status = read(address, work_); !status) return status;
+        for (std::size_t i = 0; i < bytes.size(); ++i) work_[i] = work_[i] & bytes[i];
+        return write(address);
     }
 
     base::Status erase(std::uint32_t address) override {
-        if (!inside(address, geometry_.erase_block) || address % geometry_.erase_block != 0)
-            return base::Error::bad_geometry;
-        return write(address, std::vector<std::uint8_t>(geometry_.erase_block, 0xFF));
+        if (!may_erase(geometry_, address)) return base::Error::bad_geometry;
+        work_.assign(geometry_.erase_block, 0xFF);
+        return write(address);
     }
 
     ports::StorageState state() override {
@@ -53,18 +52,15 @@ class DiskStorage final : public FileStorage {
     }
 
   private:
-    bool inside(std::uint32_t address, std::size_t count) const {
-        return address <= geometry_.size && count <= geometry_.size - address;
-    }
-
-    base::Status write(std::uint32_t address, std::span<const std::uint8_t> bytes) {
-        const ssize_t count = ::pwrite(file_.get(), bytes.data(), bytes.size(), static_cast<off_t>(address));
-        failed_ = count != static_cast<ssize_t>(bytes.size()) || ::fdatasync(file_.get()) != 0;
+    base::Status write(std::uint32_t address) {
+        const ssize_t count = ::pwrite(file_.get(), work_.data(), work_.size(), static_cast<off_t>(address));
+        failed_ = count != static_cast<ssize_t>(work_.size()) || ::fdatasync(file_.get()) != 0;
         return {};
     }
 
     FileDescriptor file_;
     ports::StorageGeometry geometry_;
+    std::vector<std::uint8_t> work_;
     bool failed_ = false;
 };
 

@@ -125,6 +125,7 @@ struct GpioBits::Part {
     ChipWanted wanted{};
     std::vector<std::size_t> bits{};  ///< of each line
     std::unique_ptr<ChipRequest> request{};
+    std::size_t descriptors = 0;
 
     unsigned of(unsigned levels) const {
         unsigned own = 0;
@@ -172,6 +173,7 @@ std::string GpioBits::take(const Wanted& wanted) {
         ChipRequested answer = request_lines(part.wanted);
         if (answer.request == nullptr) return refusal(part.wanted, answer);
         part.request = std::move(answer.request);
+        part.descriptors = part.request->descriptors().size();
     }
     parts_ = std::move(parts);
     return {};
@@ -202,14 +204,29 @@ std::vector<int> GpioBits::descriptors() const {
     return all;
 }
 
-void GpioBits::take_edges() {
-    for (Part& part : parts_) part.request->take_edges();
+std::optional<std::uint8_t> GpioBits::take_edges(std::size_t descriptor, std::uint8_t before) {
+    for (Part& part : parts_) {
+        if (descriptor >= part.descriptors) {
+            descriptor -= part.descriptors;
+            continue;
+        }
+        const Edges edges = part.request->take_edges(descriptor);
+        if (!edges.all) return std::nullopt;
+        return static_cast<std::uint8_t>((before & ~part.from(edges.lines)) | part.from(edges.levels));
+    }
+    return std::nullopt;
 }
 
-std::uint8_t GpioInputs::read() {
+void GpioInputs::look() {
     const std::optional<std::uint8_t> levels = bits_.levels();
     lost_ = lost_ || !levels;
-    return lost_ ? 0 : *levels;
+    levels_ = lost_ ? 0 : *levels;
+}
+
+void GpioInputs::look_at(std::size_t descriptor) {
+    const std::optional<std::uint8_t> levels = bits_.take_edges(descriptor, levels_);
+    if (!levels || lost_) return look();
+    levels_ = *levels;
 }
 
 }  // namespace nplc::hal_linux

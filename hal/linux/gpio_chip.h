@@ -12,12 +12,20 @@
 /// lines.
 namespace nplc::hal_linux {
 
-constexpr std::size_t kMostLines = 8;  ///< of one request
+constexpr std::size_t kMostLines = 8;     ///< of one request
+constexpr std::size_t kEdgesAtOnce = 16;  ///< that the kernel keeps of a line
 
 struct ChipLine {
     unsigned offset;
     bool active_low;
     GpioBias bias;
+};
+
+/// What the edges at one descriptor say of their lines.
+struct Edges {
+    unsigned lines = 0;   ///< those that had one
+    unsigned levels = 0;  ///< of these lines, after their last
+    bool all = false;     ///< no later one may be missing
 };
 
 class ChipRequest {
@@ -26,7 +34,8 @@ class ChipRequest {
     virtual std::optional<unsigned> levels() = 0;
     virtual bool set(unsigned levels) = 0;
     virtual std::vector<int> descriptors() const = 0;
-    virtual void take_edges() = 0;
+    /// Takes what waits at one of descriptors(), which must be readable.
+    virtual Edges take_edges(std::size_t descriptor) = 0;
 };
 
 struct ChipWanted {

@@ -82,14 +82,13 @@ class Request final : public ChipRequest {
         return all;
     }
 
-    void take_edges() override {
-        std::array<gpiod_line_event, 16> events{};
-        constexpr timespec kNow{};
-        for (gpiod_line* line : lines_) {
-            while (gpiod_line_event_wait(line, &kNow) > 0 &&
-                   gpiod_line_event_read_multiple(line, events.data(), events.size()) > 0) {
-            }
-        }
+    Edges take_edges(std::size_t descriptor) override {
+        std::array<gpiod_line_event, kEdgesAtOnce> events;
+        const int count = gpiod_line_event_read_multiple(lines_[descriptor], events.data(), events.size());
+        if (count <= 0) return {};
+        const auto got = static_cast<std::size_t>(count);
+        const bool level = events[got - 1].event_type == GPIOD_LINE_EVENT_RISING_EDGE;
+        return {1U << descriptor, (level ? 1U : 0U) << descriptor, got < kEdgesAtOnce};
     }
 
   private:

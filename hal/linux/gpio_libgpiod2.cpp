@@ -24,7 +24,6 @@ using RequestConfig = Owned<gpiod_request_config, gpiod_request_config_free>;
 using LineRequest = Owned<gpiod_line_request, gpiod_line_request_release>;
 using Events = Owned<gpiod_edge_event_buffer, gpiod_edge_event_buffer_free>;
 
-constexpr std::size_t kEventsAtOnce = 16;
 using Values = std::array<gpiod_line_value, kMostLines>;
 
 gpiod_line_value value_of(unsigned levels, std::size_t bit) {
@@ -63,36 +62,50 @@ bool add(gpiod_line_config* config, const ChipLine& line, const ChipWanted& all,
 
 class Request final : public ChipRequest {
   public:
-    Request(LineRequest request, std::size_t count)
-        : request_(std::move(request)), events_(gpiod_edge_event_buffer_new(kEventsAtOnce)), count_(count) {}
+    Request(LineRequest request, const std::vector<ChipLine>& lines)
+        : request_(std::move(request)), events_(gpiod_edge_event_buffer_new(kEdgesAtOnce)), lines_(lines) {}
 
     std::optional<unsigned> levels() override {
         Values values{};
         if (gpiod_line_request_get_values(request_.get(), values.data()) != 0) return std::nullopt;
         unsigned levels = 0;
-        for (std::size_t bit = 0; bit < count_; ++bit)
+        for (std::size_t bit = 0; bit < lines_.size(); ++bit)
             levels |= (values[bit] == GPIOD_LINE_VALUE_ACTIVE ? 1U : 0U) << bit;
         return levels;
     }
 
     bool set(unsigned levels) override {
         Values values{};
-        for (std::size_t bit = 0; bit < count_; ++bit) values[bit] = value_of(levels, bit);
+        for (std::size_t bit = 0; bit < lines_.size(); ++bit) values[bit] = value_of(levels, bit);
         return gpiod_line_request_set_values(request_.get(), values.data()) == 0;
     }
 
     std::vector<int> descriptors() const override { return {gpiod_line_request_get_fd(request_.get())}; }
 
-    void take_edges() override {
-        while (gpiod_line_request_wait_edge_events(request_.get(), 0) > 0 &&
-               gpiod_line_request_read_edge_events(request_.get(), events_.get(), kEventsAtOnce) > 0) {
-        }
+    Edges take_edges(std::size_t /*descriptor*/) override {
+        const int got = gpiod_line_request_read_edge_events(request_.get(), events_.get(), kEdgesAtOnce);
+        if (got <= 0) return {};
+        const auto count = static_cast<std::size_t>(got);
+        Edges edges{.all = count < kEdgesAtOnce};
+        for (std::size_t i = 0; i < count; ++i) add(edges, i);
+        return edges;
     }
 
   private:
+    void add(Edges& edges, std::size_t number) const {
+        gpiod_edge_event* event = gpiod_edge_event_buffer_get_event(events_.get(), number);
+        const unsigned offset = gpiod_edge_event_get_line_offset(event);
+        const bool level = gpiod_edge_event_get_event_type(event) == GPIOD_EDGE_EVENT_RISING_EDGE;
+        for (std::size_t bit = 0; bit < lines_.size(); ++bit) {
+            if (lines_[bit].offset != offset) continue;
+            edges.lines |= 1U << bit;
+            edges.levels = (edges.levels & ~(1U << bit)) | (level ? 1U : 0U) << bit;
+        }
+    }
+
     LineRequest request_;
     Events events_;
-    std::size_t count_;
+    std::vector<ChipLine> lines_;
 };
 
 std::string text(const char* words) {
@@ -113,7 +126,7 @@ ChipRequested request_lines(const ChipWanted& wanted) {
     }
     LineRequest request(gpiod_chip_request_lines(chip.get(), who.get(), lines.get()));
     if (request == nullptr) return {nullptr, errno};
-    return {std::make_unique<Request>(std::move(request), wanted.lines.size()), 0};
+    return {std::make_unique<Request>(std::move(request), wanted.lines), 0};
 }
 
 std::vector<LineInfo> lines_of(const std::string& path, int& error) {

@@ -69,13 +69,14 @@ class Board:
     MEMORY = "256"
     KERNEL_WORDS = ""
 
-    def __init__(self, share, command, serials=(), adapters=(), watchdog="reset", reboots=False, echo=print):
+    def __init__(self, share, command, serials=(), adapters=(), watchdog="reset", reboots=False, echo=print,
+                 more=()):
         """`command` runs in `share`, which the board has as /share. The first of `serials` is /dev/ttyS0. `adapters` are
         those on USB (FTDI); the guest says `modprobe -a xhci_pci ftdi_sio` first. `watchdog`: what it does (reset,
-        poweroff, pause, none). Without `reboots` a reset ends the board."""
+        poweroff, pause, none). Without `reboots` a reset ends the board. `more`: arguments of qemu."""
         self.share, self.watchdog, self.reboots = share, watchdog, reboots
         self.ports, self.adapters = list(serials), list(adapters)
-        self.echo = echo
+        self.echo, self.more = echo, list(more)
         self.printed = []
         self.serials = {}
         self._news = threading.Condition()
@@ -218,6 +219,7 @@ class Board:
         arguments += ["-device", "kvaser_pci,canbus=bus", "-device", "kvaser_pci,canbus=bus"]
         arguments += ["-device", "qemu-xhci", "-device", "i6300esb", "-watchdog-action", self.watchdog]
         arguments += ["-virtfs", f"local,path={self.share},mount_tag=share,security_model=none"]
+        arguments += self.more
         return arguments if self.reboots else [*arguments, "-no-reboot"]
 
     def _listener(self, name):

@@ -18,7 +18,7 @@ LIBRARIES = "libc.so.6 libm.so.6 libgpiod.so.2 libbpf.so.1 libelf.so.1 libz.so.1
 # Loaded at the start.
 MODULES = "virtio_pci 9pnet_virtio 9p can-raw vcan kvaser_pci i6300esb".split()
 # There for tests that load them themselves, with modprobe.
-MORE_MODULES = "gpio_keys xhci-pci ftdi_sio".split()
+MORE_MODULES = "gpio_keys xhci-pci ftdi_sio virtio_blk ext4 crc32c_generic configfs board_gpio".split()
 
 
 class Cpio:
@@ -56,7 +56,11 @@ class Cpio:
 
 def modules_by_name():
     found = glob.glob(os.path.join(VM, "kernel/lib/modules/*/kernel/**/*.ko"), recursive=True)
-    return {os.path.basename(path)[:-3].replace("-", "_"): path for path in found}
+    paths = {os.path.basename(path)[:-3].replace("-", "_"): path for path in found}
+    simulated = os.path.join(VM, "gpio-sim.ko")  # of fetch_gpio_sim
+    if os.path.exists(simulated):
+        paths["board_gpio"] = simulated
+    return paths
 
 
 def needed(path):

@@ -22,7 +22,16 @@ constexpr ports::StorageGeometry kMemory{
 constexpr store::Area kTableArea{.begin = 0, .slot_bytes = 5 * 2048};
 constexpr store::Area kSettingsArea{.begin = 10 * 2048, .slot_bytes = 2048};
 
+/// Marks of what is watched; serial lines have the first.
+constexpr std::uint32_t kSerialLines = 0;
+constexpr std::uint32_t kDoor = 1;
+constexpr std::uint32_t kFirstLine = 2;
+
 constexpr base::Microseconds kPace{250};
+/// Between two reads of the motor's status while nothing is under way.
+constexpr base::Milliseconds kRest{5};
+/// Until the store is done, for a reset.
+constexpr base::Milliseconds kBetweenLooks{1};
 
 std::string line_of_file(const std::string& path) {
     std::ifstream file(path);
@@ -66,8 +75,11 @@ std::string Axis::open_store(const std::string& folder) {
             "{}: cannot be made: {}; name another state_directory, or let this user write there", folder,
             error.message());
     auto opened = hal_linux::FileStorage::open(folder + "/store.bin", kMemory);
-    storage_ = std::move(opened.storage);
-    return opened.error;
+    if (!opened.storage) return opened.error;
+    file_ = std::move(opened.storage);
+    auto background = hal_linux::BackgroundStorage::open(*file_);
+    storage_ = std::move(background.storage);
+    return background.error;
 }
 
 std::string Axis::open_lines() {
@@ -126,6 +138,7 @@ std::string Axis::start(gateway::StartCause cause, base::Instant now) {
     tables_.reset();
     gateway_.reset();
     told_events_ = 0;
+    inputs_->look();
     motor::Motor& driver = motor_.start(settings_->values());
     const gateway::Gateway::Ports ports{*inputs_, *outputs_, watchdog_, driver};
     gateway_.emplace(ports, gateway::settings_of(settings_->values()), cause);
@@ -163,12 +176,13 @@ std::string Axis::load_table(base::Instant now) {
 void Axis::watch(hal_linux::EventLoop& loop, std::uint32_t mark) {
     loop_ = &loop;
     mark_ = mark;
-    for (const int descriptor : input_bits_.descriptors()) loop.watch(descriptor, mark);
+    std::uint32_t line_mark = mark + kFirstLine;
+    for (const int descriptor : input_bits_.descriptors()) loop.watch(descriptor, line_mark++);
     watch_ports();
     if (!user_door_) return;
     const bool is_terminal = config_.user_port.text.starts_with("pty:");
     loop.watch(
-        user_door_->descriptor(), mark + 1,
+        user_door_->descriptor(), mark + kDoor,
         is_terminal ? hal_linux::EventLoop::Wakes::at_news : hal_linux::EventLoop::Wakes::while_readable);
 }
 
@@ -179,13 +193,48 @@ void Axis::watch_ports() {
     if (user_uart_) loop_->watch(user_uart_->uart().descriptor(), mark_);
 }
 
+void Axis::knock(std::uint32_t mark) {
+    const std::uint32_t which = mark - mark_;
+    if (which >= kFirstLine) edges_ |= 1U << (which - kFirstLine);
+    if (which == kDoor) door_knocks_ = true;
+    if (which == kSerialLines) line_knocks_ = true;
+}
+
+/// An edge tells its line's new level, and nothing else is asked for then. All lines are looked at whenever
+/// something else is the cause, so an edge that a chip has missed is seen a little later.
+void Axis::look_at_inputs() {
+    const std::uint32_t edges = std::exchange(edges_, 0);
+    if (edges == 0) return inputs_->look();
+    for (std::size_t i = 0; i + kFirstLine < kMarks; ++i) {
+        if (((edges >> i) & 1U) != 0) inputs_->look_at(i);
+    }
+}
+
+/// While the motor's line was read a moment ago, as it is when nothing is under way.
+bool Axis::is_edge_alone(base::Instant now) const {
+    return edges_ != 0 && !line_knocks_ && motor_.was_read_since(now - kRest);
+}
+
+/// What the scan orders leaves at once; after an edge even before the motor's status is read.
+void Axis::run_sequence(base::Instant now) {
+    const bool hurries = is_edge_alone(now);
+    line_knocks_ = false;
+    look_at_inputs();
+    hurries ? motor_.shut_line() : motor_.open_line(now);
+    gateway_->poll(now);
+    motor::Motor& driver = motor_.driver();
+    if (driver.next_poll(now) <= now) driver.poll(now);
+    if (!hurries) return;
+    motor_.open_line(now);
+    driver.poll(now);
+}
+
 void Axis::serve(base::Instant now) {
     if (failed_) return;
-    input_bits_.take_edges();
+    run_sequence(now);
     if (user_door_ && (std::exchange(door_knocks_, false) || user_door_->next_turn(now) <= now))
         user_door_->take_in(now, {static_cast<std::uint8_t>(setting(Setting::gateway_address)),
                                   static_cast<std::uint8_t>(setting(Setting::motor_address))});
-    gateway_->poll(now);
     user_port_->poll(now);
     bool is_back = motor_.look(journal_, now);
     if (mactalk_port_) mactalk_port_->look(journal_, now);
@@ -194,7 +243,7 @@ void Axis::serve(base::Instant now) {
     rest_or_watch(now);
     watch_pins(now);
     tell_news();
-    if (own_registers_->reset_asked()) reset(now);
+    if (own_registers_->reset_asked() && !stores()) reset(now);
 }
 
 /// As after a power-up. Without its ports the axis is dead; the watchdog, if there is one, restarts all.
@@ -213,7 +262,6 @@ void Axis::reset(base::Instant now) {
 /// A JVL motor repeats its status without pause, 1920 bytes a second. While nothing is under way it is read
 /// every few milliseconds instead of at every byte: an edge or a message wakes the program all the same.
 void Axis::rest_or_watch(base::Instant now) {
-    constexpr base::Milliseconds kRest{5};
     const bool rested = rests_until_ != base::kNever;
     const bool is_quiet = motor_.may_rest();
     rests_until_ = is_quiet ? now + kRest : base::kNever;
@@ -221,18 +269,24 @@ void Axis::rest_or_watch(base::Instant now) {
     if (!is_quiet && rested) watch_ports();
 }
 
+/// Its descriptors are readable all the time then, and are left alone.
+void Axis::note_lost_pins() {
+    told_pins_lost_ = true;
+    for (const int descriptor : input_bits_.descriptors()) loop_->ignore(descriptor);
+    tell(LogLevel::error,
+         "SAFE: a GPIO chip is gone; its lines read 0 and nothing can be switched; restart the service "
+         "when it is back");
+}
+
 void Axis::watch_pins(base::Instant now) {
     if (!inputs_->lost() && !outputs_->lost()) return;
-    if (!told_pins_lost_)
-        tell(LogLevel::error,
-             "SAFE: a GPIO chip is gone; its lines read 0 and nothing can be switched; restart the service "
-             "when it is back");
-    told_pins_lost_ = true;
+    if (!told_pins_lost_) note_lost_pins();
     if (gateway_->run_state() != gateway::RunState::stopped) gateway_->make_safe(now);
 }
 
 base::Instant Axis::next(base::Instant now) {
     if (failed_) return base::kNever;
+    if (own_registers_->reset_asked()) return now + kBetweenLooks;
     base::Instant next = std::min(gateway_->next_poll(now), user_port_->next_poll(now));
     next = std::min({next, rests_until_, motor_.next_look()});
     if (mactalk_port_) next = std::min(next, mactalk_port_->next_look());

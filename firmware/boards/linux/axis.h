@@ -9,6 +9,7 @@
 #include "gateway/gateway.h"
 #include "gateway/own_registers.h"
 #include "gateway/user_port.h"
+#include "hal_linux/background_storage.h"
 #include "hal_linux/event_loop.h"
 #include "hal_linux/file_storage.h"
 #include "hal_linux/gpio.h"
@@ -31,11 +32,11 @@ class Axis {
 
     /// Outputs first, at their safe levels. Empty, or one line; then nothing is held.
     std::string open(const std::string& state_directory, base::Instant now);
-    /// Two marks, `mark` and the one after it.
+    /// kMarks marks, `mark` the first of them.
     void watch(hal_linux::EventLoop& loop, std::uint32_t mark);
-    static constexpr std::uint32_t kMarks = 2;
+    static constexpr std::uint32_t kMarks = 8;  ///< serial lines, the door, six of input lines
     /// What is watched with `mark` has something to be read.
-    void knock(std::uint32_t mark) { door_knocks_ = door_knocks_ || mark != mark_; }
+    void knock(std::uint32_t mark);
 
     void serve(base::Instant now);
     /// When serve() is wanted at the latest if nothing of what is watched is readable.
@@ -67,8 +68,13 @@ class Axis {
     void tell_news();
     void tell_stored_settings();
     void watch_ports();
+    void look_at_inputs();
+    bool is_edge_alone(base::Instant now) const;
+    void run_sequence(base::Instant now);
     void rest_or_watch(base::Instant now);
+    bool stores() const { return storage_->state() == ports::StorageState::busy; }
     void reset(base::Instant now);
+    void note_lost_pins();
     void watch_pins(base::Instant now);
     std::uint32_t setting(store::Setting which) const { return settings_->at_start(which); }
     hal_linux::UartSettings uart_settings(const std::string& path, std::uint32_t baud) const;
@@ -78,7 +84,8 @@ class Axis {
     ports::Watchdog& watchdog_;
     std::string folder_;
 
-    std::unique_ptr<hal_linux::FileStorage> storage_;
+    std::unique_ptr<hal_linux::FileStorage> file_;
+    std::unique_ptr<hal_linux::BackgroundStorage> storage_;
     hal_linux::GpioBits input_bits_;
     hal_linux::GpioBits output_bits_;
     std::optional<hal_linux::GpioInputs> inputs_;
@@ -104,6 +111,8 @@ class Axis {
     hal_linux::EventLoop* loop_ = nullptr;
     std::uint32_t mark_ = 0;
     bool door_knocks_ = true;
+    bool line_knocks_ = false;
+    std::uint32_t edges_ = 0;  ///< descriptors of inputs at which some wait, bit 0 is the first
     /// The motor's line is looked at then; it does not wake us.
     base::Instant rests_until_ = base::kNever;
     std::uint32_t told_events_ = 0;

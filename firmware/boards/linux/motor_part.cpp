@@ -28,7 +28,8 @@ motor::Motor& MotorPart::start(const store::SettingValues& values) {
 }
 
 motor::Motor& MotorPart::start_jvl(const store::SettingValues& values) {
-    return jvl_.emplace(uart_->uart(), gateway::driver_settings_of(values));
+    jvl_.reset();
+    return jvl_.emplace(line_.emplace(uart_->uart()), gateway::driver_settings_of(values));
 }
 
 motor::Motor& MotorPart::start_midi(registers::midi::Model model) {
@@ -72,6 +73,14 @@ bool MotorPart::look(Journal& journal, base::Instant now) {
     if (uart_) return uart_->look(journal, now);
     can_->look(journal, now);
     return false;
+}
+
+void MotorPart::open_line(base::Instant now) {
+    if (line_) line_->open(now);
+}
+
+void MotorPart::shut_line() {
+    if (line_) line_->shut();
 }
 
 bool MotorPart::may_rest() const {

@@ -13,6 +13,7 @@
 #include "motor/midi_motor.h"
 #include "motor/midi_v24_link.h"
 #include "motor_config.h"
+#include "round_port.h"
 #include "words.h"
 
 namespace nplc::boards {
@@ -38,6 +39,10 @@ class MotorPart {
     /// Status comes without pause and nothing waits for it: the line need not be watched for some
     /// milliseconds.
     bool may_rest() const;
+    /// A JVL motor's status is taken from the line only while it is open. Other lines are always.
+    void open_line(base::Instant now);
+    void shut_line();
+    bool was_read_since(base::Instant time) const { return line_ && line_->opened() >= time; }
 
   private:
     motor::Motor& start_jvl(const store::SettingValues& values);
@@ -46,6 +51,7 @@ class MotorPart {
     MotorConfig config_;
     std::optional<KeptUart> uart_;
     std::optional<KeptCan> can_;
+    std::optional<RoundPort> line_;
     std::optional<motor::JvlMotor> jvl_;
     std::optional<motor::MidiV24Link> v24_;
     std::optional<motor::MidiCanLink> on_can_;

@@ -20,7 +20,7 @@ class UserDoor final : public ports::SerialPort {
     const std::string& name() const { return server_->name(); }
     int descriptor() const { return server_->descriptor(); }
 
-    /// Takes in what has come; before the gateway is polled.
+    /// Takes in what has come; before the user's port is polled.
     void take_in(base::Instant now, const SharedLine::Addresses& addresses);
     base::Instant next_turn(base::Instant now) const;
 

@@ -54,8 +54,9 @@ class GpioBits {
 
     /// Readable while an edge waits.
     std::vector<int> descriptors() const;
-    /// Takes the edges that wait. What they led to is read by `levels`.
-    void take_edges();
+    /// Takes the edges that wait at one of them, counted from 0, which must be readable. Answers `before`
+    /// with the levels that they led to; nothing if that cannot be told from them, and then `levels` tells.
+    std::optional<std::uint8_t> take_edges(std::size_t descriptor, std::uint8_t before);
 
   private:
     struct Part;
@@ -63,15 +64,20 @@ class GpioBits {
     std::vector<Part> parts_;
 };
 
-/// Inputs. A chip that is gone reads 0, and `lost` from then on.
+/// Inputs, as they were when they were looked at last. A chip that is gone reads 0, and `lost` from then on.
 class GpioInputs final : public ports::DigitalInputs {
   public:
-    explicit GpioInputs(GpioBits& bits) : bits_(bits) {}
-    std::uint8_t read() override;
+    explicit GpioInputs(GpioBits& bits) : bits_(bits) { look(); }
+    /// At all lines.
+    void look();
+    /// At those whose edges wait at this descriptor of the bits, which must be readable.
+    void look_at(std::size_t descriptor);
+    std::uint8_t read() override { return levels_; }
     bool lost() const { return lost_; }
 
   private:
     GpioBits& bits_;
+    std::uint8_t levels_ = 0;
     bool lost_ = false;
 };
 
