@@ -34,8 +34,8 @@ enum class Polling : std::uint8_t {
 
 struct WorldOptions {
     registers::Model motor = registers::Model::mac140;
-    std::optional<MidiDriveOptions>
-        midi;                     ///< a MIDI drive in the motor's place; the motor stays without supply
+    /// A MIDI drive in the motor's place; the motor stays without supply.
+    std::optional<MidiDriveOptions> midi{};
     std::uint32_t baud = 19'200;  ///< the motor's; a standard rate. The gateway's too where nothing is stored
     std::uint64_t seed = 1;
     LineFaults faults;  ///< both directions
