@@ -10,8 +10,9 @@ namespace midi = registers::midi;
 using Kind = MidiOutcome::Kind;
 
 constexpr base::Microseconds kRetry{20'000};
-constexpr std::uint8_t kMostRefusals =
-    50;  ///< of a command that waits for standstill: a second, or a stop's time
+constexpr std::uint8_t kMostRefusals = 50;  ///< of a command that waits for standstill
+/// With a motion that nobody knows of; then it is ended.
+constexpr base::Microseconds kPatience{1'000'000};
 /// 000 §VI 00h: two seconds, and a little.
 constexpr base::Microseconds kDeaf{2'100'000};
 /// Beyond the ramp's own time.
@@ -43,7 +44,7 @@ base::Instant MidiMotor::next_poll(base::Instant now) const {
     if (phase_ == Phase::resetting) return std::min(next, deaf_until_);
     if (phase_ != Phase::down && (phase_ != Phase::up || has_work())) return now;
     next = std::min(next, next_query_);
-    if (phase_ == Phase::up && refusals_ != 0) next = std::min(next, std::max(now, retry_at_));
+    if (phase_ == Phase::up && refusals_ != 0 && retry_at_ > now) next = std::min(next, retry_at_);
     if (phase_ == Phase::up && motion_ == Motion::stopping) next = std::min(next, std::max(now, ramp_end_));
     return next;
 }
@@ -150,7 +151,7 @@ void MidiMotor::on_outcome(const MidiOutcome& outcome, base::Instant now) {
         case Kind::none:
             return;
         case Kind::accepted:
-            failures_ = repeats_ = refusals_ = 0;
+            failures_ = 0;
             return on_accepted(now);
         case Kind::value:
             failures_ = 0;
@@ -211,13 +212,7 @@ void MidiMotor::on_refused(base::Instant now) {
         case midi::RUN:
         case midi::SPEED:
         case midi::RAMP:
-            retry_at_ = now + kRetry;
-            if (refusals_ < kMostRefusals) {
-                ++refusals_;
-            } else if (now >= ramp_end_) {
-                raise(MidiFault::refused);
-            }
-            return;
+            return on_refused_motion(now);
         case midi::STOP:
             stop_wanted_ = stop_hard_ = true;
             return;
@@ -232,6 +227,15 @@ void MidiMotor::on_refused(base::Instant now) {
     raise(MidiFault::refused);
 }
 
+/// It moves, whatever was thought of it.
+void MidiMotor::on_refused_motion(base::Instant now) {
+    if (refusals_ == 0) ramp_end_ = std::max(ramp_end_, now + kPatience);
+    retry_at_ = now + kRetry;
+    motion_ = Motion::stopping;
+    steady_begun_ = goal_holds_ = false;
+    if (++refusals_ > kMostRefusals) raise(MidiFault::refused);
+}
+
 /// What cannot be brought into the module must not be tried for ever.
 void MidiMotor::forget_parameter() {
     repeats_ = 0;
@@ -243,7 +247,7 @@ void MidiMotor::forget_parameter() {
 
 void MidiMotor::on_accepted(base::Instant now) {
     status_is_new_ = steady_begun_ = measured_ = false;
-    repeats_ = refusals_ = 0;
+    repeats_ = 0;
     const auto data = message_.data;
     switch (message_.number) {
         case midi::ZERO_POSITION:
@@ -258,9 +262,11 @@ void MidiMotor::on_accepted(base::Instant now) {
             return;
         case midi::SPEED:
             period_ = static_cast<std::uint16_t>(data);
+            refusals_ = 0;
             return;
         case midi::RAMP:
             ramp_ = static_cast<std::uint8_t>(data);
+            refusals_ = 0;
             return;
         case midi::GO_TO:
             goal_ = static_cast<std::int32_t>(data);
@@ -281,6 +287,7 @@ void MidiMotor::on_accepted(base::Instant now) {
 
 void MidiMotor::begin_motion(Motion motion, base::Instant now) {
     motion_ = motion;
+    refusals_ = 0;
     doubtful_ = arrived_ = at_speed_ = goal_holds_ = false;
     next_query_ = now;
 }
@@ -288,7 +295,7 @@ void MidiMotor::begin_motion(Motion motion, base::Instant now) {
 /// 003 §IV: catching up is ended by 18h only, so a stop that takes longer than its ramp is helped on.
 void MidiMotor::begin_stop(base::Instant now) {
     stop_wanted_ = stop_hard_ = false;
-    goal_holds_ = arrived_ = at_speed_ = doubtful_ = false;
+    goal_holds_ = arrived_ = at_speed_ = doubtful_ = seen_moving_ = false;
     if (motion_ != Motion::at_rest) motion_ = Motion::stopping;
     ramp_end_ = now + ramp_time(ramp_, std::max(run_period_, period_)) + kStopLate;
     next_query_ = now;

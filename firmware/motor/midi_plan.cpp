@@ -146,6 +146,7 @@ MidiMotor::Message MidiMotor::next_command(base::Instant now) {
     }
     if (mode() == 0) return moves() ? stop_first() : Message{};
     if (refusals_ != 0 && now < retry_at_) return {};
+    if (motion_ == Motion::unknown && seen_moving_) return stop_first();
     return mode() == 1 ? next_for_run() : next_for_move();
 }
 

@@ -41,9 +41,8 @@ void MidiMotor::on_value(std::uint32_t value, base::Instant now) {
     phase_ = phase_ == Phase::down ? Phase::imax : static_cast<Phase>(static_cast<int>(phase_) + 1);
     if (phase_ != Phase::up) return;
     was_up_ = true;
-    resetting_ = arrived_ = measured_ = steady_begun_ = false;
-    motion_ = Motion::unknown;
-    run_period_ = 0;
+    resetting_ = arrived_ = measured_ = steady_begun_ = seen_moving_ = false;
+    motion_ = Motion::unknown;  // perhaps the run from before: its period stays
     next_query_ = now;
 }
 
@@ -137,17 +136,23 @@ void MidiMotor::on_position(base::Instant now) {
     if (needs_position()) check_steady(now);
 }
 
-/// Long enough for the slowest increment of a ramp, and of catching up.
+/// By how much a shaft that stands may move.
+std::int32_t MidiMotor::slack() const {
+    return motion_ == Motion::running ? 0 : kStandby;
+}
+
+/// Long enough for one increment more than the slack, the slowest of a ramp and of catching up.
 base::Microseconds MidiMotor::steady_time() const {
-    const std::int32_t slowest = 2 * std::max(run_period_, period_);
-    return base::Microseconds(std::max(slowest, 200 * std::int32_t{unstall_})) + kSurely;
+    const std::int32_t slowest =
+        std::max<std::int32_t>(2 * std::max(run_period_, period_), 200 * std::int32_t{unstall_});
+    return base::Microseconds((slack() + 1) * slowest) + kSurely;
 }
 
 void MidiMotor::check_steady(base::Instant now) {
-    const std::int32_t slack = motion_ == Motion::running ? 0 : kStandby;
     const auto away = static_cast<std::int64_t>(position_) - steady_position_;
-    if (!steady_begun_ || std::abs(away) > slack) {
+    if (!steady_begun_ || std::abs(away) > slack()) {
         if (steady_begun_ && motion_ == Motion::running) doubtful_ = false;
+        if (steady_begun_ && motion_ == Motion::unknown) seen_moving_ = true;
         steady_begun_ = true;
         steady_position_ = position_;
         steady_since_ = now;

@@ -161,7 +161,7 @@ void disturbed_runs(Way way) {
         resent += run.resent();
         if (testing::Test::HasFailure()) return;
     }
-    EXPECT_GT(motions, 1'000U);
+    EXPECT_GT(motions, 600U);
     EXPECT_GT(resent, 100U);
 }
 

@@ -332,13 +332,17 @@ TEST_F(MidiScriptTest, ARefusalWithoutATripIsTriedAgainAndThenOneError) {
     start();
     turn();
     int times = 0;
-    for (std::string text = "x"; !driver.error() && times < 200; ++times) {
-        answer("\x06\x13\x17");
-        text = until_command();
-        EXPECT_TRUE(text.empty() || text == "00150000000320") << text;
+    int stops = 0;
+    for (std::string text = "00150000000320"; !text.empty() && times < 200; text = until_command()) {
+        const bool is_run = text == "00150000000320";
+        EXPECT_TRUE(is_run || text == "00180000000000") << text;
+        (is_run ? times : stops) += 1;
+        answer(is_run ? "\x06\x13\x17" : kDone);
     }
+    EXPECT_TRUE(driver.error());
     EXPECT_EQ(driver.fault(), MidiFault::refused);
     EXPECT_EQ(times, 51);
+    EXPECT_GT(stops, 0) << "a motion that nobody knows of is ended";
     EXPECT_EQ(until_command(), "");
 }
 

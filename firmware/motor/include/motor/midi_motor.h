@@ -95,6 +95,7 @@ class MidiMotor final : public Motor {
     void on_not_taken(base::Instant now);
     void on_unclear(base::Instant now);
     void on_refused(base::Instant now);
+    void on_refused_motion(base::Instant now);
     void on_accepted(base::Instant now);
     void begin_motion(Motion motion, base::Instant now);
     void begin_stop(base::Instant now);
@@ -112,6 +113,7 @@ class MidiMotor final : public Motor {
     void not_taken_after_all();
     bool needs_position() const;
     bool is_at_goal() const;
+    std::int32_t slack() const;
     base::Microseconds steady_time() const;
     std::uint32_t error_bits() const;
     std::uint16_t read_word(unsigned number) const;
@@ -192,6 +194,7 @@ class MidiMotor final : public Motor {
     bool arrived_ = false;
     bool at_speed_ = false;
     bool steady_begun_ = false;
+    bool seen_moving_ = false;  ///< although nobody here knows why
     std::int32_t steady_position_ = 0;
     base::Instant steady_since_{};
     base::Instant ramp_end_{};  ///< of a run, or the latest end of a stop
