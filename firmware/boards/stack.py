@@ -30,7 +30,7 @@ VIRTUAL = [
     (r"firmware/store/table_check", ["nplc::gateway::TableKeeper"]),
     (r"firmware/store/", [STORAGE, "nplc::store::TableCheck", "nplc::store::SettingsStore::Check"]),
     (r"firmware/gateway/(include/gateway/)?user_port", [SERIAL, "nplc::motor::JvlMotor"]),
-    (r"firmware/gateway/", ["nplc::motor::JvlMotor", CHIP + "InputPins", CHIP + "OutputPins", CHIP + "Watchdog", STORAGE]),
+    (r"firmware/gateway/", ["nplc::motor::JvlMotor", CHIP + "InputPins", CHIP + "OutputPins", CHIP + "Watchdog"]),
 ]
 # Of an interface that no board implements: gateway/observer.h.
 OBSERVER = ("ordered", "scanned")
