@@ -55,19 +55,28 @@ std::optional<TableFault> TableRules::finish(std::size_t rest) const {
     return TableFault{rest == 0 ? base::Error::table_no_end : base::Error::table_ragged, terms_};
 }
 
-Table::LoadResult Table::load(std::span<const std::uint8_t> bytes) {
-    LoadResult result{.ok = true, .table = {}, .fault = {}};
-    Table& table = result.table;
-    table.bytes_ = bytes.data();
+std::optional<TableFault> Table::assign(std::span<const std::uint8_t> bytes) {
+    clear();
+    bytes_ = bytes.data();
     TableRules rules;
     for (; bytes.size() >= kTermBytes; bytes = bytes.subspan(kTermBytes)) {
         const TermView term = bytes.first<kTermBytes>();
-        if (const auto fault = rules.take(term)) return {.ok = false, .table = {}, .fault = *fault};
-        if (rules.ended()) return result;
-        table.note(step_of(term), table.size_);
-        table.size_ = rules.terms();
+        const auto fault = rules.take(term);
+        if (fault) clear();
+        if (fault || rules.ended()) return fault;
+        note(step_of(term), size_);
+        size_ = rules.terms();
     }
-    return {.ok = false, .table = {}, .fault = *rules.finish(bytes.size())};
+    clear();
+    return rules.finish(bytes.size());
+}
+
+Table::LoadResult Table::load(std::span<const std::uint8_t> bytes) {
+    LoadResult result;
+    const auto fault = result.table.assign(bytes);
+    result.ok = !fault;
+    if (fault) result.fault = *fault;
+    return result;
 }
 
 }  // namespace nplc::sequencer

@@ -1,74 +1,92 @@
 #!/usr/bin/env python3
-"""What each folder takes in a board's image: bytes of flash and of RAM, out of the linker's map.
+"""What each folder takes in a board's image: bytes of flash and of RAM, out of the names that the image holds.
 
 Flash is code, constants and the first values of variables. RAM is variables and the stack as stack.py computes it;
-what --not-counted names stands apart. Fails when a budget is exceeded.
+what --not-counted names stands apart. What was inlined counts where it was inlined. Fails when a budget is exceeded.
 """
 
 import argparse
 import os
 import re
+import subprocess
 import sys
 from collections import defaultdict
 
+NM = "arm-none-eabi-nm"
 LIBRARIES = "compiler's libraries"
-# " .text.name 0x0001234 0x56 path", the name perhaps on a line of its own.
-SECTION = re.compile(r"^ (\.[a-z]+)\S*\s+0x([0-9a-f]+)\s+0x([0-9a-f]+) (\S.*)$", re.MULTILINE)
-FLASH, RAM = (".text", ".rodata", ".data", ".init_array", ".vectors"), (".data", ".bss", ".noinit")
+# Namespaces and the folders that they follow; protocol's have one below for each codec.
+FOLDERS = {
+    "board": "firmware/boards", "gateway": "firmware/gateway", "motor": "firmware/motor", "protocol": "firmware/protocol",
+    "registers": "firmware/registers", "store": "firmware/store", "hal_mcu": "hal/mcu", "sequencer": "sequencer",
+    "base": "hal/base",
+}
+SYMBOL = re.compile(r"^([0-9a-f]+) ([0-9a-f]+) (\w) (.*)$", re.MULTILINE)
+FLASH, RAM = "tTrRvVwWdD", "bBdD"
+# Names of the language and the start-up, which have no namespace.
+START_UP = re.compile(r"nplc_|_GLOBAL__sub_I|__cxa_|__aeabi_atexit|__dso_handle|run_firmware|end_firmware")
 
 
-def folder_of(path, build):
-    path = path.split("(")[0]
-    relative = os.path.relpath(os.path.join(build, path), build)
-    if relative.startswith("..") or os.path.isabs(path):
+def folder_of(name):
+    name = name.replace("(anonymous namespace)", "-").split("(")[0]
+    first = re.search(r"\b(nplc|std)::(\w+)(?:::(\w+)::)?", name)
+    if first is None:
+        return "start-up" if START_UP.match(name) else LIBRARIES
+    if first[1] == "std":
         return LIBRARIES
-    return re.sub(r"/CMakeFiles/.*", "", relative) if "CMakeFiles" in relative else os.path.dirname(relative)
+    folder = FOLDERS.get(first[2]) or sys.exit(f"{name}: namespace of unknown folder; {__file__} needs a row")
+    return f"{folder}, {first[3]}" if first[2] == "protocol" else folder
 
 
-def measure(text, build):
+def measure(elf):
     """Bytes of flash and RAM by folder."""
+    listing = subprocess.run([NM, "-S", "-C", elf], check=True, capture_output=True, text=True).stdout
     sizes = defaultdict(lambda: [0, 0])
-    linked = text.split("Linker script and memory map", 1)[1]
-    linked = re.sub(r"^( \.\S+)\n\s+0x", r"\1 0x", linked, flags=re.MULTILINE)
-    for section, _, size, path in SECTION.findall(linked):
-        entry = sizes[folder_of(path, build)]
-        entry[0] += int(size, 16) * (section in FLASH)
-        entry[1] += int(size, 16) * (section in RAM)
+    seen = set()
+    for address, size, kind, name in SYMBOL.findall(listing):
+        if address in seen:
+            continue  # one constructor has several names
+        seen.add(address)
+        entry = sizes[folder_of(name)]
+        entry[0] += int(size, 16) * (kind in FLASH)
+        entry[1] += int(size, 16) * (kind in RAM)
     return sizes
+
+
+def pairs(items):
+    return [(name, int(size)) for name, size in (item.rsplit("=", 1) for item in items)]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("map")
+    parser.add_argument("elf")
     parser.add_argument("bin")
-    parser.add_argument("--build", required=True, help="the folder in which the linker ran")
     parser.add_argument("--flash", type=int, required=True, help="budget in bytes")
     parser.add_argument("--ram", type=int, required=True, help="budget in bytes")
     parser.add_argument("--stack", required=True, help="file with what stack.py printed")
     parser.add_argument("--not-counted", action="append", default=[], metavar="NAME=BYTES")
+    parser.add_argument("--row", action="append", default=[], metavar="FOLDER=BYTES", help="a row's own budget of flash")
     arguments = parser.parse_args()
 
-    with open(arguments.map, encoding="utf-8") as file:
-        sizes = measure(file.read(), arguments.build)
-    flash, ram = (sum(entry[i] for entry in sizes.values()) for i in (0, 1))
-    sizes["gaps"][0] = os.path.getsize(arguments.bin) - flash
+    sizes = measure(arguments.elf)
+    named, ram = (sum(entry[i] for entry in sizes.values()) for i in (0, 1))
     flash = os.path.getsize(arguments.bin)
+    sizes["strings, constants, gaps"][0] = flash - named
     rows = [(name, *sizes[name]) for name in sorted(sizes) if any(sizes[name])]
     with open(arguments.stack, encoding="utf-8") as file:
         stack = int(file.read().split()[0])
     rows.append(("the stack", 0, stack))
     ram += stack
-    for item in arguments.not_counted:
-        name, size = item.split("=")
-        rows.append((f"not counted: {name}", 0, -int(size)))
-        ram -= int(size)
+    for name, size in pairs(arguments.not_counted):
+        rows.append((f"not counted: {name}", 0, -size))
+        ram -= size
     rows.append(("the whole image", flash, ram))
     rows.append(("budget", arguments.flash, arguments.ram))
     print(f"  {'':34}{'flash':>8}{'RAM':>8}")
     for name, in_flash, in_ram in rows:
         print(f"  {name:34}{in_flash:8}{in_ram:8}")
-    if flash > arguments.flash or ram > arguments.ram:
-        sys.exit(f"{arguments.map}: over budget; the map shows what is largest")
+    over = [name for name, size in pairs(arguments.row) if sizes[name][0] > size]
+    if flash > arguments.flash or ram > arguments.ram or over:
+        sys.exit(f"{arguments.elf}: over budget {' '.join(over)}; {NM} -S --size-sort -C shows what is largest")
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The most stack that a board's image can need, in bytes, and the calls that need it.
 
-Reads what the compiler wrote with -fcallgraph-info=su beside the objects: each function's own need and its calls. A call
-of a virtual function can reach what VIRTUAL says of the caller's module. On the deepest path of the loop the deepest
+Reads what the compiler wrote with -fcallgraph-info=su: each function's own need and its calls. A call of a virtual
+function can reach the functions of that name that VIRTUAL says of its file. On the deepest path of the loop the deepest
 interrupt can come (all have the same priority), and on that a fault, which takes the stack anew.
 """
 
@@ -14,28 +14,26 @@ import sys
 from collections import defaultdict
 
 NODE = re.compile(r'node: \{ title: "([^"]+)" label: "([^"]*?)(?:\\n(\d+) bytes \(([\w,]+)\)[^"]*)?"')
-EDGE = re.compile(r'edge: \{ sourcename: "([^"]+)" targetname: "([^"]+)"')
+EDGE = re.compile(r'edge: \{ sourcename: "([^"]+)" targetname: "([^"]+)"(?: label: "([^"]+)")?')
+SITE = re.compile(r"(.+):(\d+):(\d+)$")
 INDIRECT = "__indirect_call"
 FILTER = "arm-none-eabi-c++filt"
 
-# Whom virtual calls of a class (of a module's, where only that is named) can reach, by their qualified names.
-SERIAL = r"nplc::hal_mcu::BufferedSerial::(read|write|transmitter_idle)"
+# Whom virtual calls can reach that stand in a file, by the classes' qualified names; of them what has the called name.
+CHIP = "nplc::hal_mcu::stellaris::"
+SERIAL = "nplc::hal_mcu::BufferedSerial"
+STORAGE = "nplc::hal_mcu::I2cMemory"
 VIRTUAL = [
-    (r"nplc::hal_mcu::BufferedSerial::", r"nplc::hal_mcu::stellaris::Uart::(wake_transmitter|line_is_idle)"),
-    (r"nplc::hal_mcu::I2cMemory::",
-     r"nplc::hal_mcu::(stellaris::I2cMaster::(begin|state|abandon)|cortex_m::SysTickClock::now)"),
-    (r"nplc::motor::", SERIAL),
-    (r"nplc::store::TableCheck::", r"nplc::gateway::TableKeeper::accepts"),
-    (r"nplc::store::Slots::(read|load|examine|crc_of|reads_back|erase_next|program_next|program_record)$",
-     r"nplc::hal_mcu::I2cMemory::"),
-    (r"nplc::store::", r"nplc::hal_mcu::I2cMemory::|nplc::store::(TableCheck|SettingsStore::Check)::"),
-    (r"nplc::gateway::UserPort::", SERIAL + "|nplc::motor::JvlMotor::longwords_only"),
-    (r"nplc::gateway::Gateway::motor_takes", r"nplc::motor::JvlMotor::can_execute"),
-    (r"nplc::gateway::Gateway::write_outputs", r"nplc::hal_mcu::stellaris::OutputPins::write"),
-    (r"nplc::gateway::|nplc::board::",
-     r"nplc::motor::JvlMotor::|nplc::hal_mcu::stellaris::(InputPins::read|OutputPins::write|Watchdog::feed)"
-     r"|nplc::hal_mcu::I2cMemory::geometry"),
+    (r"hal/mcu/(include/hal_mcu/)?buffered_serial", [CHIP + "Uart"]),
+    (r"hal/mcu/(include/hal_mcu/)?i2c_memory", [CHIP + "I2cMaster", "nplc::hal_mcu::cortex_m::SysTickClock"]),
+    (r"firmware/motor/", [SERIAL]),
+    (r"firmware/store/table_check", ["nplc::gateway::TableKeeper"]),
+    (r"firmware/store/", [STORAGE, "nplc::store::TableCheck", "nplc::store::SettingsStore::Check"]),
+    (r"firmware/gateway/(include/gateway/)?user_port", [SERIAL, "nplc::motor::JvlMotor"]),
+    (r"firmware/gateway/", ["nplc::motor::JvlMotor", CHIP + "InputPins", CHIP + "OutputPins", CHIP + "Watchdog"]),
 ]
+# Of an interface that no board implements: gateway/observer.h.
+OBSERVER = ("ordered", "scanned")
 # Pointers to functions that are called elsewhere than in virtual functions.
 POINTERS = {"nplc_reset": r"_GLOBAL__sub_I_"}
 ROOTS = r"nplc_reset$"
@@ -43,6 +41,13 @@ INTERRUPTS = r"nplc::board::on_\w+"
 FRAME = 36  # bytes that an exception takes, with alignment
 # The compiler's and the C library's, whose objects carry no such files; measured in their disassembly, rounded up.
 FOREIGN = {"memcpy": 16, "memmove": 20, "memset": 16, "memcmp": 16, "__aeabi_lmul": 0}
+
+
+def called_at(site):
+    """The name before the opening parenthesis that a place in the sources points to, then those behind it in its line."""
+    file, line, column = SITE.match(site).groups()
+    text = pathlib.Path(file).read_text(encoding="utf-8").split("\n")[int(line) - 1]
+    return [re.search(r"(\w+)$", text[: int(column) - 1])[1], *re.findall(r"(\w+)\(", text[int(column) - 1 :])]
 
 
 class Graph:
@@ -56,8 +61,8 @@ class Graph:
                     self.need[title], self.name[title] = int(size), label
                     if kind == "dynamic":
                         sys.exit(f"{label}: its need is not bounded")
-            for source, target in EDGE.findall(text):
-                self.calls[source].add(target)
+            for source, target, site in EDGE.findall(text):
+                self.calls[source].add((target, site if target == INDIRECT else ""))
         titles = sorted(self.name)
         names = subprocess.run([FILTER], input="\n".join(t.rsplit(":", 1)[-1] for t in titles), check=True, capture_output=True, text=True).stdout
         self.plain = {t: n.replace("(anonymous namespace)::", "").split("(")[0] for t, n in zip(titles, names.split("\n"))}
@@ -72,15 +77,26 @@ class Graph:
 
     def reached(self, title):
         """What a function calls."""
-        for target in self.calls[title]:
+        for target, site in self.calls[title]:
             if target != INDIRECT:
                 yield target
-                continue
-            name = self.qualified(title)
-            pattern = POINTERS.get(title) or next((to for of, to in VIRTUAL if re.match(of, name)), None)
-            if pattern is None:
-                sys.exit(f"{name}: a virtual call of unknown targets; VIRTUAL in {sys.argv[0]} needs a row")
-            yield from self.matching(pattern)
+            elif title in POINTERS:
+                yield from self.matching(POINTERS[title])
+            else:
+                yield from self.virtual(title, site)
+
+    def virtual(self, title, site):
+        """What the virtual call at a place in the sources can reach."""
+        classes = next((classes for of, classes in VIRTUAL if re.search(r"(^|/)" + of, site)), None)
+        if classes is None:
+            sys.exit(f"{self.qualified(title)}: {site}: a virtual call of unknown targets; VIRTUAL in {sys.argv[0]} needs a row")
+        names = called_at(site)
+        if names[0] in OBSERVER:
+            return []
+        for name in names:
+            if found := [target for owner in classes for target in self.matching(rf"{owner}::{name}(\.|$)")]:
+                return found
+        return sys.exit(f"{self.qualified(title)}: {site}: nobody of {', '.join(classes)} has what is called there")
 
     def deepest(self, title, above=()):
         """Bytes and the path."""
@@ -98,19 +114,12 @@ class Graph:
         return self.known[title]
 
 
-def call_graph(object_file):
-    return object_file.with_suffix(".ci")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folders", nargs="+", type=pathlib.Path, help="where the compiler put its .ci files")
+    parser.add_argument("graphs", nargs="+", type=pathlib.Path, help="the compiler's .ci files")
     parser.add_argument("--at-most", type=int, required=True, help="bytes that there are")
     arguments = parser.parse_args()
-    missing = [file for folder in arguments.folders for file in folder.rglob("*.cpp.obj") if not call_graph(file).exists()]
-    if missing:
-        sys.exit(f"{missing[0]} and {len(missing) - 1} more have no call graph; build anew: remove {arguments.folders[0]}")
-    graph = Graph(sorted(file for folder in arguments.folders for file in folder.rglob("*.ci")))
+    graph = Graph(arguments.graphs)
     loop, path = max(graph.deepest(title) for title in graph.matching(ROOTS))
     interrupt, on_top = max(graph.deepest(title) for title in graph.matching(INTERRUPTS))
     total = loop + FRAME + interrupt + FRAME

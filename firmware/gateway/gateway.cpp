@@ -43,23 +43,20 @@ Gateway::Gateway(const Ports& ports, const Settings& settings, StartCause cause)
     }
 }
 
-sequencer::Table::LoadResult Gateway::load(std::span<const std::uint8_t> bytes, base::Instant now) {
-    const bool stopped = run_state_ == RunState::stopped;
-    // One result only: a second one takes 800 bytes of a small stack.
-    auto result = stopped ? sequencer::Table::load(bytes)
-                          : sequencer::Table::LoadResult{
-                                .ok = false, .table = {}, .fault = {base::Error::not_stopped, 0}};
-    if (!stopped) return result;
-    if (result.ok) refuse_if_not_for_motor(result);
-    table_ = result.table;
+Gateway::LoadResult Gateway::load(std::span<const std::uint8_t> bytes, base::Instant now) {
+    if (run_state_ != RunState::stopped) return {.fault = {base::Error::not_stopped, 0}};
+    auto fault = table_.assign(bytes);
+    if (!fault) fault = fault_for_motor();
     engine_.reset();
-    if (!result.ok) {
+    if (fault) {
+        table_.clear();
         enter_safe_state(SafeReason::bad_table, now);
     } else if (starting_up_ && settings_.autostart) {
         start_by_itself(now);
     }
     starting_up_ = false;
-    return result;
+    if (fault) return {.fault = *fault};
+    return {.ok = true};
 }
 
 /// The pin itself, since nothing was debounced yet. Without it nothing stays armed.
@@ -70,14 +67,12 @@ void Gateway::start_by_itself(base::Instant now) {
         set_safe_reason(SafeReason::enable_lost, now);
 }
 
-void Gateway::refuse_if_not_for_motor(sequencer::Table::LoadResult& loaded) const {
-    for (std::size_t i = 0; i < loaded.table.size(); ++i) {
-        if (motor_takes(loaded.table.term(i))) continue;
-        loaded.ok = false;
-        loaded.table.clear();
-        loaded.fault = {base::Error::not_for_motor, static_cast<std::uint16_t>(i)};
-        return;
+std::optional<sequencer::TableFault> Gateway::fault_for_motor() const {
+    for (std::size_t i = 0; i < table_.size(); ++i) {
+        if (!motor_takes(table_.term(i)))
+            return sequencer::TableFault{base::Error::not_for_motor, static_cast<std::uint16_t>(i)};
     }
+    return std::nullopt;
 }
 
 void Gateway::read_inputs(base::Instant now) {

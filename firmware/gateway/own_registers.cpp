@@ -50,8 +50,8 @@ std::uint32_t OwnRegisters::value(std::uint8_t reg, base::Instant now) const {
     if (reg >= STATUS && reg <= RESULT) return live_value(reg, now);
     if (reg >= LINK_LOSSES && reg <= REFUSED) return count_value(reg);
     if (reg >= SETTINGS) {
-        const store::SettingInfo* info = store::find_setting(static_cast<std::uint8_t>(reg - SETTINGS));
-        return info == nullptr ? 0 : settings_.get(info->id);
+        const auto id = static_cast<std::uint8_t>(reg - SETTINGS);
+        return store::is_setting(id) ? settings_.get(store::Setting{id}) : 0;
     }
     return table_value(reg);
 }

@@ -88,11 +88,10 @@ void SettingsKeeper::attach(Gateway& gateway) {
 }
 
 Result SettingsKeeper::set(std::uint8_t id, std::uint32_t value) {
-    const store::SettingInfo* info = store::find_setting(id);
-    if (info == nullptr) return Result::no_register;
+    if (!store::is_setting(id)) return Result::no_register;
     if (gateway_->run_state() != RunState::stopped) return Result::not_stopped;
     store::SettingValues values = values_;
-    if (!values.set(info->id, value)) return Result::bad_value;
+    if (!values.set(store::Setting{id}, value)) return Result::bad_value;
     if (values.get(Setting::gateway_address) == values.get(Setting::motor_address)) return Result::bad_value;
     values_ = values;
     static_cast<void>(gateway_->change(settings_of(values_)));

@@ -23,15 +23,15 @@ void TableKeeper::start(base::Instant now) {
     gateway_.end_start_up();
 }
 
-sequencer::Table::LoadResult TableKeeper::use(std::span<const std::uint8_t> table, base::Instant now) {
+Gateway::LoadResult TableKeeper::use(std::span<const std::uint8_t> table, base::Instant now) {
     const std::size_t length = std::min(table.size(), memory_.size());
     std::copy_n(table.begin(), length, memory_.begin());
     return take(length, now);
 }
 
-sequencer::Table::LoadResult TableKeeper::take(std::size_t length, base::Instant now) {
+Gateway::LoadResult TableKeeper::take(std::size_t length, base::Instant now) {
     const auto result = gateway_.load(memory_.first(length), now);
-    active_ = result.ok ? memory_.first((result.table.size() + 1) * sequencer::kTermBytes)
+    active_ = result.ok ? memory_.first((gateway_.table().size() + 1) * sequencer::kTermBytes)
                         : std::span<const std::uint8_t>();
     active_crc_ = active_.empty() ? 0 : base::crc32(active_);
     return result;

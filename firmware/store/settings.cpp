@@ -49,6 +49,25 @@ constexpr std::array<SettingInfo, kSettings> kAll{{
      "silence of the motor that is a lost link; from the next reset on if kept"},
 }};
 
+/// What the firmware needs of a setting: a board that shows no names has none in its memory.
+struct Rule {
+    std::uint32_t initial;
+    std::uint32_t lowest;
+    std::uint32_t highest;
+    bool has_none;
+};
+
+constexpr std::array<Rule, kSettings> kRules = [] {
+    std::array<Rule, kSettings> rules{};
+    for (std::size_t i = 0; i < rules.size(); ++i)
+        rules[i] = {kAll[i].initial, kAll[i].lowest, kAll[i].highest, kAll[i].has_none};
+    return rules;
+}();
+
+constexpr bool is_rate(Setting setting) {
+    return setting == Setting::user_baud || setting == Setting::motor_baud;
+}
+
 }  // namespace
 
 const std::array<SettingInfo, kSettings>& all_settings() {
@@ -56,7 +75,7 @@ const std::array<SettingInfo, kSettings>& all_settings() {
 }
 
 const SettingInfo* find_setting(std::uint8_t id) {
-    return id >= 1 && id <= kAll.size() ? &kAll[id - 1U] : nullptr;
+    return is_setting(id) ? &kAll[id - 1U] : nullptr;
 }
 
 bool is_standard_rate(std::uint32_t baud) {
@@ -65,30 +84,33 @@ bool is_standard_rate(std::uint32_t baud) {
     return std::find(kRates.begin(), kRates.end(), baud) != kRates.end();
 }
 
-bool is_allowed(const SettingInfo& info, std::uint32_t value) {
-    const bool is_rate = info.id == Setting::user_baud || info.id == Setting::motor_baud;
-    if (is_rate && !is_standard_rate(value)) return false;
-    return (value >= info.lowest && value <= info.highest) || (info.has_none && value == kNone);
+bool is_setting(std::uint8_t id) {
+    return id >= 1 && id <= kRules.size();
+}
+
+bool is_allowed(Setting setting, std::uint32_t value) {
+    const auto id = static_cast<std::uint8_t>(setting);
+    if (!is_setting(id) || (is_rate(setting) && !is_standard_rate(value))) return false;
+    const Rule& rule = kRules[id - 1U];
+    return (value >= rule.lowest && value <= rule.highest) || (rule.has_none && value == kNone);
 }
 
 SettingValues::SettingValues() {
-    for (const SettingInfo& info : kAll) values_[index(info.id)] = info.initial;
+    for (std::size_t i = 0; i < values_.size(); ++i) values_[i] = kRules[i].initial;
 }
 
 base::Status SettingValues::set(Setting setting, std::uint32_t value) {
-    const SettingInfo* info = find_setting(static_cast<std::uint8_t>(setting));
-    if (info == nullptr || !is_allowed(*info, value)) return base::Error::bad_setting;
+    if (!is_allowed(setting, value)) return base::Error::bad_setting;
     values_[index(setting)] = value;
     return {};
 }
 
 std::array<std::uint8_t, kMaxSettingsBytes> encode(const SettingValues& values) {
     std::array<std::uint8_t, kMaxSettingsBytes> bytes{};
-    std::size_t at = 0;
-    for (const SettingInfo& info : kAll) {
-        bytes[at] = static_cast<std::uint8_t>(info.id);
-        base::store_u32(&bytes[at + 1], values.get(info.id));
-        at += kSettingBytes;
+    for (std::size_t i = 0; i < kSettings; ++i) {
+        const auto id = static_cast<std::uint8_t>(i + 1);
+        bytes[i * kSettingBytes] = id;
+        base::store_u32(&bytes[i * kSettingBytes + 1], values.get(Setting{id}));
     }
     return bytes;
 }
@@ -96,7 +118,7 @@ std::array<std::uint8_t, kMaxSettingsBytes> encode(const SettingValues& values) 
 base::Result<SettingValues> decode_settings(std::span<const std::uint8_t> bytes) {
     SettingValues values;
     for (; bytes.size() >= kSettingBytes; bytes = bytes.subspan(kSettingBytes)) {
-        if (find_setting(bytes[0]) == nullptr) continue;
+        if (!is_setting(bytes[0])) continue;
         const auto status = values.set(static_cast<Setting>(bytes[0]), base::load_u32(&bytes[1]));
         if (!status) return status.error();
     }

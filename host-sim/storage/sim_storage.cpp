@@ -125,7 +125,7 @@ std::vector<Tear> tears_of(const StorageOperation& operation, const ports::Stora
     std::vector<Tear> tears;
     if (operation.is_erase) {
         const std::uint32_t block = geometry.erase_block;
-        for (const std::uint32_t bytes : {block, block / 2, 1U, 0U}) {
+        for (const std::uint32_t bytes : std::initializer_list<std::uint32_t>{block, block / 2, 1U, 0U}) {
             for (const std::uint8_t mask : kEraseMasks) tears.push_back({bytes, false, mask});
             tears.push_back({bytes, true, 0x24});
         }

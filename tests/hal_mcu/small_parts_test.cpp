@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "hal_mcu/crash_record.h"
 #include "hal_mcu/interrupt_ring.h"
-#include "hal_mcu/last_words.h"
 #include "hal_mcu/tick_time.h"
 
 namespace nplc::hal_mcu {
@@ -38,15 +38,15 @@ TEST(TickTime, NeverRunsBack) {
     EXPECT_EQ(time.at(6, 4), Instant(Microseconds(6'004)));
 }
 
-TEST(LastWords, AreKnownFromWhatMemoryHoldsAfterPowerUp) {
-    LastWords words{};
-    EXPECT_FALSE(words.valid());
-    words.leave(EndCause::bus_fault, 0x1234);
-    LastWords kept = words;
+TEST(CrashRecord, IsKnownFromWhatMemoryHoldsAfterPowerUp) {
+    CrashRecord record{};
+    EXPECT_FALSE(record.valid());
+    record.set(EndCause::bus_fault, 0x1234);
+    CrashRecord kept = record;
     EXPECT_TRUE(kept.valid());
     EXPECT_EQ(kept.cause(), EndCause::bus_fault);
     EXPECT_EQ(kept.code_address(), 0x1234U);
-    kept.forget();
+    kept.clear();
     EXPECT_FALSE(kept.valid());
     EXPECT_EQ(kept.cause(), EndCause::none);
 }

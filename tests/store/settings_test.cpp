@@ -24,7 +24,7 @@ TEST(Settings, AreListedByNumberWithInitialValuesThatAreAllowed) {
         const SettingInfo& info = all_settings()[i];
         EXPECT_EQ(static_cast<std::size_t>(info.id), i + 1);
         EXPECT_EQ(find_setting(static_cast<std::uint8_t>(i + 1)), &info);
-        EXPECT_TRUE(is_allowed(info, info.initial)) << info.name;
+        EXPECT_TRUE(is_allowed(info.id, info.initial)) << info.name;
         EXPECT_FALSE(info.help.empty());
         EXPECT_TRUE(names.insert(info.name).second) << info.name;
         EXPECT_EQ(SettingValues().get(info.id), info.initial);

@@ -6,8 +6,8 @@
 #include "hal_mcu/cortex_m/core.h"
 #include "hal_mcu/cortex_m/start.h"
 #include "hal_mcu/cortex_m/systick_clock.h"
+#include "hal_mcu/crash_record.h"
 #include "hal_mcu/i2c_memory.h"
-#include "hal_mcu/last_words.h"
 #include "hal_mcu/stellaris/i2c_master.h"
 #include "hal_mcu/stellaris/pins.h"
 #include "hal_mcu/stellaris/system_clock.h"
@@ -21,8 +21,8 @@ namespace {
 
 namespace core = hal_mcu::cortex_m;
 namespace chip = hal_mcu::stellaris;
+using hal_mcu::CrashRecord;
 using hal_mcu::EndCause;
-using hal_mcu::LastWords;
 
 /// Of the 32 KiB: the settings behind the table.
 constexpr store::Area kTableArea{.begin = 0, .slot_bytes = 8 * 1024};
@@ -43,7 +43,7 @@ struct SafeLevels {
     }
 };
 
-[[gnu::section(".noinit")]] LastWords last_words;
+[[gnu::section(".noinit")]] CrashRecord crash_record;
 [[gnu::section(".noinit")]] SafeLevels safe_levels;
 
 core::SysTickClock board_clock;
@@ -60,7 +60,7 @@ std::array<std::uint8_t, (sequencer::kMaxTerms + 1) * sequencer::kTermBytes> tab
 [[noreturn]] void give_up(EndCause cause, std::uint32_t code_address) {
     core::forbid_interrupts();
     outputs.write(safe_levels.get());
-    last_words.leave(cause, code_address);
+    crash_record.set(cause, code_address);
     core::reset();
 }
 
@@ -78,15 +78,15 @@ void begin_chip() {
 
 gateway::StartCause start_cause() {
     const bool bitten = chip::take_watchdog_reset();
-    if (bitten && !last_words.valid()) last_words.leave(EndCause::watchdog, 0);
-    return last_words.valid() ? gateway::StartCause::watchdog : gateway::StartCause::power_up;
+    if (bitten && !crash_record.valid()) crash_record.set(EndCause::watchdog, 0);
+    return crash_record.valid() ? gateway::StartCause::watchdog : gateway::StartCause::power_up;
 }
 
-void tell_last_words(gateway::Gateway& sequence) {
-    if (!last_words.valid()) return;
-    sequence.note(gateway::Event::gave_up, static_cast<std::uint16_t>(last_words.cause()));
-    sequence.note(gateway::Event::gave_up_at, static_cast<std::uint16_t>(last_words.code_address()));
-    last_words.forget();
+void note_crash(gateway::Gateway& sequence) {
+    if (!crash_record.valid()) return;
+    sequence.note(gateway::Event::gave_up, static_cast<std::uint16_t>(crash_record.cause()));
+    sequence.note(gateway::Event::gave_up_at, static_cast<std::uint16_t>(crash_record.code_address()));
+    crash_record.clear();
 }
 
 /// Longer than a scan may wait for the motor, which a user can change.
@@ -104,9 +104,9 @@ void rest() {
 
 /// The answer to the reset command shall leave the line, if it takes it.
 [[noreturn]] void restart() {
-    constexpr base::Milliseconds kLongestFarewell{20};
+    constexpr base::Milliseconds kLongestAnswer{20};
     const base::Instant asked = board_clock.now();
-    while (!user_line.transmitter_idle() && board_clock.now() - asked < kLongestFarewell) rest();
+    while (!user_line.transmitter_idle() && board_clock.now() - asked < kLongestAnswer) rest();
     core::reset();
 }
 
@@ -142,7 +142,7 @@ void on_i2c0() {
     static gateway::Gateway sequence({inputs, outputs, watchdog, drive},
                                      gateway::settings_of(settings.values()), start_cause());
     settings.attach(sequence);
-    tell_last_words(sequence);
+    note_crash(sequence);
     static gateway::TableKeeper tables(sequence, drive, memory, kTableArea, table);
     static gateway::OwnRegisters registers(sequence, tables, settings);
     static gateway::UserPort user_port(user_line, &motor_mactalk_line, sequence, drive, registers, settings);

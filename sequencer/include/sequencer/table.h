@@ -56,6 +56,8 @@ class Table {
     /// bad_next_step (FastMAC format, NEXT_STATE 3Fh), bad_register (FlexMAC format, register 0).
     struct LoadResult;
     [[nodiscard]] static LoadResult load(std::span<const std::uint8_t> bytes);
+    /// The same into this table, whatever it was; the fault if there is one.
+    [[nodiscard]] std::optional<TableFault> assign(std::span<const std::uint8_t> bytes);
 
     void clear() {
         size_ = 0;

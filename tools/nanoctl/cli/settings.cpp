@@ -77,7 +77,7 @@ Assignment parse(const std::string& text) {
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     const bool is_number = error == std::errc() && end == digits.data() + digits.size() && !digits.empty();
     const bool is_none = info.has_none && digits == "none";
-    if (!(is_none || is_number) || !store::is_allowed(info, is_none ? store::kNone : value))
+    if (!(is_none || is_number) || !store::is_allowed(info.id, is_none ? store::kNone : value))
         throw UserError(fmt::format("'{}': {} is {}", text, info.name, range_text(info)));
     return {&info, is_none ? store::kNone : value};
 }

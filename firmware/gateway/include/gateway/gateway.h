@@ -56,6 +56,11 @@ class Gateway {
         motor::Motor& motor;
     };
 
+    struct LoadResult {
+        bool ok = false;
+        sequencer::TableFault fault{};  ///< when not ok
+    };
+
     Gateway(const Ports& ports, const Settings& settings, StartCause cause);
     Gateway(const Gateway&) = delete;
     Gateway& operator=(const Gateway&) = delete;
@@ -63,7 +68,7 @@ class Gateway {
     /// Makes a table the current one; only while stopped, and only if the motor has all its orders (else
     /// not_for_motor). The bytes must stay where they are. On a fault the
     /// safe state is entered with bad_table, and nothing can run until a good table is loaded.
-    sequencer::Table::LoadResult load(std::span<const std::uint8_t> bytes, base::Instant now);
+    LoadResult load(std::span<const std::uint8_t> bytes, base::Instant now);
 
     /// The start-up is over: no table starts by itself any more.
     void end_start_up() { starting_up_ = false; }
@@ -163,7 +168,7 @@ class Gateway {
     void enter_safe_state(SafeReason reason, base::Instant now);
     void set_safe_reason(SafeReason reason, base::Instant now);
     static motor::Order to_motor(const sequencer::MotorOrder& order);
-    void refuse_if_not_for_motor(sequencer::Table::LoadResult& loaded) const;
+    std::optional<sequencer::TableFault> fault_for_motor() const;
     void start_by_itself(base::Instant now);
     void start_when_ready(base::Instant now);
     void watch_link(base::Instant now);

@@ -29,7 +29,7 @@ class TableKeeper final : private store::TermCheck {
     /// itself: the gateway is stopped with bad_table until run().
     void start(base::Instant now);
     /// Or: `table` becomes the active one.
-    sequencer::Table::LoadResult use(std::span<const std::uint8_t> table, base::Instant now);
+    Gateway::LoadResult use(std::span<const std::uint8_t> table, base::Instant now);
 
     void poll();
     /// Of poll(): when it has something to do for the store.
@@ -64,7 +64,7 @@ class TableKeeper final : private store::TermCheck {
   private:
     bool accepts(sequencer::TermView term) const override { return gateway_.motor_takes(term); }
     Outcome load_stored(base::Instant now);
-    sequencer::Table::LoadResult take(std::size_t length, base::Instant now);
+    Gateway::LoadResult take(std::size_t length, base::Instant now);
 
     Gateway& gateway_;
     std::span<std::uint8_t> memory_;

@@ -57,7 +57,9 @@ const std::array<SettingInfo, kSettings>& all_settings();
 const SettingInfo* find_setting(std::uint8_t id);
 /// Of a speed: 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800 or 921600 baud.
 bool is_standard_rate(std::uint32_t baud);
-bool is_allowed(const SettingInfo& info, std::uint32_t value);
+bool is_setting(std::uint8_t id);
+/// False too for what is no setting.
+bool is_allowed(Setting setting, std::uint32_t value);
 
 /// A value for every setting; always an allowed one.
 class SettingValues {

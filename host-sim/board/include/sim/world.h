@@ -84,7 +84,7 @@ class World final : public Stage, private gateway::Observer {
 
     const gateway::Gateway& gateway() const { return *gateway_; }
     /// What the gateway said of the table; it may still not be for this motor.
-    const sequencer::Table::LoadResult& load_result() const { return load_result_; }
+    const gateway::Gateway::LoadResult& load_result() const { return load_result_; }
     const motor::Motor& driver() const { return *motor_; }
     const MacMotor& mac() const { return mac_; }
     const MidiSide* midi() const { return midi_ ? &*midi_ : nullptr; }
@@ -173,7 +173,7 @@ class World final : public Stage, private gateway::Observer {
     std::deque<std::uint8_t> user_waiting_;
     std::vector<std::uint8_t> user_received_;
     SimStorage flash_{kFlash};
-    sequencer::Table::LoadResult load_result_;
+    gateway::Gateway::LoadResult load_result_;
 
     Time now_{0};
     Time next_poll_{0};

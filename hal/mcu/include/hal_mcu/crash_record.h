@@ -19,9 +19,9 @@ enum class EndCause : std::uint8_t {
 
 /// What the firmware leaves in memory that a reset does not clear, for its next start. After power-up the
 /// bytes are anything, so all is held against a check.
-class LastWords {
+class CrashRecord {
   public:
-    void leave(EndCause cause, std::uint32_t code_address) {
+    void set(EndCause cause, std::uint32_t code_address) {
         cause_ = static_cast<std::uint32_t>(cause);
         code_address_ = code_address;
         check_ = check();
@@ -29,10 +29,10 @@ class LastWords {
     bool valid() const { return check_ == check() && cause_ != 0; }
     EndCause cause() const { return valid() ? static_cast<EndCause>(cause_) : EndCause::none; }
     std::uint32_t code_address() const { return valid() ? code_address_ : 0; }
-    void forget() { check_ = cause_ = 0; }
+    void clear() { check_ = cause_ = 0; }
 
   private:
-    std::uint32_t check() const { return (cause_ ^ (code_address_ << 3)) + 0x4C575244U; }  // "LWRD"
+    std::uint32_t check() const { return (cause_ ^ (code_address_ << 3)) + 0x43525348U; }  // "CRSH"
 
     std::uint32_t cause_;
     std::uint32_t code_address_;

@@ -1,0 +1,87 @@
+// Runs the tests on the bare core and tells the debugger's host what came of them.
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "hal_mcu/cortex_m/start.h"
+#include "semihosting.h"
+
+namespace testing {
+namespace {
+
+Registered* first = nullptr;
+Registered** end = &first;
+unsigned checks = 0;
+unsigned failures = 0;
+
+struct Count {
+    unsigned tests = 0;
+    unsigned checks = 0;
+    unsigned failures = 0;
+};
+
+/// Of a suite, which may be spread over files.
+Count run_suite(Registered& begin) {
+    Count count;
+    const unsigned checks_before = checks;
+    const unsigned failures_before = failures;
+    for (Registered* test = &begin; test != nullptr; test = test->next) {
+        if (test->make == nullptr || std::strcmp(test->suite, begin.suite) != 0) continue;
+        const unsigned failed_before = failures;
+        Test* made = test->make();
+        made->run_whole_test();
+        delete made;
+        test->make = nullptr;
+        ++count.tests;
+        if (failures != failed_before)
+            mcu_units::print((std::string("FAILED ") + test->suite + "." + test->name + "\n").c_str());
+    }
+    count.checks = checks - checks_before;
+    count.failures = failures - failures_before;
+    return count;
+}
+
+}  // namespace
+
+Registered::Registered(const char* suite_name, const char* test_name, Test* (*maker)())
+    : suite(suite_name), name(test_name), make(maker) {
+    *end = this;
+    end = &next;
+}
+
+Check::Check(bool holds) : holds_(holds) {
+    ++checks;
+}
+
+Message::Message(const char* file, int line, const char* condition, const Check& check) {
+    text_ << file << ":" << line << ": not so: " << condition;
+    if (!check.values().empty()) text_ << " (" << check.values() << ")";
+    text_ << " ";
+}
+
+Message::~Message() {
+    ++failures;
+    mcu_units::print((text_.str() + "\n").c_str());
+}
+
+}  // namespace testing
+
+void run_firmware() {
+    for (testing::Registered* test = testing::first; test != nullptr; test = test->next) {
+        if (test->make == nullptr) continue;
+        const testing::Count count = testing::run_suite(*test);
+        std::ostringstream line;
+        line << "suite " << test->suite << ": " << count.tests << " tests, " << count.checks << " checks, "
+             << count.failures << " failures\n";
+        mcu_units::print(line.str().c_str());
+    }
+    mcu_units::exit(testing::failures == 0);
+}
+
+void end_firmware(std::uint32_t exception, std::uint32_t code_address) {
+    std::ostringstream line;
+    line << "exception " << exception << " at " << std::hex << code_address << "h\n";
+    mcu_units::print(line.str().c_str());
+    mcu_units::exit(false);
+}
