@@ -41,8 +41,8 @@ def main():
     image = sys.argv[1]
     nm_tool = sys.argv[2] if len(sys.argv) > 2 else "arm-none-eabi-nm"
     symbols = symbols_of(image, nm_tool)
-    if "run_firmware" not in {re.sub(r"^_Z\d+(\w+?)v$", r"\1", symbol) for symbol in symbols}:
-        sys.exit(f"{image}: no run_firmware in it: it is not a board's image")
+    if "nplc_reset" not in symbols:
+        sys.exit(f"{image}: no nplc_reset in it: it is not a board's image")
     findings = list(findings_in(symbols))
     for finding in findings:
         print(f"{image}: {finding}")
