@@ -24,7 +24,7 @@ constexpr store::Area kSettingsArea{.begin = 10 * 2048, .slot_bytes = 2048};
 
 /// Marks of what is watched; serial lines have the first.
 constexpr std::uint32_t kSerialLines = 0;
-constexpr std::uint32_t kDoor = 1;
+constexpr std::uint32_t kUserServer = 1;
 constexpr std::uint32_t kFirstLine = 2;
 
 constexpr base::Microseconds kPace{250};
@@ -109,8 +109,8 @@ std::string Axis::open_ports() {
     }
     if (!config_.user_port.is_there()) return {};
     if (is_endpoint(config_.user_port.text)) {
-        if (user_door_) return {};
-        return user_door_.emplace().open(config_.user_port.text);
+        if (user_server_) return {};
+        return user_server_.emplace().open(config_.user_port.text);
     }
     const auto settings = uart_settings(config_.user_port.text, setting(Setting::user_baud));
     return user_uart_.emplace().open(config_.name, settings);
@@ -147,7 +147,7 @@ std::string Axis::start(gateway::StartCause cause, base::Instant now) {
     tables_.emplace(*gateway_, driver, *storage_, kTableArea, table_memory_);
     own_registers_.emplace(*gateway_, *tables_, *settings_);
     ports::SerialPort* user = &no_line_;
-    if (user_door_) user = &*user_door_;
+    if (user_server_) user = &*user_server_;
     if (user_uart_) user = &user_uart_->uart();
     user_port_.emplace(*user, mactalk_port_ ? &mactalk_port_->uart() : nullptr, *gateway_, driver,
                        *own_registers_, *settings_);
@@ -179,10 +179,10 @@ void Axis::watch(hal_linux::EventLoop& loop, std::uint32_t mark) {
     std::uint32_t line_mark = mark + kFirstLine;
     for (const int descriptor : input_bits_.descriptors()) loop.watch(descriptor, line_mark++);
     watch_ports();
-    if (!user_door_) return;
+    if (!user_server_) return;
     const bool is_terminal = config_.user_port.text.starts_with("pty:");
     loop.watch(
-        user_door_->descriptor(), mark + kDoor,
+        user_server_->descriptor(), mark + kUserServer,
         is_terminal ? hal_linux::EventLoop::Wakes::at_news : hal_linux::EventLoop::Wakes::while_readable);
 }
 
@@ -193,11 +193,11 @@ void Axis::watch_ports() {
     if (user_uart_) loop_->watch(user_uart_->uart().descriptor(), mark_);
 }
 
-void Axis::knock(std::uint32_t mark) {
+void Axis::note_readable(std::uint32_t mark) {
     const std::uint32_t which = mark - mark_;
     if (which >= kFirstLine) edges_ |= 1U << (which - kFirstLine);
-    if (which == kDoor) door_knocks_ = true;
-    if (which == kSerialLines) line_knocks_ = true;
+    if (which == kUserServer) user_readable_ = true;
+    if (which == kSerialLines) line_readable_ = true;
 }
 
 /// An edge tells its line's new level, and nothing else is asked for then. All lines are looked at whenever
@@ -212,13 +212,13 @@ void Axis::look_at_inputs() {
 
 /// While the motor's line was read a moment ago, as it is when nothing is under way.
 bool Axis::is_edge_alone(base::Instant now) const {
-    return edges_ != 0 && !line_knocks_ && motor_.was_read_since(now - kRest);
+    return edges_ != 0 && !line_readable_ && motor_.was_read_since(now - kRest);
 }
 
 /// What the scan orders leaves at once; after an edge even before the motor's status is read.
 void Axis::run_sequence(base::Instant now) {
     const bool hurries = is_edge_alone(now);
-    line_knocks_ = false;
+    line_readable_ = false;
     look_at_inputs();
     hurries ? motor_.shut_line() : motor_.open_line(now);
     gateway_->poll(now);
@@ -232,8 +232,8 @@ void Axis::run_sequence(base::Instant now) {
 void Axis::serve(base::Instant now) {
     if (failed_) return;
     run_sequence(now);
-    if (user_door_ && (std::exchange(door_knocks_, false) || user_door_->next_turn(now) <= now))
-        user_door_->take_in(now, {static_cast<std::uint8_t>(setting(Setting::gateway_address)),
+    if (user_server_ && (std::exchange(user_readable_, false) || user_server_->next_turn(now) <= now))
+        user_server_->take_in(now, {static_cast<std::uint8_t>(setting(Setting::gateway_address)),
                                   static_cast<std::uint8_t>(setting(Setting::motor_address))});
     user_port_->poll(now);
     bool is_back = motor_.look(journal_, now);
@@ -291,7 +291,7 @@ base::Instant Axis::next(base::Instant now) {
     next = std::min({next, rests_until_, motor_.next_look()});
     if (mactalk_port_) next = std::min(next, mactalk_port_->next_look());
     if (user_uart_) next = std::min(next, user_uart_->next_look());
-    if (user_door_) next = std::min(next, user_door_->next_turn(now));
+    if (user_server_) next = std::min(next, user_server_->next_turn(now));
     return next;
 }
 

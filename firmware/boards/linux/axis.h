@@ -16,7 +16,7 @@
 #include "journal.h"
 #include "kept_uart.h"
 #include "motor_part.h"
-#include "user_door.h"
+#include "user_server.h"
 
 namespace nplc::boards {
 
@@ -34,9 +34,9 @@ class Axis {
     std::string open(const std::string& state_directory, base::Instant now);
     /// kMarks marks, `mark` the first of them.
     void watch(hal_linux::EventLoop& loop, std::uint32_t mark);
-    static constexpr std::uint32_t kMarks = 8;  ///< serial lines, the door, six of input lines
+    static constexpr std::uint32_t kMarks = 8;  ///< serial lines, the user's server, six of input lines
     /// What is watched with `mark` has something to be read.
-    void knock(std::uint32_t mark);
+    void note_readable(std::uint32_t mark);
 
     void serve(base::Instant now);
     /// When serve() is wanted at the latest if nothing of what is watched is readable.
@@ -93,7 +93,7 @@ class Axis {
     MotorPart motor_;
     std::optional<KeptUart> mactalk_port_;
     std::optional<KeptUart> user_uart_;
-    std::optional<UserDoor> user_door_;
+    std::optional<UserServer> user_server_;
 
     std::optional<gateway::SettingsKeeper> settings_;
     std::optional<gateway::Gateway> gateway_;
@@ -110,8 +110,8 @@ class Axis {
 
     hal_linux::EventLoop* loop_ = nullptr;
     std::uint32_t mark_ = 0;
-    bool door_knocks_ = true;
-    bool line_knocks_ = false;
+    bool user_readable_ = true;
+    bool line_readable_ = false;
     std::uint32_t edges_ = 0;  ///< descriptors of inputs at which some wait, bit 0 is the first
     /// The motor's line is looked at then; it does not wake us.
     base::Instant rests_until_ = base::kNever;

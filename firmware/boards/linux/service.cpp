@@ -124,7 +124,7 @@ void Service::round(base::Instant latest) {
     if (all) all_served_ = now;
     for (const std::uint32_t mark : marks) {
         next_[mark / Axis::kMarks] = now;
-        axes_[mark / Axis::kMarks]->knock(mark);
+        axes_[mark / Axis::kMarks]->note_readable(mark);
     }
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         if (!all && next_[i] > now) continue;

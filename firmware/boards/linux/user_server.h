@@ -13,7 +13,7 @@ namespace nplc::boards {
 
 /// The user's port as a socket or a pseudo-terminal: for the gateway a serial line, for up to eight clients a
 /// line of their own.
-class UserDoor final : public ports::SerialPort {
+class UserServer final : public ports::SerialPort {
   public:
     /// Empty, or one line.
     std::string open(const std::string& endpoint);

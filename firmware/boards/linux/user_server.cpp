@@ -1,4 +1,4 @@
-#include "user_door.h"
+#include "user_server.h"
 
 #include <algorithm>
 
@@ -13,32 +13,32 @@ SharedLine::Time line_time(base::Instant now) {
 
 }  // namespace
 
-std::string UserDoor::open(const std::string& endpoint) {
+std::string UserServer::open(const std::string& endpoint) {
     auto opened = hal_linux::ByteServer::open(endpoint, kMostClients);
     server_ = std::move(opened.server);
     if (server_) line_ = std::make_unique<SharedLine>(*server_);
     return opened.error;
 }
 
-void UserDoor::take_in(base::Instant now, const SharedLine::Addresses& addresses) {
+void UserServer::take_in(base::Instant now, const SharedLine::Addresses& addresses) {
     now_ = line_time(now);
     const auto bytes = line_->to_line(now_, addresses);
     waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
 }
 
-base::Instant UserDoor::next_turn(base::Instant now) const {
+base::Instant UserServer::next_turn(base::Instant now) const {
     if (!waiting_.empty()) return now;
     const auto next = line_->next_turn(line_time(now));
     if (!next) return base::kNever;
     return base::Instant(std::chrono::ceil<base::Microseconds>(*next));
 }
 
-std::size_t UserDoor::write(std::span<const std::uint8_t> bytes) {
+std::size_t UserServer::write(std::span<const std::uint8_t> bytes) {
     line_->from_line(bytes, now_);
     return bytes.size();
 }
 
-std::size_t UserDoor::read(std::span<ports::ReceivedByte> out) {
+std::size_t UserServer::read(std::span<ports::ReceivedByte> out) {
     const std::size_t count = std::min(out.size(), waiting_.size());
     for (std::size_t i = 0; i < count; ++i) {
         out[i] = {waiting_.front(), false};
