@@ -198,6 +198,7 @@ void World::sample_motor() {
     if (midi_) {
         next_sample_ += MidiSide::kSamplePeriod;
         if (std::exchange(motor_fails_, false)) midi_->drive().module().overload_amplifier();
+        move_characters();
         return midi_->sample();
     }
     next_sample_ += mac_.sample_period();
