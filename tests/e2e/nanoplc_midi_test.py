@@ -9,15 +9,17 @@ import subprocess
 import sys
 import unittest
 
-import nanoplc_test
+import service_case
 import simulator
-from nanoplc_test import LONG
+from service_case import LONG, ServiceCase
 
 MIDISIM = ""
 INCREMENTS = 10000  # a revolution of a MAC34
 
 
-class Case(nanoplc_test.Case):
+class Case(ServiceCase):
+    PATIENCE = ""
+
     def plug_in(self, name="motor", model="MAC34-1", address="0"):
         process, _ = simulator.start(MIDISIM, "--model", model, "--address", address, "--v24", "pty:" + self.path(name),
                                      "--eeprom", self.path(name + ".eeprom"))
@@ -68,7 +70,7 @@ class Running(Case):
         with open(self.path("home.seq"), "w", encoding="utf-8") as file:
             file.write("PROGRAM P\nMOTOR MAC140;\nSTEP S: OWN ERROR; IF IN0 THEN HOME; NEXT := T; END_IF END_STEP\n"
                        "STEP T: OWN ERROR; IF IN1 THEN NEXT := S; END_IF END_STEP\nEND_PROGRAM\n")
-        subprocess.run([nanoplc_test.SEQC, "build", self.path("home.seq"), "--quiet", "-o", self.path("home.bin")], check=True)
+        subprocess.run([service_case.SEQC, "build", self.path("home.seq"), "--quiet", "-o", self.path("home.bin")], check=True)
         service = self.start(self.write(self.axis(table=self.path("home.bin"))))
         self.assertEqual(self.end(service), 3)
         self.assertRegex(service.said(), r"home.bin: term \d+: ")
@@ -145,7 +147,7 @@ class Telling(Case):
         config = self.path("wiring.toml")
         with open(config, "w", encoding="utf-8") as file:
             file.write(f'[[axis]]\nname = "x"\n[axis.motor]\n{motor}\n')
-        done = subprocess.run([nanoplc_test.NANOPLC, "wiring", config], capture_output=True, text=True, timeout=LONG, check=False)
+        done = subprocess.run([service_case.NANOPLC, "wiring", config], capture_output=True, text=True, timeout=LONG, check=False)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         return done.stdout
 
@@ -165,6 +167,6 @@ class Telling(Case):
 
 
 if __name__ == "__main__":
-    (nanoplc_test.NANOPLC, nanoplc_test.MACSIM, nanoplc_test.NANOCTL, nanoplc_test.MACREG, nanoplc_test.SEQC,
-     nanoplc_test.MENDING, MIDISIM) = sys.argv[1:8]
+    (service_case.NANOPLC, service_case.MACSIM, service_case.NANOCTL, service_case.MACREG, service_case.SEQC,
+     service_case.MENDING, MIDISIM) = sys.argv[1:8]
     unittest.main(argv=sys.argv[:1] + sys.argv[8:])

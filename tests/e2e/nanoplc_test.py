@@ -4,147 +4,24 @@
 usage: nanoplc_test.py NANOPLC MACSIM NANOCTL MACREG SEQC MENDING.seq EXAMPLE.toml SLOW_DISK.so
 """
 
-import json
 import os
 import re
 import signal
 import socket
 import subprocess
 import sys
-import tempfile
-import threading
 import time
 import unittest
 
-import simulator
+import service_case
 from device_case import Terminal
 from macsim_test import read_request, value_in
+from service_case import LONG, ServiceCase
 
-NANOPLC = MACSIM = NANOCTL = MACREG = SEQC = MENDING = EXAMPLE = SLOW_DISK = ""
-LONG = 60  # seconds until something that must come is given up
-
-
-class Service:
-    """A nanoplc under way, and what it has said."""
-
-    def __init__(self, config, **environment):
-        # pylint: disable-next=consider-using-with
-        self.process = subprocess.Popen([NANOPLC, "--config", config], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                                        text=True, env={**os.environ, **environment})
-        self.lines = []
-        self.reader = threading.Thread(target=lambda: self.lines.extend(iter(self.process.stderr.readline, "")))
-        self.reader.start()
-
-    def said(self):
-        return "".join(self.lines)
-
-    def end(self, how=signal.SIGTERM):
-        if self.process.poll() is None:
-            self.process.send_signal(how)
-        code = self.process.wait(LONG)
-        self.reader.join(LONG)
-        self.process.stderr.close()
-        return code
+EXAMPLE = SLOW_DISK = ""
 
 
-class Case(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.running = []
-        self.motors = {}
-        self.table = self.path("mending.bin")
-        subprocess.run([SEQC, "build", MENDING, "-o", self.table], check=True, stdout=subprocess.DEVNULL)
-
-    def tearDown(self):
-        for service in self.running:
-            service.end(signal.SIGKILL)
-        for name in list(self.motors):
-            self.pull_out(name)
-        self.folder.cleanup()
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
-
-    def plug_in(self, name="motor"):
-        process, _ = simulator.start(MACSIM, "--model", "MAC140", "--address", "1", "--fastmac", "pty:" + self.path(name),
-                                     "--mactalk", "unix:" + self.path(name + ".mactalk"))
-        self.motors[name] = process
-
-    def pull_out(self, name="motor"):
-        process = self.motors.pop(name)
-        process.terminate()
-        process.wait(LONG)
-        process.stdout.close()
-        process.stderr.close()
-
-    def axis(self, name="x", motor="motor", port=None, table="none", more=""):
-        """Patient with the motor where nothing else is said: machines that test are busy."""
-        if "[axis.settings]" not in more:
-            more += "\n[axis.settings]\n"
-        more = more.replace("[axis.settings]\n", "[axis.settings]\nmotor_silence = 200\n")
-        return (f'[[axis]]\nname = "{name}"\ntable = "{table}"\n[axis.motor]\nport = "{self.path(motor)}"\n'
-                f'[axis.user]\nport = "{port or "unix:" + self.path(name)}"\n{more}')
-
-    def write(self, *axes, service=""):
-        """Punctual where it may be: machines that test are busy."""
-        config = self.path("nanoplc.toml")
-        with open(config, "w", encoding="utf-8") as file:
-            file.write(f'[service]\nstate_directory = "{self.path("state")}"\nreal_time_priority = 10\n{service}\n')
-            file.write("\n".join(axes))
-        return config
-
-    def start(self, config, wait_for="started with", **environment):
-        service = Service(config, **environment)
-        self.running.append(service)
-        self.until(lambda: wait_for in service.said() or service.process.poll() is not None, service)
-        return service
-
-    def end(self, service, how=signal.SIGTERM):
-        self.running.remove(service)
-        return service.end(how)
-
-    def until(self, come, seen=None):
-        end = time.monotonic() + LONG
-        while not come():
-            if time.monotonic() > end:
-                self.fail(f"never came: {seen.said() if seen else ''}")
-            time.sleep(0.02)
-
-    def ctl(self, *arguments, port="x", exit_code=0):
-        endpoint = port if port.startswith("/") else "unix:" + self.path(port)
-        result = subprocess.run([NANOCTL, "--port", endpoint, "--patience", "500", "--json", *arguments],
-                                capture_output=True, text=True, timeout=4 * LONG, check=False)
-        self.assertEqual(result.returncode, exit_code, f"{arguments}: {result.stdout} {result.stderr}")
-        return json.loads(result.stdout.splitlines()[-1])
-
-    def until_status(self, wanted, port="x"):
-        end = time.monotonic() + LONG
-        while time.monotonic() < end:
-            status = self.ctl("status", port=port)
-            if wanted(status):
-                return status
-        self.fail(f"never came: {status}")
-
-    def moves(self, port="x"):
-        """Orders are being executed."""
-        before = self.ctl("status", port=port)["orders"]
-        self.until_status(lambda status: status["orders"] > before + 4, port=port)
-
-    def mode(self, name="motor"):
-        result = subprocess.run([MACREG, "--port", "unix:" + self.path(name + ".mactalk"), "--patience", "500", "--json", "get",
-                                 "MODE_REG"], capture_output=True, text=True, timeout=LONG, check=False)
-        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        return json.loads(result.stdout)["registers"][0]["value"]
-
-    def check(self, text, *flags):
-        config = self.path("checked.toml")
-        with open(config, "w", encoding="utf-8") as file:
-            file.write(text)
-        result = subprocess.run([NANOPLC, "check-config", config, *flags], capture_output=True, text=True, check=False)
-        return result.returncode, [line.removeprefix(config + ":") for line in result.stderr.splitlines()]
-
-
-class Running(Case):
+class Running(ServiceCase):
     def test_upload_run_and_an_orderly_end(self):
         self.plug_in()
         service = self.start(self.write(self.axis()))
@@ -285,7 +162,7 @@ class Running(Case):
         self.assertTrue(os.path.isfile(self.path("state/b/store.bin")))
 
 
-class Ports(Case):
+class Ports(ServiceCase):
     def test_a_serial_port_for_the_user(self):
         self.plug_in()
         master, slave = os.openpty()
@@ -304,7 +181,7 @@ class Ports(Case):
         self.plug_in("two")
         self.start(self.write(self.axis("a", "one", port="pty:" + self.path("pty")), self.axis("b", "two")))
         self.assertEqual(self.ctl("status", port=self.path("pty"))["state"], "stopped")
-        with subprocess.Popen([NANOCTL, "--port", "unix:" + self.path("b"), "--patience", "2000", "watch"],
+        with subprocess.Popen([service_case.NANOCTL, "--port", "unix:" + self.path("b"), "--patience", "2000", "watch"],
                               stdout=subprocess.PIPE, text=True) as watch:
             self.assertIn("stopped", watch.stdout.readline())
             self.ctl("upload", self.table, "--run", port="b")
@@ -320,7 +197,7 @@ class Ports(Case):
         self.assertEqual(self.ctl("status", port=self.path("pty"))["state"], "stopped")
 
 
-class Refusing(Case):
+class Refusing(ServiceCase):
     def test_every_mistake_is_named_at_once(self):
         code, lines = self.check("""[service]
 log_levle = "info"
@@ -433,20 +310,20 @@ port = "tcp:0.0.0.0:2000"
 
     def test_wrong_usage(self):
         for arguments in (["--confg", "x"], ["check-config"], ["wirings", "x"]):
-            result = subprocess.run([NANOPLC, *arguments], capture_output=True, text=True, check=False)
+            result = subprocess.run([service_case.NANOPLC, *arguments], capture_output=True, text=True, check=False)
             self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
-        result = subprocess.run([NANOPLC, "--config", "/no/such.toml"], capture_output=True, text=True, check=False)
+        result = subprocess.run([service_case.NANOPLC, "--config", "/no/such.toml"], capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 2)
         self.assertIn("/no/such.toml: cannot be read", result.stderr)
 
 
-class Telling(Case):
+class Telling(ServiceCase):
     def test_lines_for_the_journal_have_levels(self):
         self.plug_in()
         read_end, write_end = os.pipe()
         status = os.fstat(write_end)
         environment = {**os.environ, "JOURNAL_STREAM": f"{status.st_dev}:{status.st_ino}"}
-        with subprocess.Popen([NANOPLC, "--config", self.write(self.axis())], stderr=write_end, env=environment) as process:
+        with subprocess.Popen([service_case.NANOPLC, "--config", self.write(self.axis())], stderr=write_end, env=environment) as process:
             os.close(write_end)
             with os.fdopen(read_end, encoding="utf-8") as lines:
                 seen = [lines.readline()]
@@ -478,13 +355,13 @@ class Telling(Case):
                 told += manager.recv(4096).decode() + "\n"
 
     def test_the_example_is_in_order(self):
-        result = subprocess.run([NANOPLC, "check-config", "--no-devices", EXAMPLE], capture_output=True, text=True, check=False)
+        result = subprocess.run([service_case.NANOPLC, "check-config", "--no-devices", EXAMPLE], capture_output=True, text=True, check=False)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
 
     def test_the_example_has_every_key(self):
         with open(EXAMPLE, encoding="utf-8") as file:
             text = file.read()
-        keys = subprocess.run([NANOPLC, "check-config", "--no-devices", "--keys", EXAMPLE], capture_output=True, text=True,
+        keys = subprocess.run([service_case.NANOPLC, "check-config", "--no-devices", "--keys", EXAMPLE], capture_output=True, text=True,
                               check=False).stdout.split()
         self.assertIn("axis.motor.rs485_before_ms", keys)
         self.assertGreater(len(keys), 45)
@@ -497,7 +374,7 @@ class Telling(Case):
         config = self.write(self.axis(more='[axis.inputs]\nIN2 = {line = "GPIO5", active_low = true, bias = "pull_up"}\n'
                                       '[axis.outputs]\nOUT1 = "gpiochip0:23"\n[axis.settings]\nsafe_outputs = 2\n'
                                       'enable_input = 2\n'))
-        result = subprocess.run([NANOPLC, "wiring", config], capture_output=True, text=True, check=False)
+        result = subprocess.run([service_case.NANOPLC, "wiring", config], capture_output=True, text=True, check=False)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         rows = {}
         for line in filter(str.strip, result.stdout.splitlines()):
@@ -511,11 +388,12 @@ class Telling(Case):
     def test_help_manual_and_completion(self):
         for arguments, part in ((["--help"], "Exit codes: 0"), (["--version"], "nanoplc "), (["man"], ".TH NANOPLC 8"),
                                 (["completion", "bash"], "-F _nanoplc nanoplc"), (["completion", "zsh"], "#compdef nanoplc")):
-            result = subprocess.run([NANOPLC, *arguments], capture_output=True, text=True, check=False)
+            result = subprocess.run([service_case.NANOPLC, *arguments], capture_output=True, text=True, check=False)
             self.assertEqual((result.returncode, result.stderr), (0, ""))
             self.assertIn(part, result.stdout)
 
 
 if __name__ == "__main__":
-    NANOPLC, MACSIM, NANOCTL, MACREG, SEQC, MENDING, EXAMPLE, SLOW_DISK = sys.argv[1:9]
+    (service_case.NANOPLC, service_case.MACSIM, service_case.NANOCTL, service_case.MACREG, service_case.SEQC, service_case.MENDING,
+     EXAMPLE, SLOW_DISK) = sys.argv[1:9]
     unittest.main(argv=sys.argv[:1] + sys.argv[9:])

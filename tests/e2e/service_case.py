@@ -1,0 +1,139 @@
+"""A test case with nanoplc as a service, virtual motors that are plugged in and pulled out, and a person's programs.
+
+Who uses it sets the programs' paths below first.
+"""
+
+import json
+import os
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+
+import simulator
+
+NANOPLC = MACSIM = NANOCTL = MACREG = SEQC = MENDING = ""
+LONG = 60  # seconds until something that must come is given up
+
+
+class Service:
+    """A nanoplc under way, and what it has said."""
+
+    def __init__(self, config, **environment):
+        # pylint: disable-next=consider-using-with
+        self.process = subprocess.Popen([NANOPLC, "--config", config], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                        text=True, env={**os.environ, **environment})
+        self.lines = []
+        self.reader = threading.Thread(target=lambda: self.lines.extend(iter(self.process.stderr.readline, "")))
+        self.reader.start()
+
+    def said(self):
+        return "".join(self.lines)
+
+    def end(self, how=signal.SIGTERM):
+        if self.process.poll() is None:
+            self.process.send_signal(how)
+        code = self.process.wait(LONG)
+        self.reader.join(LONG)
+        self.process.stderr.close()
+        return code
+
+
+class ServiceCase(unittest.TestCase):
+    PATIENCE = "motor_silence = 200\n"  # machines that test are busy
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.running = []
+        self.motors = {}
+        self.table = self.path("mending.bin")
+        subprocess.run([SEQC, "build", MENDING, "-o", self.table], check=True, stdout=subprocess.DEVNULL)
+
+    def tearDown(self):
+        for service in self.running:
+            service.end(signal.SIGKILL)
+        for name in list(self.motors):
+            self.pull_out(name)
+        self.folder.cleanup()
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def plug_in(self, name="motor"):
+        process, _ = simulator.start(MACSIM, "--model", "MAC140", "--address", "1", "--fastmac", "pty:" + self.path(name),
+                                     "--mactalk", "unix:" + self.path(name + ".mactalk"))
+        self.motors[name] = process
+
+    def pull_out(self, name="motor"):
+        process = self.motors.pop(name)
+        process.terminate()
+        process.wait(LONG)
+        process.stdout.close()
+        process.stderr.close()
+
+    def axis(self, name="x", motor="motor", port=None, table="none", more=""):
+        if "[axis.settings]" not in more:
+            more += "\n[axis.settings]\n"
+        more = more.replace("[axis.settings]\n", "[axis.settings]\n" + self.PATIENCE)
+        return (f'[[axis]]\nname = "{name}"\ntable = "{table}"\n[axis.motor]\nport = "{self.path(motor)}"\n'
+                f'[axis.user]\nport = "{port or "unix:" + self.path(name)}"\n{more}')
+
+    def write(self, *axes, service=""):
+        """Punctual where it may be: machines that test are busy."""
+        config = self.path("nanoplc.toml")
+        with open(config, "w", encoding="utf-8") as file:
+            file.write(f'[service]\nstate_directory = "{self.path("state")}"\nreal_time_priority = 10\n{service}\n')
+            file.write("\n".join(axes))
+        return config
+
+    def start(self, config, wait_for="started with", **environment):
+        service = Service(config, **environment)
+        self.running.append(service)
+        self.until(lambda: wait_for in service.said() or service.process.poll() is not None, service)
+        return service
+
+    def end(self, service, how=signal.SIGTERM):
+        self.running.remove(service)
+        return service.end(how)
+
+    def until(self, come, seen=None):
+        end = time.monotonic() + LONG
+        while not come():
+            if time.monotonic() > end:
+                self.fail(f"never came: {seen.said() if seen else ''}")
+            time.sleep(0.02)
+
+    def ctl(self, *arguments, port="x", exit_code=0):
+        endpoint = port if port.startswith("/") else "unix:" + self.path(port)
+        result = subprocess.run([NANOCTL, "--port", endpoint, "--patience", "500", "--json", *arguments],
+                                capture_output=True, text=True, timeout=4 * LONG, check=False)
+        self.assertEqual(result.returncode, exit_code, f"{arguments}: {result.stdout} {result.stderr}")
+        return json.loads(result.stdout.splitlines()[-1])
+
+    def until_status(self, wanted, port="x"):
+        end = time.monotonic() + LONG
+        while time.monotonic() < end:
+            status = self.ctl("status", port=port)
+            if wanted(status):
+                return status
+        self.fail(f"never came: {status}")
+
+    def moves(self, port="x"):
+        """Orders are being executed."""
+        before = self.ctl("status", port=port)["orders"]
+        self.until_status(lambda status: status["orders"] > before + 4, port=port)
+
+    def mode(self, name="motor"):
+        result = subprocess.run([MACREG, "--port", "unix:" + self.path(name + ".mactalk"), "--patience", "500", "--json", "get",
+                                 "MODE_REG"], capture_output=True, text=True, timeout=LONG, check=False)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        return json.loads(result.stdout)["registers"][0]["value"]
+
+    def check(self, text, *flags):
+        config = self.path("checked.toml")
+        with open(config, "w", encoding="utf-8") as file:
+            file.write(text)
+        result = subprocess.run([NANOPLC, "check-config", config, *flags], capture_output=True, text=True, check=False)
+        return result.returncode, [line.removeprefix(config + ":") for line in result.stderr.splitlines()]
