@@ -30,7 +30,8 @@ std::string_view describe(base::Error table_error) {
         case base::Error::bad_register:
             return "REG_NMB is 0; a register is 1..127";
         case base::Error::not_for_motor:
-            return "the motor has no such order; a MAC800 takes register writes with LONGWORD = 1 only, and why a MIDI "
+            return "the motor has no such order; a MAC800 takes register writes with LONGWORD = 1 only, and "
+                   "why a MIDI "
                    "drive cannot do it seqc tells with MOTOR MAC34";
         default:
             return "not a fault of a table";

@@ -107,8 +107,7 @@ SimStorage SimStorage::torn(const StorageOperation& operation, const Tear& tear)
     }
     const std::uint32_t done =
         std::min<std::uint32_t>(tear.bytes, static_cast<std::uint32_t>(operation.bytes.size()));
-    StorageOperation whole{
-        false, operation.address, {operation.bytes.data(), operation.bytes.data() + done}};
+    StorageOperation whole{false, operation.address, {operation.bytes.data(), operation.bytes.data() + done}};
     after.carry_out(whole);
     for (std::uint32_t i = done; i < operation.bytes.size() && i < done + geometry_.program_unit; ++i) {
         after.change(operation.address + i, operation.bytes[i], turned(tear.mask, i));

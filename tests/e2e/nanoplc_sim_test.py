@@ -159,7 +159,7 @@ class CommandLine(Case):
         self.refused("run", self.table, "--for", "0s", says="--for \"0s\"")
         self.refused("run", self.table, "--for", "-5s", says="--for \"-5s\"")
         self.refused("run", self.table, "--for", says="--for")
-        self.refused("run", self.table, "--motor", "MAC999", says="MAC50, MAC95, MAC140, MAC141 or MAC800")
+        self.refused("run", self.table, "--motor", "MAC999", says="MAC141, MAC800, or of MIDI MAC23, MAC34-1 or MAC34-2")
         self.refused("run", self.table, "--drop", "1", says="--drop \"1\": write a share")
         self.refused("run", self.table, "--damage", "101%", says="--damage \"101%\"")
         self.refused("run", self.table, "--delay", "1%:5", says="--delay \"1%:5\"")

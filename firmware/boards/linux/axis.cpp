@@ -234,7 +234,7 @@ void Axis::serve(base::Instant now) {
     run_sequence(now);
     if (user_server_ && (std::exchange(user_readable_, false) || user_server_->next_turn(now) <= now))
         user_server_->take_in(now, {static_cast<std::uint8_t>(setting(Setting::gateway_address)),
-                                  static_cast<std::uint8_t>(setting(Setting::motor_address))});
+                                    static_cast<std::uint8_t>(setting(Setting::motor_address))});
     user_port_->poll(now);
     bool is_back = motor_.look(journal_, now);
     if (mactalk_port_) mactalk_port_->look(journal_, now);

@@ -72,7 +72,8 @@ class BufferRecorder {
     Recording run(Recording* broken) {
         if (motor_.is_behind_gateway())
             throw CannotRecord(
-                "the motor is behind a gateway, whose line to it carries no sample buffer; use macreg record --poll");
+                "the motor is behind a gateway, whose line to it carries no sample buffer; use macreg record "
+                "--poll");
         save();
         try {
             arrange();
