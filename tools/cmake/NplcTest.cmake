@@ -43,6 +43,6 @@ function(nplc_test name)
     set_tests_properties(${name} PROPERTIES LABELS ${ARG_TIER} TIMEOUT 1200)
     return()
   endif()
-  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES
     PROPERTIES LABELS ${ARG_TIER} TIMEOUT 600)
 endfunction()
