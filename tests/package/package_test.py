@@ -92,7 +92,7 @@ class Package(unittest.TestCase):
         match = re.search(r"Overall exposure level for nanoplc.service: ([0-9.]+)", rated.stdout)
         self.assertIsNotNone(match, rated.stdout + rated.stderr)
         print(f"exposure of the service by systemd-analyze: {match.group(1)} of 10")
-        self.assertLess(float(match.group(1)), 2.0)
+        self.assertLess(float(match.group(1)), 2.2)  # CAN and the state of its interface cost 0.2
 
     def test_settings_and_tables_outlive_upgrade_and_removal(self):
         if os.geteuid() != 0:

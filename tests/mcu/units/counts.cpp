@@ -222,13 +222,20 @@ void count_user_bytes() {
     print_row("the last byte of a question for 16 registers, answered", with(request.view().last(1)));
 }
 
-/// The emulator fills the chip's buffer when it likes: counted is a call that found the buffer full and
-/// nothing more.
+std::uint32_t flags_of_uart0() {
+    return *reinterpret_cast<volatile std::uint32_t*>(0x4000'C018U);
+}
+
+/// The emulator fills the chip's buffer when it likes, and goes on while it is emptied: counted is a call
+/// that found the buffer full and nothing more.
 std::uint32_t count_full_buffer(chip::Uart& line) {
-    constexpr int kMostTries = 2'000;
+    constexpr int kMostTries = 200;
+    constexpr std::uint32_t kFlagFull = 0x40;
     constexpr std::size_t kFull = 16;
     for (int i = 0; i < kMostTries; ++i) {
-        for (int wait = 0; wait < 100'000; ++wait) asm volatile("nop");
+        while ((flags_of_uart0() & kFlagFull) == 0) {
+            for (int wait = 0; wait < 100'000; ++wait) asm volatile("nop");
+        }
         const std::uint32_t count = instructions([&line] { line.on_interrupt(); });
         std::array<ports::ReceivedByte, 64> bytes;
         if (line.read(bytes) == kFull) return count;
@@ -240,7 +247,7 @@ void count_interrupts() {
     static chip::Uart line(chip::Uart::kUart0);
     constexpr std::uint32_t kEmpty = 0x10;
     constexpr std::uint32_t kBuffered8Bits = 0x70;
-    while ((*reinterpret_cast<volatile std::uint32_t*>(0x4000'C018U) & kEmpty) != 0) {
+    while ((flags_of_uart0() & kEmpty) != 0) {
     }
     *reinterpret_cast<volatile std::uint32_t*>(0x4000'C02CU) = kBuffered8Bits;
     print_row("interrupt of a line, 16 characters received", count_full_buffer(line));
