@@ -203,7 +203,7 @@ std::int16_t v_soll_of_period(Model model, std::uint16_t period) {
 std::optional<std::uint8_t> ramp_of_a_soll(Model model, std::uint16_t a_soll, std::uint16_t period) {
     if (a_soll == 0) return std::nullopt;
     const std::uint32_t wanted = model == Model::mac23 ? kRamp23 : kRamp34;
-    const std::uint64_t unit = std::uint64_t{std::uint32_t{period} * period} * a_soll;
+    const std::uint64_t unit = std::uint64_t{period} * period * a_soll;
     if (unit >= wanted) return std::uint8_t{1};
     const auto small = static_cast<std::uint32_t>(unit);
     const std::uint32_t ramp = (wanted + small - 1) / small;

@@ -11,7 +11,7 @@ namespace {
 using ports::StorageState;
 
 /// It may be locked in memory, so no more than needed.
-constexpr std::size_t kStackBytes = 128 * 1024;
+constexpr std::size_t kStackBytes = std::size_t{128} * 1024;
 
 /// 0, or errno.
 int start_thread(pthread_t& thread, void* (*run)(void*), void* argument) {

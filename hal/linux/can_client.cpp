@@ -49,7 +49,8 @@ class SocketCanClient final : public host::CanClient {
   private:
     void wait_readable(base::Microseconds wait) const {
         pollfd ready{.fd = can_->descriptor(), .events = POLLIN, .revents = 0};
-        const timespec limit{.tv_sec = wait.count() / 1'000'000, .tv_nsec = wait.count() % 1'000'000 * 1000};
+        const timespec limit{.tv_sec = static_cast<std::time_t>(wait.count() / 1'000'000),
+                             .tv_nsec = static_cast<long>(wait.count() % 1'000'000 * 1000)};
         static_cast<void>(::ppoll(&ready, 1, &limit, nullptr));
     }
 

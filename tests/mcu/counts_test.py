@@ -16,7 +16,7 @@ BEGIN, END = "| instructions | |\n| --- | --- |\n", "\n\n"
 def count(image):
     # Time is instructions, 1024 ns each.
     lines = emulated.run("lm3s6965evb", str(image), "-icount", "shift=10,sleep=off", "-chardev", "stdio,id=line,signal=off",
-                         "-serial", "chardev:line", characters="U" * 4000)
+                         "-serial", "chardev:line", characters="U" * 60000)
     rows = [match.groups() for match in map(ROW.match, lines) if match]
     return "".join(f"| {name} | {int(number):,} |\n" for name, number in rows)
 

@@ -160,7 +160,7 @@ def run(phases, share, midisim, nanoctl, seqc, examples, mending):
             outside.connect(endpoint)
             nanoplc_test.join(vm.serials["motor"], outside)
             threading.Thread(target=nanoplc_test.serve_user, args=(listener, vm.serials["user"]), daemon=True).start()
-            machine = Machine(vm, share, nanoctl, "unix:" + os.path.join(share, "user"))
+            machine = Machine(vm, vm, nanoplc_test.OWN, share, nanoctl, "unix:" + os.path.join(share, "user"), phases)
             play(machine, v24_eeprom)
             phases.say(f"done, {machine.faults} faults acknowledged")
     finally:

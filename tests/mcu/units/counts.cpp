@@ -226,16 +226,20 @@ std::uint32_t flags_of_uart0() {
     return *reinterpret_cast<volatile std::uint32_t*>(0x4000'C018U);
 }
 
-/// The emulator fills the chip's buffer when it likes, and goes on while it is emptied: counted is a call
-/// that found the buffer full and nothing more.
-std::uint32_t count_full_buffer(chip::Uart& line) {
-    constexpr int kMostTries = 200;
+/// The emulator fills the chip's buffer when it likes, sometimes only after it was emptied, and goes on
+/// meanwhile: counted is a call that found the buffer full and nothing more.
+void wait_until_full() {
     constexpr std::uint32_t kFlagFull = 0x40;
+    for (int i = 0; i < 50 && (flags_of_uart0() & kFlagFull) == 0; ++i) {
+        for (int wait = 0; wait < 100'000; ++wait) asm volatile("nop");
+    }
+}
+
+std::uint32_t count_full_buffer(chip::Uart& line) {
+    constexpr int kMostTries = 2'000;
     constexpr std::size_t kFull = 16;
     for (int i = 0; i < kMostTries; ++i) {
-        while ((flags_of_uart0() & kFlagFull) == 0) {
-            for (int wait = 0; wait < 100'000; ++wait) asm volatile("nop");
-        }
+        wait_until_full();
         const std::uint32_t count = instructions([&line] { line.on_interrupt(); });
         std::array<ports::ReceivedByte, 64> bytes;
         if (line.read(bytes) == kFull) return count;

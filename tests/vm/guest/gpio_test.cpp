@@ -199,9 +199,10 @@ TEST_F(Gpio, ALineOfAKernelDriverIsRefusedWithItsName) {
 }
 
 TEST_F(Gpio, SaysWhatIsWrong) {
-    EXPECT_EQ(find_line("OUT_GRIP").place, "/dev/gpiochip0:4");
-    EXPECT_EQ(find_line("gpiochip0:4").place, "/dev/gpiochip0:4");
-    EXPECT_EQ(find_line("gpiochip7:0").problem, "there is no /dev/gpiochip7; `gpiodetect` lists the chips");
+    EXPECT_EQ(hal_linux::find_line("OUT_GRIP").place, "/dev/gpiochip0:4");
+    EXPECT_EQ(hal_linux::find_line("gpiochip0:4").place, "/dev/gpiochip0:4");
+    EXPECT_EQ(hal_linux::find_line("gpiochip7:0").problem,
+              "there is no /dev/gpiochip7; `gpiodetect` lists the chips");
     EXPECT_EQ(refusal({GpioLine{"gpiochip7:0"}}), "there is no /dev/gpiochip7; `gpiodetect` lists the chips");
     EXPECT_EQ(refusal({GpioLine{"gpiochip0:8"}}), "/dev/gpiochip0 has the lines 0 to 7, not 8");
     EXPECT_EQ(refusal({GpioLine{"IN_STOP"}}),
