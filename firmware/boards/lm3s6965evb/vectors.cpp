@@ -19,20 +19,7 @@ struct Vectors {
 constexpr Handler kFault = hal_mcu::cortex_m::nplc_fault;
 
 constexpr Vectors make() {
-    Vectors vectors{.core = {.stack = &link_stack_top,
-                             .reset = hal_mcu::cortex_m::nplc_reset,
-                             .nmi = kFault,
-                             .hard_fault = kFault,
-                             .memory_fault = kFault,
-                             .bus_fault = kFault,
-                             .usage_fault = kFault,
-                             .reserved_to_10 = {kFault, kFault, kFault, kFault},
-                             .svcall = kFault,
-                             .debug = kFault,
-                             .reserved_13 = kFault,
-                             .pendsv = kFault,
-                             .systick = on_systick},
-                    .chip = {}};
+    Vectors vectors{.core = hal_mcu::cortex_m::vectors_of_core(&link_stack_top, on_systick), .chip = {}};
     for (Handler& handler : vectors.chip) handler = kFault;  // the watchdog's too
     vectors.chip[5] = on_uart0;
     vectors.chip[6] = on_uart1;

@@ -38,6 +38,23 @@ extern "C" {
 void nplc_fault();
 }
 
+/// What every board begins its table with.
+constexpr VectorsOfCore vectors_of_core(std::uint32_t* stack, Handler systick) {
+    return {.stack = stack,
+            .reset = nplc_reset,
+            .nmi = nplc_fault,
+            .hard_fault = nplc_fault,
+            .memory_fault = nplc_fault,
+            .bus_fault = nplc_fault,
+            .usage_fault = nplc_fault,
+            .reserved_to_10 = {nplc_fault, nplc_fault, nplc_fault, nplc_fault},
+            .svcall = nplc_fault,
+            .debug = nplc_fault,
+            .reserved_13 = nplc_fault,
+            .pendsv = nplc_fault,
+            .systick = systick};
+}
+
 /// A word of stack that nothing has used since the start.
 inline constexpr std::uint32_t kPaint = 0xA5A5'A5A5U;
 /// The most bytes of stack that were in use since the start.
