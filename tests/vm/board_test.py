@@ -7,17 +7,12 @@ usage: board_test.py
 Fetches and builds what is missing. 77: the virtual board is not to be had; the reason is printed.
 """
 
-import os
-import shutil
-import subprocess
 import sys
-import tempfile
 import threading
-import time
 
 import board
+from board_run import build, in_share
 
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 # After the watchdog has reset the board this runs again.
 SCRIPT = """
 export GTEST_COLOR=no
@@ -31,32 +26,6 @@ if [ -n "$failed" ]; then echo "failed:$failed"; exit 1; fi
 ./watchdog --gtest_filter='StarvedWatchdog.*'
 echo 'the watchdog did not reset the board'; exit 1
 """
-
-
-class Phases:
-    """Says how long each part took."""
-
-    def __init__(self):
-        self.start = time.monotonic()
-
-    def say(self, words):
-        print(f"vm: {words} (after {time.monotonic() - self.start:.0f} s)", flush=True)
-
-
-def build(share, preset, programs, *sysroot, targets=()):
-    """The programs, by their names in the share; `targets` instead of the preset's. Raises CannotBeHad without the
-    libraries for them."""
-    if subprocess.run([os.path.join(ROOT, "tools", "sysroot"), *sysroot, "arm64"], check=False).returncode != 0:
-        raise board.CannotBeHad
-    compiling = ["cmake", "--build", "--preset", preset, "--parallel", "2"]
-    if targets:
-        compiling += ["--target", *targets]
-    for step in (["cmake", "--preset", preset], compiling):
-        done = subprocess.run(step, cwd=ROOT, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            sys.exit(f"{done.stdout}{done.stderr}\nvm: {' '.join(step)} failed")
-    for name, program in programs.items():
-        shutil.copy(os.path.join(ROOT, "build", preset, "bin", program), os.path.join(share, name))
 
 
 def echo(line):
@@ -78,20 +47,10 @@ def run(phases, share):
     with board.Board(share, SCRIPT, serials=["outside"], adapters=["adapter"], reboots=True) as machine:
         threading.Thread(target=echo, args=[machine.serials["adapter"]], daemon=True).start()
         machine.serve_lines("outside")
-        return machine.finish()
-
-
-def main():
-    phases = Phases()
-    with tempfile.TemporaryDirectory(prefix="share") as share:
-        try:
-            status = run(phases, share)
-        except board.CannotBeHad:
-            print("vm: skipped, for packages cannot be downloaded (see above)")
-            return 77
+        status = machine.finish()
     phases.say(f"the board is off, with status {status}")
-    return 0 if status == 0 else 1
+    return status
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(in_share(run))

@@ -8,10 +8,9 @@ Fetches and builds what is missing. 77: the virtual board is not to be had; the 
 """
 
 import sys
-import tempfile
 
 import board
-import board_test
+from board_run import build, in_share
 
 # Two modules; `ask` sends a frame and waits for the answer, `reach` asks again and again until it is that.
 SCRIPT = """
@@ -80,11 +79,13 @@ def frames_of(share, name):
         return [line.split()[2] for line in file]
 
 
-def run(share):
+def run(phases, share):
     board.prepare()
-    board_test.build(share, "board", {"midisim": "midisim", "macreg": "macreg"}, targets=["midisim", "macreg"])
+    phases.say("building midisim and macreg for the board")
+    build(share, "board", {"midisim": "midisim", "macreg": "macreg"}, targets=["midisim", "macreg"])
     with board.Board(share, SCRIPT) as machine:
         status = machine.finish()
+    phases.say(f"the board is off, with status {status}")
     seen = [frame for frame in frames_of(share, "log") if not is_position(frame)]
     if seen[:len(EXPECTED)] != EXPECTED:
         print(f"vm: the bus had {seen}\nand not {EXPECTED}")
@@ -96,16 +97,5 @@ def run(share):
     return status
 
 
-def main():
-    with tempfile.TemporaryDirectory(prefix="share") as share:
-        try:
-            status = run(share)
-        except board.CannotBeHad:
-            print("vm: skipped, for packages cannot be downloaded (see above)")
-            return 77
-    print(f"vm: the board is off, with status {status}")
-    return 0 if status == 0 else 1
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(in_share(run))

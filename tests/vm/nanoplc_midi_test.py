@@ -12,13 +12,12 @@ import re
 import socket
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 
 import board
 import nanoplc_test
-from board_test import Phases, build
+from board_run import build, in_share
 from nanoplc_test import simulator
 
 # The module on the bus shares the board's processor: no real-time priority, or it would starve.
@@ -171,17 +170,5 @@ def run(phases, share, midisim, nanoctl, seqc, examples, mending):
         listener.close()
 
 
-def main():
-    nanoplc_test.MOST_FAULTS = 100  # five parts instead of two
-    phases = Phases()
-    with tempfile.TemporaryDirectory(prefix="share") as share:
-        try:
-            run(phases, share, *sys.argv[1:6])
-        except board.CannotBeHad:
-            print("vm: skipped, for packages cannot be downloaded (see above)")
-            return 77
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(in_share(run, *sys.argv[1:6]))

@@ -11,13 +11,12 @@ import os
 import socket
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 
 import board
 import gpio_sim
-from board_test import Phases, build
+from board_run import build, in_share
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.append(os.path.join(HERE, "..", "e2e"))
@@ -294,16 +293,5 @@ def send(client, data):
         pass  # it has gone
 
 
-def main():
-    phases = Phases()
-    with tempfile.TemporaryDirectory(prefix="share") as share:
-        try:
-            run(phases, share, *sys.argv[1:5])
-        except board.CannotBeHad:
-            print("vm: skipped, for packages cannot be downloaded (see above)")
-            return 77
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(in_share(run, *sys.argv[1:5]))

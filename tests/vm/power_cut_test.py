@@ -13,11 +13,10 @@ import random
 import socket
 import subprocess
 import sys
-import tempfile
 import threading
 
 import board
-from board_test import Phases, build
+from board_run import build, in_share
 from disk import Disk
 from nanoplc_test import serve_user
 
@@ -107,7 +106,8 @@ class Cuts:
         return found, self.disk.requests - before
 
 
-def run(phases, share, nanoctl, seed, count):
+def run(phases, share, nanoctl, seed=1, count=10):
+    seed, count = int(seed), int(count)
     board.prepare()
     phases.say("building nanoplc for the board")
     build(share, "board", {"nanoplc": "nanoplc"}, targets=["nanoplc"])
@@ -132,17 +132,5 @@ def run(phases, share, nanoctl, seed, count):
                f"damaged {cuts.count['told']} times")
 
 
-def main():
-    phases = Phases()
-    nanoctl, seed, count = sys.argv[1], int((sys.argv[2:] or ["1"])[0]), int((sys.argv[3:] or ["10"])[0])
-    with tempfile.TemporaryDirectory(prefix="share") as share:
-        try:
-            run(phases, share, nanoctl, seed, count)
-        except board.CannotBeHad:
-            print("vm: skipped, for packages cannot be downloaded (see above)")
-            return 77
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(in_share(run, *sys.argv[1:4]))
