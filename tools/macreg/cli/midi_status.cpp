@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/findings.h"
 #include "cli/midi.h"
 #include "macreg/midi/why.h"
 
@@ -39,23 +40,9 @@ void status(MidiSession& session) {
                         {"parameters", list}});
 }
 
-std::string_view name_of(midi::Severity severity) {
-    switch (severity) {
-        case midi::Severity::stops:
-            return "stops";
-        case midi::Severity::hinders:
-            return "hinders";
-        case midi::Severity::tells:
-            break;
-    }
-    return "tells";
-}
-
 void why(MidiSession& session) {
     const midi::Condition condition = midi::read_condition(session.module());
-    std::string text;
-    Json list = Json::array();
-    unsigned number = 0;
+    FindingsReport report("parameters");
     for (const midi::Finding& finding : midi::why(condition)) {
         std::string values;
         Json parameters = Json::array();
@@ -66,17 +53,9 @@ void why(MidiSession& session) {
                                   midi::value_text(one, raw, condition.scale));
             parameters.push_back(midi_document(one, raw, condition.scale));
         }
-        text += fmt::format("{}{}. {}\n", text.empty() ? "" : "\n", ++number, finding.sentence);
-        if (!values.empty()) text += fmt::format("   {}\n", values);
-        text += fmt::format("   -> {}\n", finding.remedy);
-        list.push_back({{"code", finding.code},
-                        {"severity", name_of(finding.severity)},
-                        {"sentence", finding.sentence},
-                        {"parameters", parameters},
-                        {"remedy", finding.remedy}});
+        report.add(finding, values, parameters);
     }
-    text.pop_back();
-    session.tell(text, {{"findings", list}});
+    session.tell(report.text(), report.document());
 }
 
 }  // namespace

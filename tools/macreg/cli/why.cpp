@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/findings.h"
 #include "cli/session.h"
 #include "macreg/values.h"
 
@@ -13,23 +14,9 @@ namespace {
 using registers::Model;
 using registers::Register;
 
-std::string_view name_of(Severity severity) {
-    switch (severity) {
-        case Severity::stops:
-            return "stops";
-        case Severity::hinders:
-            return "hinders";
-        case Severity::tells:
-            break;
-    }
-    return "tells";
-}
-
 void why(Session& session) {
     const Condition condition = read_condition(session.motor());
-    std::string text;
-    Json list = Json::array();
-    unsigned number = 0;
+    FindingsReport report("registers");
     for (const Finding& finding : macreg::why(condition)) {
         std::string values;
         Json registers = Json::array();
@@ -40,17 +27,9 @@ void why(Session& session) {
                                   long_value_text(*reg, condition.model, condition.now.at(one)));
             registers.push_back(value_document(*reg, condition.model, condition.now.at(one)));
         }
-        text += fmt::format("{}{}. {}\n", text.empty() ? "" : "\n", ++number, finding.sentence);
-        if (!values.empty()) text += fmt::format("   {}\n", values);
-        text += fmt::format("   -> {}\n", finding.remedy);
-        list.push_back({{"code", finding.code},
-                        {"severity", name_of(finding.severity)},
-                        {"sentence", finding.sentence},
-                        {"registers", registers},
-                        {"remedy", finding.remedy}});
+        report.add(finding, values, registers);
     }
-    text.pop_back();
-    session.tell(text, {{"findings", list}});
+    session.tell(report.text(), report.document());
 }
 
 }  // namespace

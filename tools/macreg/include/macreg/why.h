@@ -6,15 +6,10 @@
 #include <vector>
 
 #include "macreg/motor.h"
+#include "macreg/severity.h"
 
 /// Why does it not move? (001 §4.4, §4.5, 004)
 namespace nplc::macreg {
-
-enum class Severity : std::uint8_t {
-    stops,    ///< it cannot move because of it
-    hinders,  ///< it may soon, or moves less than wanted
-    tells,    ///< good to know
-};
 
 struct Finding {
     std::string code;  ///< stable, for programs: "torque_zero"

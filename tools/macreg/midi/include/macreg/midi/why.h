@@ -4,15 +4,10 @@
 #include <vector>
 
 #include "macreg/midi/module.h"
+#include "macreg/severity.h"
 
 /// Why does it not move? (000 §VI, 003 §IV, §VII)
 namespace nplc::macreg::midi {
-
-enum class Severity : std::uint8_t {
-    stops,    ///< it cannot move because of it
-    hinders,  ///< it may soon, moves less than wanted, or not everywhere
-    tells,    ///< good to know
-};
 
 struct Finding {
     std::string code;  ///< stable, for programs: "torque_zero"
