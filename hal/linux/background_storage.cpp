@@ -1,7 +1,7 @@
 #include "hal_linux/background_storage.h"
 
 #include <csignal>
-#include <cstring>
+#include <utility>
 
 #include "storage_bounds.h"
 
@@ -13,8 +13,7 @@ using ports::StorageState;
 /// It may be locked in memory, so no more than needed.
 constexpr std::size_t kStackBytes = std::size_t{128} * 1024;
 
-/// 0, or errno.
-int start_thread(pthread_t& thread, void* (*run)(void*), void* argument) {
+bool start_thread(pthread_t& thread, void* (*run)(void*), void* argument) {
     constexpr sched_param kNoPriority{};
     pthread_attr_t attributes;
     pthread_attr_init(&attributes);
@@ -29,7 +28,7 @@ int start_thread(pthread_t& thread, void* (*run)(void*), void* argument) {
     const int result = pthread_create(&thread, &attributes, run, argument);
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
     pthread_attr_destroy(&attributes);
-    return result;
+    return result == 0;
 }
 
 }  // namespace
@@ -38,19 +37,8 @@ BackgroundStorage::BackgroundStorage(ports::Storage& target) : target_(target), 
     bytes_.reserve(geometry_.program_page);
 }
 
-BackgroundStorage::Opened BackgroundStorage::open(ports::Storage& target) {
-    std::unique_ptr<BackgroundStorage> made(new BackgroundStorage(target));
-    const int error = start_thread(made->thread_, &run, made.get());
-    if (error != 0) return {nullptr, std::string("no thread for the storage: ") + std::strerror(error)};
-    made->has_thread_ = true;
-    return {std::move(made), {}};
-}
-
 BackgroundStorage::~BackgroundStorage() {
-    if (!has_thread_) return;
-    state_.wait(StorageState::busy);
-    begin(Work::end, 0);
-    pthread_join(thread_, nullptr);
+    join();
 }
 
 base::Status BackgroundStorage::read(std::uint32_t address, std::span<std::uint8_t> out) {
@@ -74,26 +62,24 @@ base::Status BackgroundStorage::erase(std::uint32_t address) {
 }
 
 void BackgroundStorage::begin(Work work, std::uint32_t address) {
+    join();
     work_ = work;
     address_ = address;
     state_ = StorageState::busy;
-    begun_.release();
+    has_thread_ = start_thread(thread_, &run, this);
+    if (!has_thread_) state_ = StorageState::failed;
+}
+
+void BackgroundStorage::join() {
+    if (std::exchange(has_thread_, false)) pthread_join(thread_, nullptr);
 }
 
 void* BackgroundStorage::run(void* self) {
-    static_cast<BackgroundStorage*>(self)->work_on();
+    auto& storage = *static_cast<BackgroundStorage*>(self);
+    const base::Status status = storage.carry_out();
+    const bool is_done = status && storage.target_.state() == StorageState::ready;
+    storage.state_ = is_done ? StorageState::ready : StorageState::failed;
     return nullptr;
-}
-
-void BackgroundStorage::work_on() {
-    for (;;) {
-        begun_.acquire();
-        if (work_ == Work::end) return;
-        const base::Status status = carry_out();
-        state_ =
-            status && target_.state() == StorageState::ready ? StorageState::ready : StorageState::failed;
-        state_.notify_one();
-    }
 }
 
 base::Status BackgroundStorage::carry_out() {

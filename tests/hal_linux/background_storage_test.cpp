@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <optional>
 #include <semaphore>
 #include <thread>
 
@@ -42,24 +43,19 @@ class SlowStorage final : public ports::Storage {
 };
 
 struct BackgroundStorageTest : testing::Test {
-    BackgroundStorageTest() {
-        auto opened = BackgroundStorage::open(slow);
-        EXPECT_EQ(opened.error, "");
-        storage = std::move(opened.storage);
-    }
     /// What it is when it is no longer busy.
-    StorageState end() const {
+    StorageState end() {
         while (storage->state() == StorageState::busy) std::this_thread::yield();
         return storage->state();
     }
-    Bytes bytes(std::uint32_t address, std::size_t count) const {
+    Bytes bytes(std::uint32_t address, std::size_t count) {
         Bytes all(count);
         EXPECT_TRUE(storage->read(address, all).ok());
         return all;
     }
 
     SlowStorage slow;
-    std::unique_ptr<BackgroundStorage> storage;
+    std::optional<BackgroundStorage> storage{slow};
 };
 
 TEST_F(BackgroundStorageTest, NobodyWaitsForASlowStorage) {

@@ -77,9 +77,8 @@ std::string Axis::open_store(const std::string& folder) {
     auto opened = hal_linux::FileStorage::open(folder + "/store.bin", kMemory);
     if (!opened.storage) return opened.error;
     file_ = std::move(opened.storage);
-    auto background = hal_linux::BackgroundStorage::open(*file_);
-    storage_ = std::move(background.storage);
-    return background.error;
+    storage_.emplace(*file_);
+    return {};
 }
 
 std::string Axis::open_lines() {

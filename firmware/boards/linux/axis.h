@@ -72,7 +72,7 @@ class Axis {
     bool is_edge_alone(base::Instant now) const;
     void run_sequence(base::Instant now);
     void rest_or_watch(base::Instant now);
-    bool stores() const { return storage_->state() == ports::StorageState::busy; }
+    bool stores() { return storage_->state() == ports::StorageState::busy; }
     void reset(base::Instant now);
     void note_lost_pins();
     void watch_pins(base::Instant now);
@@ -85,7 +85,7 @@ class Axis {
     std::string folder_;
 
     std::unique_ptr<hal_linux::FileStorage> file_;
-    std::unique_ptr<hal_linux::BackgroundStorage> storage_;
+    std::optional<hal_linux::BackgroundStorage> storage_;
     hal_linux::GpioBits input_bits_;
     hal_linux::GpioBits output_bits_;
     std::optional<hal_linux::GpioInputs> inputs_;

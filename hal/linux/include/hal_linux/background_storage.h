@@ -3,26 +3,19 @@
 #include <pthread.h>
 
 #include <atomic>
-#include <memory>
-#include <semaphore>
-#include <string>
 #include <vector>
 
 #include "ports/storage.h"
 
 namespace nplc::hal_linux {
 
-/// A storage whose operations take as long as they like, such as a file on a slow card, worked on by a thread
-/// of its own: `program` and `erase` return at once, and state() is `busy` until the thread is done. It runs
-/// without real-time priority and takes no signal.
+/// A storage whose operations take as long as they like, such as a file on a slow card: each has a thread of
+/// its own, so `program` and `erase` return at once, and state() is `busy` until the thread is done (`failed`
+/// if none can be had). It runs without real-time priority and takes no signal.
 class BackgroundStorage final : public ports::Storage {
   public:
-    struct Opened {
-        std::unique_ptr<BackgroundStorage> storage;
-        std::string error;  ///< one line, without a storage
-    };
     /// `target` is used by nobody else until this is destroyed.
-    static Opened open(ports::Storage& target);
+    explicit BackgroundStorage(ports::Storage& target);
     /// Waits for the operation under way.
     ~BackgroundStorage();
     BackgroundStorage(const BackgroundStorage&) = delete;
@@ -36,12 +29,11 @@ class BackgroundStorage final : public ports::Storage {
     ports::StorageState state() override { return state_; }
 
   private:
-    enum class Work : std::uint8_t { program, erase, end };
+    enum class Work : std::uint8_t { program, erase };
 
-    explicit BackgroundStorage(ports::Storage& target);
     static void* run(void* self);
-    void work_on();
     void begin(Work work, std::uint32_t address);
+    void join();
     base::Status carry_out();
 
     ports::Storage& target_;
@@ -50,8 +42,7 @@ class BackgroundStorage final : public ports::Storage {
     bool has_thread_ = false;
     /// What follows belongs to the thread while it is `busy`, and to the caller otherwise.
     std::atomic<ports::StorageState> state_{ports::StorageState::ready};
-    std::binary_semaphore begun_{0};
-    Work work_ = Work::end;
+    Work work_ = Work::program;
     std::uint32_t address_ = 0;
     std::vector<std::uint8_t> bytes_;
 };
