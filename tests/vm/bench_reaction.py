@@ -127,8 +127,8 @@ def report(share, options):
         missed[name] += unanswered
     figures = {}
     for name, values in all_of.items():
-        figures[name] = {"median": statistics.median(values), "p99": p99(values)}
-        print(f"{name:9} {len(values)} edges, {missed[name]} unanswered: median {figures[name]['median']:.0f} us, "
+        figures[name] = {"median": statistics.median_grouped(values), "p99": p99(values)}
+        print(f"{name:9} {len(values)} edges, {missed[name]} unanswered: median {figures[name]['median']:.1f} us, "
               f"99th percentile {figures[name]['p99']:.0f} us, longest {max(values)} us")
     kept = True
     for figure, most in WANTED.items():
