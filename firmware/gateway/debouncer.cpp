@@ -10,19 +10,16 @@ std::uint8_t Debouncer::update(std::uint8_t raw, base::Instant now) {
         levels_ = raw & 0x3F;
         return levels_;
     }
-    for (unsigned i = 0; i < since_.size(); ++i) {
-        const auto bit = static_cast<std::uint8_t>(1U << i);
-        if (((raw ^ levels_) & bit) == 0) {
-            changing_ &= static_cast<std::uint8_t>(~bit);
-            continue;
-        }
-        if ((changing_ & bit) == 0) {
-            changing_ |= bit;
-            since_[i] = now;
-        }
+    const auto differing = static_cast<std::uint8_t>((raw ^ levels_) & 0x3F);
+    changing_ &= differing;
+    for (unsigned i = 0; differing >> i != 0; ++i) {
+        const auto bit = static_cast<std::uint8_t>(differing & (1U << i));
+        if (bit == 0) continue;
+        if ((changing_ & bit) == 0) since_[i] = now;
+        changing_ |= bit;
         if (now - since_[i] < steady_) continue;
         levels_ ^= bit;
-        changing_ &= static_cast<std::uint8_t>(~bit);
+        changing_ ^= bit;
     }
     return levels_;
 }

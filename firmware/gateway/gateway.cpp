@@ -82,9 +82,13 @@ void Gateway::read_inputs(base::Instant now) {
 }
 
 void Gateway::poll(base::Instant now) {
+    ports_.motor.poll(now);
+    poll_inputs(now);
+}
+
+void Gateway::poll_inputs(base::Instant now) {
     if (may_rest_until_ && rests_ && scan_ended_) scan_ended_ = std::min(now, *may_rest_until_);
     may_rest_until_.reset();
-    ports_.motor.poll(now);
     uptime_.advance(now);
     read_inputs(now);
     expire_forces(now);
@@ -177,6 +181,7 @@ void Gateway::enter_safe_state(SafeReason reason, base::Instant now) {
     hold_after_ = HoldAfter::never;
     set_safe_reason(reason, now);
     ports_.motor.stop();
+    ports_.motor.begin_orders(now);
 }
 
 void Gateway::work(base::Instant now) {
@@ -229,6 +234,7 @@ bool Gateway::send_orders(base::Instant now) {
         if (!held_) return true;
         if (!ports_.motor.has_room()) return false;
         ports_.motor.send(to_motor(*held_));
+        ports_.motor.begin_orders(now);
         if (observer_ != nullptr) observer_->ordered(now, *held_);
         held_.reset();
         progress_ = now;

@@ -35,6 +35,10 @@ void JvlMotor::poll(base::Instant now) {
             break;
     }
     update_hold(now);
+    begin_orders(now);
+}
+
+void JvlMotor::begin_orders(base::Instant now) {
     if (link_.busy()) return;
     follow_access(now);
     if (reply_until_ && !stop_wanted_ && orders_.empty()) return;
@@ -255,7 +259,8 @@ void JvlMotor::command(Sending what, std::uint8_t command, base::Instant now) {
 }
 
 std::uint8_t JvlMotor::on_the_wire(std::uint8_t command) const {
-    return recoded(command, settings_.register_code);
+    const bool is_own_code = settings_.register_code == protocol::fastmac::RegisterCode::format_list;
+    return is_own_code ? command : recoded(command, settings_.register_code);
 }
 
 void JvlMotor::send(const Order& order) {

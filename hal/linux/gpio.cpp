@@ -1,6 +1,7 @@
 #include "hal_linux/gpio.h"
 
 #include <algorithm>
+#include <bit>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -134,7 +135,7 @@ struct GpioBits::Part {
     }
     unsigned from(unsigned own) const {
         unsigned levels = 0;
-        for (std::size_t i = 0; i < bits.size(); ++i) levels |= ((own >> i) & 1U) << bits[i];
+        for (; own != 0; own &= own - 1) levels |= 1U << bits[static_cast<std::size_t>(std::countr_zero(own))];
         return levels;
     }
 };

@@ -47,6 +47,7 @@ struct Board final : ports::DigitalInputs,
     bool transmitter_idle() override { return true; }
 
     void poll(base::Instant) override {}
+    void begin_orders(base::Instant) override {}
     base::Instant next_poll(base::Instant) const override { return base::kNever; }
     bool settled() const override { return true; }
     bool has_room() const override { return true; }

@@ -22,7 +22,8 @@ struct BenchBoard final : ports::DigitalInputs,
     }
     void feed() override { ++feeds; }
 
-    void poll(base::Instant) override {}
+    void poll(base::Instant) override { ++polls; }
+    void begin_orders(base::Instant) override { begun = sent.size() + static_cast<std::size_t>(stops); }
     base::Instant next_poll(base::Instant) const override { return base::kNever; }
     bool settled() const override { return is_settled; }
     bool has_room() const override { return room != 0; }
@@ -82,6 +83,8 @@ struct BenchBoard final : ports::DigitalInputs,
     int writes = 0;
     int feeds = 0;
     int stops = 0;
+    int polls = 0;          ///< of the motor
+    std::size_t begun = 0;  ///< orders and stops given when begin_orders() was called last
     int room = 8;
     int missing_register = -1;
     int orders_seen = 0;

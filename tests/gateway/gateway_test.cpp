@@ -32,6 +32,32 @@ TEST_F(GatewayTest, AnInputMovesTheStepAndTheOutputs) {
     EXPECT_EQ(board.out, 5);
 }
 
+// Step 0: IN0 -> 60h (NOP) to the motor, step 1. 001 §6.1.6.
+constexpr sequencer::TermBytes kIn0ToNop{0xC0, 0x01, 0x01, 0x01, 0x60, 0, 0, 0};
+
+TEST_F(GatewayTest, AnOrderLeavesAtOnceAndAnEdgeNeedsNoPollOfTheMotor) {
+    const Bytes table{kIn0ToNop};
+    Gateway gateway = make({.debounce = 0us});
+    ASSERT_TRUE(gateway.load(table, board.now).ok);
+    board.run(gateway, 10ms);
+    ASSERT_EQ(board.sent.size(), 0U);
+    const int polls = board.polls;
+    board.in = 1;
+    gateway.poll_inputs(board.now);
+    EXPECT_EQ(board.sent.size(), 1U);
+    EXPECT_EQ(board.begun, static_cast<std::size_t>(board.stops) + 1);
+    EXPECT_EQ(board.polls, polls);
+}
+
+TEST_F(GatewayTest, AStopLeavesAtOnce) {
+    Gateway gateway = make();
+    board.run(gateway, 10ms);
+    const int stops = board.stops;
+    gateway.stop(board.now);
+    EXPECT_EQ(board.stops, stops + 1);
+    EXPECT_EQ(board.begun, static_cast<std::size_t>(board.stops));
+}
+
 TEST_F(GatewayTest, InPosAndErrorAreBits6And7) {
     const Bytes table{{0xC0, 0x40, 0x40, 0x01, 0x80, 0x01, 0, 0}, {0xC1, 0x80, 0x00, 0x02, 0x80, 0x02, 0, 0}};
     Gateway gateway = make();

@@ -133,6 +133,16 @@ TEST_F(MotorTest, OrdersGoOutInOrderWithAlternatingToggle) {
     EXPECT_TRUE(driver.settled());
 }
 
+TEST_F(MotorTest, AnOrderLeavesWithoutAPollIfTheLineIsFree) {
+    start();
+    driver.send(command(0x63));
+    driver.begin_orders(motor.now);
+    EXPECT_EQ(line.take(), (Bytes{0x63, 0x63}));
+    driver.send(command(0x45));
+    driver.begin_orders(motor.now);
+    EXPECT_EQ(line.take(), Bytes{}) << "the motor has not taken the first";
+}
+
 TEST_F(MotorTest, TheOlderRegisterCodeIsASetting) {
     JvlMotor older(line, {.register_code = protocol::fastmac::RegisterCode::older_example});
     Script<JvlMotor> peer{line, older};

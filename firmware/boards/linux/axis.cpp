@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <filesystem>
 #include <fstream>
 #include <utility>
@@ -202,11 +203,9 @@ void Axis::note_readable(std::uint32_t mark) {
 /// An edge tells its line's new level, and nothing else is asked for then. All lines are looked at whenever
 /// something else is the cause, so an edge that a chip has missed is seen a little later.
 void Axis::look_at_inputs() {
-    const std::uint32_t edges = std::exchange(edges_, 0);
+    std::uint32_t edges = std::exchange(edges_, 0);
     if (edges == 0) return inputs_->look();
-    for (std::size_t i = 0; i + kFirstLine < kMarks; ++i) {
-        if (((edges >> i) & 1U) != 0) inputs_->look_at(i);
-    }
+    for (; edges != 0; edges &= edges - 1) inputs_->look_at(static_cast<std::size_t>(std::countr_zero(edges)));
 }
 
 /// While the motor's line was read a moment ago, as it is when nothing is under way.
@@ -214,18 +213,17 @@ bool Axis::is_edge_alone(base::Instant now) const {
     return edges_ != 0 && !line_readable_ && motor_.was_read_since(now - kRest);
 }
 
-/// What the scan orders leaves at once; after an edge even before the motor's status is read.
+/// After an edge the scan comes first, and its orders leave before the motor's status is read.
 void Axis::run_sequence(base::Instant now) {
     const bool hurries = is_edge_alone(now);
     line_readable_ = false;
     look_at_inputs();
-    hurries ? motor_.shut_line() : motor_.open_line(now);
-    gateway_->poll(now);
-    motor::Motor& driver = motor_.driver();
-    if (driver.next_poll(now) <= now) driver.poll(now);
-    if (!hurries) return;
+    if (hurries) gateway_->poll_inputs(now);
     motor_.open_line(now);
-    driver.poll(now);
+    motor::Motor& driver = motor_.driver();
+    if (hurries) return driver.poll(now);
+    gateway_->poll(now);
+    if (driver.next_poll(now) <= now) driver.poll(now);
 }
 
 void Axis::serve(base::Instant now) {

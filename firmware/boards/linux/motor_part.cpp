@@ -79,10 +79,6 @@ void MotorPart::open_line(base::Instant now) {
     if (line_) line_->open(now);
 }
 
-void MotorPart::shut_line() {
-    if (line_) line_->shut();
-}
-
 bool MotorPart::may_rest() const {
     return jvl_ && motor::delivers(driver_->link()) && driver_->settled() &&
            !motor::is_open(driver_->access_state()) && !uart_->gone();

@@ -41,7 +41,6 @@ class MotorPart {
     bool may_rest() const;
     /// A JVL motor's status is taken from the line only while it is open. Other lines are always.
     void open_line(base::Instant now);
-    void shut_line();
     bool was_read_since(base::Instant time) const { return line_ && line_->opened() >= time; }
 
   private:

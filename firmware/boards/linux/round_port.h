@@ -13,7 +13,6 @@ class RoundPort final : public ports::SerialPort {
         opened_ = now;
         is_open_ = true;
     }
-    void shut() { is_open_ = false; }
     base::Instant opened() const { return opened_; }
 
     std::size_t write(std::span<const std::uint8_t> bytes) override { return port_.write(bytes); }

@@ -114,6 +114,8 @@ class Gateway {
 
     /// To be called at least once a millisecond.
     void poll(base::Instant now);
+    /// The same without the motor's own poll: for the moment when nothing but an input has changed.
+    void poll_inputs(base::Instant now);
     /// Or, instead: whenever something arrives (a byte from the motor, a change of an input) and at the
     /// latest then. Asked after each poll() and whatever was done since; `now` or earlier: at once. The
     /// watchdog may want it sooner. What it sleeps so is no scan time, and scans() counts only those that

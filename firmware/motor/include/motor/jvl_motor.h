@@ -25,6 +25,7 @@ class JvlMotor final : public Motor {
     JvlMotor(ports::SerialPort& port, const Settings& settings);
 
     void poll(base::Instant now) override;
+    void begin_orders(base::Instant now) override;
     base::Instant next_poll(base::Instant now) const override;
     bool settled() const override;
     bool has_room() const override { return !orders_.full(); }

@@ -46,6 +46,7 @@ class MidiMotor final : public Motor {
     MidiMotor(MidiLink& link, const Settings& settings);
 
     void poll(base::Instant now) override;
+    void begin_orders(base::Instant now) override { work(now); }
     base::Instant next_poll(base::Instant now) const override;
     bool settled() const override;
     bool can_execute(const Order& order) const override { return lack_of(order) == Lack::none; }

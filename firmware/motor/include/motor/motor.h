@@ -69,6 +69,10 @@ class Motor {
     /// each call that gives it something to do; `now` or earlier: at once.
     virtual base::Instant next_poll(base::Instant now) const = 0;
 
+    /// Begins what send() and stop() have left to do, as far as the line is free, so that it need not wait for
+    /// the next poll(). Reads nothing.
+    virtual void begin_orders(base::Instant now) = 0;
+
     /// Every order has been executed or given up and in_position() and error() are newer than the last of
     /// them: a scan may begin. Also true while the link is down (the scan then sees error()).
     virtual bool settled() const = 0;
