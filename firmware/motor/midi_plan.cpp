@@ -206,6 +206,10 @@ MidiMotor::Message MidiMotor::next_for_move() {
         }
         period = *wanted;
     }
+    if (period == 0) {
+        raise(MidiFault::bad_value, Lack::no_speed);
+        return {};
+    }
     std::uint8_t ramp = 0;
     if (!ramp_fits(period, ramp)) return {};
     if (period != period_) return command(midi::SPEED, period);
