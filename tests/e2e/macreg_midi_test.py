@@ -168,6 +168,16 @@ class Motion(Case):
         self.standing()
         self.reg("power", "off")
 
+    def test_all_are_told_to_stop_though_nobody_answers(self):
+        self.modules("--address", "2")
+        self.reg("--address", "2", "move", "1000000", "--no-wait")
+        self.patience = "100"
+        self.told(3, "WHETHER THEY STOPPED IS NOT KNOWN", "stop", "--all", "--emergency")
+        self.patience = "2000"
+        first = self.value("POSITION", "--address", "2")
+        self.assertEqual(self.value("POSITION", "--address", "2"), first)
+        self.assertLess(first, 1000000)
+
     def signalled(self, number, *motion):
         """What it says at its end; the signal comes twice, when it shows that something moves."""
         terminal, others = pty.openpty()

@@ -170,12 +170,26 @@ struct StopOptions {
     bool all = false;
 };
 
+/// All act on a general message, and one answers.
+void stop_all(MidiSession& session, midi::reg::Command command) {
+    const auto answer = session.master().try_command(session.link().everyone(), command);
+    using Kind = midi_client::Answer::Kind;
+    if (answer.kind == Kind::accepted)
+        return session.tell("stopped: all modules, as the one that answers for them says", {{"all", true}});
+    const bool is_can = session.link().is_can();
+    if (answer.kind == Kind::refused)
+        throw midi_client::Refused(
+            "the module that answers for all refuses it; `macreg midi stop --all --emergency` stops "
+            "anything");
+    throw midi_client::Doubtful(fmt::format(
+        "{}: told to all modules, and no clear answer came for them (address {} would give it, {}): WHETHER "
+        "THEY STOPPED IS NOT KNOWN; stop each with --address",
+        session.link().name(), is_can ? 1 : 0, is_can ? "003 §V.8" : "000 §IV"));
+}
+
 void stop(MidiSession& session, const StopOptions& options) {
     const midi::reg::Command command = options.emergency ? midi::reg::EMERGENCY_STOP : midi::reg::STOP;
-    if (options.all) {
-        session.master().command(session.link().everyone(), command);
-        return session.tell("stopped: all modules, as the one that answers for them says", {{"all", true}});
-    }
+    if (options.all) return stop_all(session, command);
     session.module().order(command);
     const Scale scale = session.module().known_scale();
     hold_signals();
