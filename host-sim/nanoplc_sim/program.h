@@ -19,7 +19,7 @@ struct Program {
     std::string name;         ///< as the source has it; empty for a table without names
     Names names;
     std::optional<registers::midi::Model> midi;  ///< the drive that the source names
-    std::string symbols;   ///< the file that the names of a table come from, or empty
+    std::string symbols;                         ///< the file that the names of a table come from, or empty
     std::string nameless;  ///< one line for the user why a table's symbols were left out, or empty
     std::string remark;    ///< one line for the user about the source, or empty
 };
