@@ -219,6 +219,7 @@ void MidiMotor::on_refused(base::Instant now) {
         case midi::EMERGENCY_STOP:
             stop_wanted_ = stop_hard_ = false;
             motion_ = Motion::unknown;
+            steady_begun_ = seen_moving_ = false;
             break;
         default:
             forget_parameter();

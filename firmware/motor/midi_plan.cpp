@@ -144,7 +144,7 @@ MidiMotor::Message MidiMotor::next_command(base::Instant now) {
         const auto tolerance = midi::tolerance_of_window(settings_.model, registers_.word(INPOSWIN));
         if (tolerance && *tolerance != tolerance_) return command(midi::TOLERANCE, *tolerance);
     }
-    if (mode() == 0) return moves() ? stop_first() : Message{};
+    if (mode() == 0) return moves() || is_stray() ? stop_first() : Message{};
     if (refusals_ != 0 && now < retry_at_) return {};
     if (motion_ == Motion::unknown && seen_moving_) return stop_first();
     return mode() == 1 ? next_for_run() : next_for_move();
@@ -205,6 +205,10 @@ MidiMotor::Message MidiMotor::next_for_move() {
             return {};
         }
         period = *wanted;
+    }
+    if (period == 0) {
+        raise(MidiFault::bad_value, Lack::no_speed);
+        return {};
     }
     std::uint8_t ramp = 0;
     if (!ramp_fits(period, ramp)) return {};

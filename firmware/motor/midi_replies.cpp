@@ -255,8 +255,13 @@ std::uint16_t MidiMotor::read_word(unsigned number) const {
 /// Counts a sample, from the last two positions if they are close enough.
 std::int32_t MidiMotor::speed() const {
     if (position_step_ <= base::Microseconds(0) || position_step_ > kLongestStep) return 0;
-    const std::int32_t counts = midi::counts_of_increments(settings_.model, position_ - position_before_);
-    return counts * kSample / static_cast<std::int32_t>(position_step_.count());
+    const std::uint32_t moved =
+        static_cast<std::uint32_t>(position_) - static_cast<std::uint32_t>(position_before_);
+    const std::int32_t counts = midi::counts_of_increments(settings_.model, static_cast<std::int32_t>(moved));
+    constexpr std::int32_t kMostCounts = INT32_MAX / kSample;  // in 0.5 s it is 33,000 rpm
+    return std::clamp<std::int32_t>(std::clamp(counts, -kMostCounts, kMostCounts) * kSample /
+                                        static_cast<std::int32_t>(position_step_.count()),
+                                    INT16_MIN, INT16_MAX);
 }
 
 std::uint32_t MidiMotor::error_bits() const {

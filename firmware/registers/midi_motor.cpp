@@ -123,6 +123,8 @@ std::string_view text_of(Lack lack) {
         case Lack::too_slow:
             return "a MIDI drive cannot turn so slowly: V 0, or at least 2 on MAC34 and 8 on MAC23 (0.95 and "
                    "3.8 rpm)";
+        case Lack::no_speed:
+            return "the MIDI drive's own speed is none (period 0): select or write V before a move";
         case Lack::no_acceleration:
             return "acceleration 0 would have no limit on a MIDI drive: give A at least 1";
         case Lack::too_soft:
@@ -181,7 +183,9 @@ std::int32_t counts_of_increments(Model model, std::int32_t increments) {
         rest += factor;
         --whole;
     }
-    return whole * kCounts + (rest * kCounts + factor / 2) / factor;
+    const auto wrapped = static_cast<std::uint32_t>(whole) * static_cast<std::uint32_t>(kCounts);
+    return static_cast<std::int32_t>(wrapped +
+                                     static_cast<std::uint32_t>((rest * kCounts + factor / 2) / factor));
 }
 
 std::optional<std::uint16_t> period_of_v_soll(Model model, std::int16_t v_soll) {
@@ -201,7 +205,7 @@ std::int16_t v_soll_of_period(Model model, std::uint16_t period) {
 }
 
 std::optional<std::uint8_t> ramp_of_a_soll(Model model, std::uint16_t a_soll, std::uint16_t period) {
-    if (a_soll == 0) return std::nullopt;
+    if (a_soll == 0 || period == 0) return std::nullopt;
     const std::uint32_t wanted = model == Model::mac23 ? kRamp23 : kRamp34;
     const std::uint64_t unit = std::uint64_t{period} * period * a_soll;
     if (unit >= wanted) return std::uint8_t{1};

@@ -49,12 +49,17 @@ std::string heading(const MidiModule& module) {
     return fmt::format("# EEPROM of a virtual {}", midi::facts_of(module.model()).name);
 }
 
+/// 000 §VI 03h: of 0..9 only some.
+bool is_legal(const MidiMemory& memory) {
+    return midi::pack(*midi::find_command(midi::END_STOPS), memory.stops).has_value();
+}
+
 bool take(MidiMemory& memory, const NamedValue& line) {
     for (const Entry& entry : kEntries) {
         if (line.name != entry.name) continue;
         if (line.value < entry.min || line.value > entry.max) return false;
         entry.set(memory, line.value);
-        return true;
+        return is_legal(memory);
     }
     return false;
 }

@@ -100,13 +100,15 @@ void add_run(arguments::App& parent, RunOptions& options) {
              }));
     app.add_option("--trace", options.csv, "write a trace as CSV")->type_name("T.csv");
     app.add_option("--vcd", options.vcd, "write a trace as VCD, for GTKWave")->type_name("T.vcd");
-    add_read(app, "--motor", "MODEL", "the motor (the program's own; MAC140 for a table without names)",
-             "MAC50, MAC95, MAC140, MAC141, MAC800, or of MIDI MAC23, MAC34-1 or MAC34-2",
-             [&options](const std::string& text) {
-                 options.motor = registers::model_of(text);
-                 options.midi_motor = registers::midi::model_of(text);
-                 return options.motor || options.midi_motor;
-             });
+    add_read(
+        app, "--motor", "MODEL",
+        "the motor (the program's own; MAC140 for a table without names, and for a MIDI drive's program)",
+        "MAC50, MAC95, MAC140, MAC141, MAC800, or of MIDI MAC23, MAC34-1 or MAC34-2",
+        [&options](const std::string& text) {
+            options.motor = registers::model_of(text);
+            options.midi_motor = registers::midi::model_of(text);
+            return options.motor || options.midi_motor;
+        });
     add_read(app, "--midi", "LINE", "line to a MIDI drive: v24 or can (v24)", "v24 or can",
              into(options.midi_can, [](const std::string& text) -> std::optional<bool> {
                  if (text != "v24" && text != "can") return std::nullopt;

@@ -154,6 +154,15 @@ std::unique_ptr<hal_linux::FileStorage> open_flash(const RunOptions& options) {
     return std::move(opened.storage);
 }
 
+/// A JVL motor stands in for the drive of a program unless one is asked for; the drive is slower to take
+/// orders, and waits.
+void tell_stand_in(const RunOptions& options, const Program& program) {
+    if (!program.midi || options.midi_motor || options.motor) return;
+    const std::string_view drive = registers::midi::facts_of(*program.midi).name;
+    fmt::print(stderr, "{}: a {} stands in for the MIDI drive; --motor {} takes the drive\n", program.file,
+               registers::name_of(program.names.motor), drive);
+}
+
 Program stored_program() {
     Program program;
     program.file = "the stored table";
@@ -179,6 +188,7 @@ int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted
                         program.file));
     const Scenario scenario = load_scenario(options, program.names);
     if (!program.remark.empty()) fmt::print(stderr, "{}\n", program.remark);
+    tell_stand_in(options, program);
     const auto flash = open_flash(options);
     Door door(options);
     Session session(options, program, scenario, Palette(wants_colour()), flash.get());

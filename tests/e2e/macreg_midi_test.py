@@ -8,14 +8,27 @@ import json
 import os
 import pty
 import signal
+import socket
 import subprocess
 import sys
+import threading
 import unittest
 
 import device_case
 from device_case import LONG
 
 MACREG = MIDISIM = ""
+
+
+def receive(stream, count):
+    """So many bytes; none if the other end is gone."""
+    data = b""
+    while len(data) < count:
+        part = stream.recv(count - len(data))
+        if not part:
+            return b""
+        data += part
+    return data
 
 
 class Case(device_case.Case):
@@ -155,6 +168,16 @@ class Motion(Case):
         self.standing()
         self.reg("power", "off")
 
+    def test_all_are_told_to_stop_though_nobody_answers(self):
+        self.modules("--address", "2")
+        self.reg("--address", "2", "move", "1000000", "--no-wait")
+        self.patience = "100"
+        self.told(3, "WHETHER THEY STOPPED IS NOT KNOWN", "stop", "--all", "--emergency")
+        self.patience = "2000"
+        first = self.value("POSITION", "--address", "2")
+        self.assertEqual(self.value("POSITION", "--address", "2"), first)
+        self.assertLess(first, 1000000)
+
     def signalled(self, number, *motion):
         """What it says at its end; the signal comes twice, when it shows that something moves."""
         terminal, others = pty.openpty()
@@ -186,6 +209,51 @@ class Motion(Case):
             for address in ("0", "1"):
                 first = self.value("POSITION", "--address", address)
                 self.assertEqual(self.value("POSITION", "--address", address), first, motion)
+
+    def test_a_refusal_that_was_none_is_stopped(self):
+        """Xon came as 18h, which is one bit of it: the module turns."""
+        self.modules()
+        real = self.endpoint
+        self.endpoint = "unix:" + self.path("noisy")
+        relay = self.relay(real, lambda heard: b"\x06\x13\x18" if heard == b"\x06\x13\x1a" else heard, times=1)
+        self.told(1, "it moved all the same and was stopped at", "jog", "60rpm", "--for", "60s")
+        relay.join(LONG)
+        self.endpoint = real
+        self.standing()
+
+    def test_the_first_cause_is_told_with_an_unconfirmed_stop(self):
+        self.modules()
+        real = self.endpoint
+        self.endpoint = "unix:" + self.path("noisy")
+        relay = self.relay(real, lambda heard: b"\x15" if heard == b"\x06\x13\x1a" else heard, times=100)
+        result = self.call("jog", "60rpm", "--for", "60s")
+        self.assertEqual((result.returncode, result.stderr.count("\n")), (3, 1), result.stderr)
+        self.assertIn("RUN came damaged, 6 times", result.stderr)
+        self.assertIn("does not answer to a stop; it stood when looked at", result.stderr)
+        relay.join(LONG)
+
+    def relay(self, real, change, times):
+        """Passes requests on to a module; its first answers are changed as the line might."""
+        server = socket.socket(socket.AF_UNIX)
+        server.bind(self.endpoint.removeprefix("unix:"))
+        server.listen(1)
+        self.addCleanup(server.close)
+
+        def work():
+            left = times
+            client, _ = server.accept()
+            with client, socket.socket(socket.AF_UNIX) as module:
+                module.connect(real.removeprefix("unix:"))
+                while request := receive(client, 21):
+                    module.sendall(request)
+                    answer = receive(module, 21 if request[6:7] == b"2" else 3)
+                    changed = change(answer) if left > 0 else answer
+                    left -= changed != answer
+                    client.sendall(changed)
+
+        worker = threading.Thread(target=work)
+        worker.start()
+        return worker
 
     def test_a_hung_up_terminal_stops_it(self):
         self.modules()

@@ -199,7 +199,7 @@ class Mistakes(Case):
 
     def test_of_files(self):
         end = ("--v24", "pty:" + self.path("x"))
-        for line in ("position = many", "positron = 5", "tolerance = 256", "stops = -1"):
+        for line in ("position = many", "positron = 5", "tolerance = 256", "stops = -1", "stops = 5"):
             with open(self.path("eeprom"), "w", encoding="ascii") as file:
                 file.write("# EEPROM of a virtual MAC34-1\n" + line + "\n")
             self.refused("--eeprom", self.path("eeprom"), *end, says="eeprom:2")

@@ -57,6 +57,14 @@ class Running(Case):
         self.until(lambda: "the link is up and acknowledged" in service.said(), service)
         self.moves()
 
+    def test_a_module_at_another_address_is_told_of(self):
+        self.plug_in(address="5")
+        service = self.start(self.write(self.axis(table=self.table)))
+        self.until(lambda: "x: no motor has answered yet on address 0 on" in service.said(), service)
+        self.assertEqual(self.ctl("status")["state"], "waiting for the motor")
+        self.assertEqual(self.end(service), 0)
+        self.assertEqual(service.said().count("no motor has answered"), 1)
+
     def test_a_fault_of_the_drive_is_told_in_words(self):
         with open(self.path("motor.eeprom"), "w", encoding="utf-8") as file:
             file.write("# EEPROM of a virtual MAC34-1\nupper_stop = 3000\nstops = 8\n")  # on the way to 5000

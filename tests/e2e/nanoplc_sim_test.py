@@ -262,6 +262,14 @@ class Run(Case):
         self.assertIn("still on their way: VELOCITY(V1)\napart from that " + good, cut)
         self.assertNotIn("not executed", cut)
 
+    def test_a_stand_in_for_a_midi_drive_is_told(self):
+        program = self.write("d.seq", b"PROGRAM P\nMOTOR MAC34;\nSTEP S: OWN ERROR; IF IN0 THEN NEXT := T; END_IF END_STEP\n"
+                             b"STEP T: OWN ERROR; IF IN1 THEN NEXT := S; END_IF END_STEP\nEND_PROGRAM\n")
+        told = self.call("run", program, "--for", "20ms").stderr.decode()
+        self.assertIn("a MAC140 stands in for the MIDI drive; --motor MAC34-1 takes the drive", told)
+        for motor in ("MAC34-1", "MAC140"):
+            self.assertEqual(self.call("run", program, "--for", "20ms", "--motor", motor).stderr, b"")
+
     def test_vcd_begins_as_viewers_want_it(self):
         self.run_with("end at 100 ms\n", "--vcd", self.path("t.vcd"))
         text = self.read("t.vcd")

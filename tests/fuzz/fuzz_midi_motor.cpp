@@ -51,11 +51,12 @@ struct Line final : ports::SerialPort {
 
 class Run {
   public:
-    Run() {
+    /// Of a module with a speed of its own or with none (period 0).
+    explicit Run(bool has_speed) {
         line_.driver = &driver_;
         for (int i = 0; i < 40 && driver_.link() != motor::Link::up; ++i) {
             poll(base::Microseconds(1'000));
-            answer(0x80000000);
+            answer(has_speed ? 0x80000320 : 0x80000000);
         }
         require(driver_.link() == motor::Link::up);
     }
@@ -119,8 +120,10 @@ class Run {
         if (value % 8 == 0) driver_.stop();
         if (value % 8 == 4) driver_.drop_access();
         if (value % 4 == 1) {
+            // Where the shaft is and how fast it turns, besides any register.
+            const int reg = value % 16 == 5 ? registers::P_IST + value / 16 % 3 : value / 2;
             const bool taken = driver_.begin_access({.is_write = value % 8 == 1,
-                                                     .reg = static_cast<std::uint8_t>(value / 2),
+                                                     .reg = static_cast<std::uint8_t>(reg),
                                                      .longword = value % 16 > 8,
                                                      .value = value});
             require(!taken || motor::delivers(driver_.link()));
@@ -166,7 +169,7 @@ class Run {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size > 4096) return 0;
-    Run run;
+    Run run(size % 2 != 0);
     for (std::size_t i = 0; i + 1 < size; i += 2) run.act(data[i], data[i + 1]);
     run.settle();
     return 0;

@@ -65,12 +65,27 @@ TEST_F(MasterTest, WhatWasNotUnderstoodIsSentAgain) {
     wire.script = {{kNack}, {kNack}, {kNack}, {kNack}, {kDone}};
     EXPECT_THROW(master.command(0, midi::RUN, 0x0320), LineError);
     EXPECT_EQ(wire.sent.size(), 7u);
+    wire.script = {{kNack}, {kNack}, {kNack}, {kNack}};
+    try {
+        master.position(0);
+        FAIL();
+    } catch (const LineError& error) {
+        EXPECT_NE(std::string(error.what()).find("address 0 says that GET_POSITION came damaged, 4 times"),
+                  std::string::npos)
+            << error.what();
+    }
 }
 
 TEST_F(MasterTest, ARefusalIsOne) {
     wire.script = {{kRefused}, {{0x06, 0x13, 0x18}}};
-    EXPECT_THROW(master.command(0, midi::GO_TO, 5), Refused);
-    EXPECT_THROW(master.command(0, midi::GO_TO, 5), Refused);
+    for (const bool by_18h : {false, true}) {
+        try {
+            master.command(0, midi::GO_TO, 5);
+            FAIL();
+        } catch (const Refused& error) {
+            EXPECT_EQ(error.by_18h(), by_18h);
+        }
+    }
     EXPECT_EQ(wire.sent.size(), 2u);
 }
 

@@ -213,7 +213,7 @@ struct MidiScriptTest : MidiLineTest {
             if (text.empty() || text[2] != '2') return text;
             if (text[3] == '0') answer(value('0', position));
             if (text[3] == '1') answer(value('1', status));
-            if (text[3] == '5') answer(value('5', "05000320"));
+            if (text[3] == '5') answer(value('5', speeds));
             if (text[3] == '6') answer(value('6', "01801000"));
             if (text[3] == '7') answer(value('7', busy ? "00000000" : "00000800"));
             if (text[3] == '8') answer(value('8', "80000000"));
@@ -234,6 +234,7 @@ struct MidiScriptTest : MidiLineTest {
 
     std::string position = "00000000";
     std::string status = "00000000";
+    std::string speeds = "05000320";
     bool busy = false;
 
   private:
@@ -368,6 +369,33 @@ TEST_F(MidiScriptTest, AStopThatIsRefusedBecomesAnEmergencyStop) {
     EXPECT_EQ(until_command(), "");
     EXPECT_TRUE(driver.settled());
     EXPECT_FALSE(driver.error());
+}
+
+/// 000 §VI 0Dh gives period 0 no speed: a ramp cannot be worked out from it, nor is a move begun with it.
+TEST_F(MidiScriptTest, AModuleWithoutASpeedIsAnErrorAtTheMove) {
+    speeds = "05000000";
+    start();
+    driver.send(word(registers::A_SOLL, 160));
+    driver.send(longword(registers::P_SOLL, 4'096));
+    driver.send(word(registers::MODE_REG, 2));
+    EXPECT_EQ(until_command(), "");
+    EXPECT_EQ(driver.fault(), MidiFault::bad_value);
+    EXPECT_EQ(driver.lack(), registers::midi::Lack::no_speed);
+    driver.send(fast(kResetError));
+    driver.send(word(registers::V_SOLL, 629));
+    driver.send(word(registers::MODE_REG, 2));
+    EXPECT_EQ(until_command(), "000D0000000320");
+}
+
+/// 003 §IV: positions have 31 bits; what a module says beyond them is worked with all the same.
+TEST_F(MidiScriptTest, ThePositionsThatAModuleSaysAreOnlyNumbers) {
+    start();
+    for (const char* place : {"7FFFFFFF", "80000000", "7FFFFFFF", "3FFFFFFF", "C0000000"}) {
+        position = place;
+        ASSERT_TRUE(driver.begin_access({.reg = registers::V_IST}));
+        EXPECT_EQ(until_command(), "");
+        EXPECT_EQ(driver.access_state(), AccessState::done);
+    }
 }
 
 TEST_F(MidiScriptTest, SilenceInMidRunIsALostLink) {

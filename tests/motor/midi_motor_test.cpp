@@ -358,6 +358,43 @@ TEST_P(MidiMotorTest, LostInMidMove) {
     EXPECT_EQ(driver.counters().link_losses, 1U);
 }
 
+/// With ERROR the mode is 0, and nothing may turn that nobody leads any more.
+TEST_P(MidiMotorTest, WhatStillTurnsWhenTheLinkIsBackIsStopped) {
+    bench.order(word(registers::A_SOLL, 160));
+    bench.order(word(registers::V1, 800));
+    bench.order_and_settle(fast(kVelocityV1));
+    ASSERT_TRUE(bench.arrives());
+    bench.drive.cut(true);
+    ASSERT_TRUE(bench.until([&] { return driver.link() == Link::down; }, 1s));
+    bench.pass(1s);
+    ASSERT_TRUE(module.moving());
+    bench.drive.cut(false);
+    EXPECT_TRUE(bench.until([&] { return !module.moving(); }, 3s));
+    EXPECT_EQ(bench.count(midi::RUN), 1U);
+    EXPECT_EQ(driver.fault(), MidiFault::link_lost);
+    bench.pass(2s);
+    const std::size_t stops = bench.count(midi::STOP);
+    EXPECT_EQ(stops, 1U);
+    bench.order_and_settle(fast(kResetError));
+    EXPECT_FALSE(driver.error());
+    EXPECT_FALSE(module.moving());
+}
+
+/// For a gateway that leaves the motor as it finds it.
+TEST_P(MidiMotorTest, WhatTurnedBeforeTheStartIsLeftAlone) {
+    ASSERT_TRUE(module.execute(midi::RUN, 0, 480));
+    MidiMotor another(GetParam() == Way::can ? static_cast<MidiLink&>(bench.can_link) : bench.v24_link, {});
+    for (int i = 0; i < 3'000; ++i) {
+        bench.now += 1ms;
+        bench.drive.service(bench.now);
+        another.poll(bench.instant());
+    }
+    EXPECT_EQ(another.link(), Link::up);
+    EXPECT_TRUE(module.moving());
+    EXPECT_FALSE(another.error());
+    EXPECT_EQ(bench.count(midi::STOP) + bench.count(midi::EMERGENCY_STOP), 0U);
+}
+
 TEST_P(MidiMotorTest, AModuleThatStartsAnewInMidMove) {
     set_profile();
     go(49'152);

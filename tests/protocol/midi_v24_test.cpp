@@ -195,6 +195,18 @@ TEST(MidiV24, WhatDoesNotAnswerTheRequestIsUnclear) {
     EXPECT_EQ(answers_in({.address = 1, .index = 0x13}, "\x06\x13" + good + "\x1A")[0].kind, Kind::unclear);
 }
 
+// 000 §III against §VI: 21h and 23h with the digit of 22h, and 28h with the length of a request.
+TEST(MidiV24, TheManualsMisprintsAreNoAnswers) {
+    for (const auto& [index, inside] :
+         {std::pair{0x21, "011 01 2 00000000 13"}, std::pair{0x23, "011 01 2 00000000 13"},
+          std::pair{0x28, "014 01 8 80000000 21"}}) {
+        const Request asked{.address = 1, .index = static_cast<std::uint8_t>(index)};
+        const auto answers = answers_in(asked, "\x06\x13" + frame(inside) + "\x1A");
+        ASSERT_EQ(answers.size(), 1u) << inside;
+        EXPECT_EQ(answers[0].kind, Kind::unclear) << inside;
+    }
+}
+
 TEST(MidiV24, AGeneralQueryIsAnsweredByModuleZero) {
     const Request query{.address = kGeneral, .index = 0x20};
     for (const std::uint8_t from : {std::uint8_t{0}, kGeneral}) {

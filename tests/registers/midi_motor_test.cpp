@@ -52,6 +52,9 @@ TEST(MidiMotorPosition, Range) {
     }
     EXPECT_EQ(counts_of_increments(Model::mac34_1, kMaxPosition), 439'804'651);
     EXPECT_EQ(counts_of_increments(Model::mac34_1, kMinPosition), -439'804'651);
+    // 1073741823 x 2.048 = 2199023253.5, and 2^32 less, as P_IST wraps.
+    EXPECT_EQ(counts_of_increments(Model::mac23, kMaxPosition), -2'095'944'042);
+    EXPECT_EQ(counts_of_increments(Model::mac23, 1'048'575'999), 2'147'483'646);
 }
 
 TEST(MidiMotorPosition, AgainstExactFractions) {
@@ -134,6 +137,7 @@ TEST(MidiMotorRamp, NeverHarderThanAskedAndNeverSofterThanNeeded) {
 
 TEST(MidiMotorRamp, Limits) {
     EXPECT_FALSE(ramp_of_a_soll(Model::mac34_1, 0, 0xFFFF));
+    EXPECT_FALSE(ramp_of_a_soll(Model::mac34_1, 160, 0));
     EXPECT_EQ(ramp_of_a_soll(Model::mac34_1, 1, 0xFFFF), 1);
     EXPECT_EQ(ramp_of_a_soll(Model::mac34_1, 0xFFFF, 0xFFFF), 1);
     // 6442450.944 / 255 = 25264.5: the least A x period^2.

@@ -2,6 +2,7 @@
 // a revolution is 10000 and 2000 increments (000 §I, §VI 0Dh).
 #include <gtest/gtest.h>
 
+#include "seqc/decompile.h"
 #include "seqc/symbol_file.h"
 #include "support.h"
 
@@ -103,6 +104,62 @@ TEST(MidiPrograms, WhatWaitsForStandstillIsSaid) {
     EXPECT_TRUE(says(in_motion("VELOCITY(A1);"), "W015"));
     EXPECT_TRUE(says(in_motion("A_SOLL := 41;"), "W015"));
     EXPECT_TRUE(says(in_motion("POSITION(P1);"), "W015"));
+}
+
+// The gateway knows of a drive's registers only what a program writes (firmware/motor/MIDI.md).
+TEST(MidiPrograms, ARegisterThatIsNeverGivenIsWarnedOf) {
+    const auto with = [](const std::string& motor, const std::string& statement) {
+        return "PROGRAM P\nMOTOR " + motor +
+               ";\nVAR_MOTOR There AT P1 := 1 rev; Fast AT V1 := 600 rpm; Soft AT A1 := 40; END_VAR\n"
+               "POWER_UP INIT(Fast, Soft); NEXT := S; END_POWER_UP\n"
+               "STEP S: OWN ERROR; IF IN0 THEN " +
+               statement +
+               " NEXT := T; END_IF END_STEP\n"
+               "STEP T: OWN ERROR; IF IN1 THEN NEXT := S; END_IF END_STEP\nEND_PROGRAM\n";
+    };
+    for (const char* given : {"POSITION(P1);", "INIT(V1);", "INIT(V1, A1);", "USE_SET(1);",
+                              "V_SOLL := 300 rpm;", "T2 := 50 %peak; INIT(T2);"})
+        EXPECT_FALSE(says(with("MAC34", given), "W017")) << given;
+    for (const char* unset :
+         {"POSITION(P2);", "INIT(V2);", "INIT(A3);", "INIT(T2);", "INIT(Z1);", "USE_SET(2);"}) {
+        EXPECT_TRUE(says(with("MAC23", unset), "W017")) << unset;
+        EXPECT_FALSE(says(with("MAC140", unset), "W017")) << unset << ": it may be in the motor's flash";
+    }
+    // A term of bytes gives V2 = 320: 42h is register 66 with 16 bits (001 §6.1.4).
+    const std::string by_bytes = with("MAC34", "INIT(V2);");
+    EXPECT_FALSE(says(by_bytes.substr(0, by_bytes.find("END_PROGRAM")) +
+                          "TERM 16#02, 0, 16#80, 16#42, 16#40, 16#01, 0, 0;\nEND_PROGRAM\n",
+                      "W017"));
+}
+
+TEST(MidiPrograms, DecompileNamesTheDrive) {
+    const Compilation program_34 = compile(program("MAC34", kValues));
+    DecompileOptions options{.origin = "p.bin", .motor = registers::Model::mac140};
+    options.midi = registers::midi::Model::mac34_1;
+    const Decompilation said = decompile(program_34.table, options);
+    EXPECT_NE(said.text.find("\nMOTOR MAC34;\n"), std::string::npos) << said.text;
+    EXPECT_EQ(compile(said.text).table, program_34.table);
+    const Compilation program_23 = compile(program("MAC23", kValues));
+    const Decompilation known =
+        decompile(program_23.table, {.origin = "p.bin", .motor = {}, .symbols = &program_23.symbols});
+    EXPECT_NE(known.text.find("\nMOTOR MAC23;\n"), std::string::npos) << known.text;
+    EXPECT_EQ(compile(known.text).table, program_23.table);
+}
+
+TEST(MidiPrograms, DecompileNamesADriveOnlyForWhatItCanDo) {
+    const Compilation homing = compile(
+        "PROGRAM P\nMOTOR MAC140;\nPOWER_UP INIT(V1); NEXT := S; END_POWER_UP\n"
+        "STEP S: OWN ERROR; IF IN0 THEN HOME; NEXT := T; END_IF END_STEP\n"
+        "STEP T: OWN ERROR; IF IN1 THEN NEXT := S; END_IF END_STEP\nEND_PROGRAM\n");
+    ASSERT_TRUE(homing.ok);
+    DecompileOptions options{.origin = "p.bin", .motor = registers::Model::mac140};
+    options.midi = registers::midi::Model::mac34_1;
+    const Decompilation result = decompile(homing.table, options);
+    EXPECT_NE(result.text.find("\nMOTOR MAC140;\n"), std::string::npos) << result.text;
+    EXPECT_NE(result.text.find("// It is written for a MAC140, because a MAC34 cannot execute HOME.\n"),
+              std::string::npos)
+        << result.text;
+    EXPECT_EQ(compile(result.text).table, homing.table);
 }
 
 TEST(MidiPrograms, TheDriveStandsInTheSymbolFile) {

@@ -23,6 +23,7 @@ std::string command_name(std::uint8_t number) {
 std::uint32_t Master::query(std::uint8_t address, midi::Query query, std::uint8_t sub_index) {
     bool heard = false;
     unsigned refused = 0;
+    unsigned damaged = 0;
     for (unsigned i = 0; i < attempts_; ++i) {
         const Answer answer =
             link_.ask({.address = address, .query = true, .number = query, .sub_index = sub_index});
@@ -35,7 +36,9 @@ std::uint32_t Master::query(std::uint8_t address, midi::Query query, std::uint8_
             throw Refused(fmt::format("address {} refuses {}; it does not know it", address,
                                       midi::find_query(query)->name));
         heard = heard || answer.kind != Kind::silence;
+        damaged += answer.kind == Kind::not_taken ? 1 : 0;
     }
+    if (damaged == attempts_) came_damaged(address, midi::find_query(query)->name);
     no_answer(address, attempts_, heard);
 }
 
@@ -47,12 +50,9 @@ void Master::command(std::uint8_t address, midi::Command command, std::uint32_t 
     const Answer answer = try_command(address, command, data);
     if (answer.kind == Kind::accepted) return;
     const std::string name = command_name(command);
-    if (answer.kind == Kind::refused) throw Refused(fmt::format("address {} refuses {}", address, name));
-    if (answer.kind == Kind::not_taken)
-        throw LineError(LineError::Kind::no_answer,
-                        fmt::format("{}: address {} says that {} came damaged, {} times; it was not carried "
-                                    "out: check wiring, shield and ground of the line",
-                                    link_.name(), address, name, attempts_));
+    if (answer.kind == Kind::refused)
+        throw Refused(fmt::format("address {} refuses {}", address, name), answer.by_18h);
+    if (answer.kind == Kind::not_taken) came_damaged(address, name);
     if (!answered_ && answer.kind == Kind::silence)
         no_answer(address, is_stop(command) ? attempts_ : 1, false);
     throw Doubtful(
@@ -109,6 +109,13 @@ void Master::pause(base::Microseconds time, const std::function<bool()>& goes_on
         if (goes_on && !goes_on()) throw Interrupted("interrupted");
         link_.pause(std::min<base::Microseconds>(kLook, end - now));
     }
+}
+
+void Master::came_damaged(std::uint8_t address, std::string_view name) const {
+    throw LineError(LineError::Kind::no_answer,
+                    fmt::format("{}: address {} says that {} came damaged, {} times; it was not carried "
+                                "out: check wiring, shield and ground of the line",
+                                link_.name(), address, name, attempts_));
 }
 
 void Master::no_answer(std::uint8_t address, unsigned asked, bool heard) const {

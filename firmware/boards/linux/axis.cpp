@@ -31,6 +31,9 @@ constexpr std::uint32_t kFirstLine = 2;
 constexpr base::Microseconds kPace{250};
 /// Between two reads of the motor's status while nothing is under way.
 constexpr base::Milliseconds kRest{5};
+/// A motor that has not answered so long after the start is told of; one that is switched on with us needs
+/// some time.
+constexpr base::Milliseconds kFirstAnswer{5'000};
 /// Until the store is done, for a reset.
 constexpr base::Milliseconds kBetweenLooks{1};
 
@@ -138,6 +141,7 @@ std::string Axis::start(gateway::StartCause cause, base::Instant now) {
     tables_.reset();
     gateway_.reset();
     told_events_ = 0;
+    tell_silence_at_ = now + kFirstAnswer;
     inputs_->look();
     motor::Motor& driver = motor_.start(settings_->values());
     const gateway::Gateway::Ports ports{*inputs_, *outputs_, watchdog_, driver};
@@ -239,7 +243,7 @@ void Axis::serve(base::Instant now) {
     if (is_back) watch_ports();
     rest_or_watch(now);
     watch_pins(now);
-    tell_news();
+    tell_news(now);
     if (own_registers_->reset_asked() && !stores()) reset(now);
 }
 
@@ -285,7 +289,7 @@ base::Instant Axis::next(base::Instant now) {
     if (failed_) return base::kNever;
     if (own_registers_->reset_asked()) return now + kBetweenLooks;
     base::Instant next = std::min(gateway_->next_poll(now), user_port_->next_poll(now));
-    next = std::min({next, rests_until_, motor_.next_look()});
+    next = std::min({next, rests_until_, tell_silence_at_, motor_.next_look()});
     if (mactalk_port_) next = std::min(next, mactalk_port_->next_look());
     if (user_uart_) next = std::min(next, user_uart_->next_look());
     if (user_server_) next = std::min(next, user_server_->next_turn(now));
@@ -305,7 +309,7 @@ void Axis::write_safe_outputs() {
     if (outputs_) outputs_->write(gateway_ ? gateway_->settings().safe_outputs : std::uint8_t{0});
 }
 
-void Axis::tell_news() {
+void Axis::tell_news(base::Instant now) {
     const gateway::EventLog& log = gateway_->log();
     if (log.count() < told_events_) told_events_ = 0;  // it was cleared
     if (log.count() - told_events_ > gateway::EventLog::kSlots)
@@ -316,6 +320,13 @@ void Axis::tell_news() {
     }
     for (const Said& said : motor_.news()) tell(said.level, said.text);
     const motor::Link link = motor_.driver().link();
+    if (motor::delivers(link)) tell_silence_at_ = base::kNever;
+    if (now >= tell_silence_at_) {
+        tell_silence_at_ = base::kNever;
+        tell(LogLevel::warning,
+             fmt::format("no motor has answered yet on {}; look at its supply, its line, and at [axis.motor]",
+                         config_.motor.line_in_words()));
+    }
     if (motor::delivers(link) == motor::delivers(told_link_)) return;
     told_link_ = link;
     if (motor::delivers(link))

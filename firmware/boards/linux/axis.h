@@ -65,7 +65,7 @@ class Axis {
     gateway::StartCause cause_of_start() const;
     std::string start(gateway::StartCause cause, base::Instant now);
     void tell(LogLevel level, const std::string& text);
-    void tell_news();
+    void tell_news(base::Instant now);
     void tell_stored_settings();
     void watch_ports();
     void look_at_inputs();
@@ -115,6 +115,7 @@ class Axis {
     std::uint32_t edges_ = 0;  ///< descriptors of inputs at which some wait, bit 0 is the first
     /// The motor's line is looked at then; it does not wake us.
     base::Instant rests_until_ = base::kNever;
+    base::Instant tell_silence_at_ = base::kNever;
     std::uint32_t told_events_ = 0;
     motor::Link told_link_ = motor::Link::down;
     bool told_pins_lost_ = false;

@@ -13,12 +13,29 @@ namespace {
 
 constexpr const char* kFooter =
     "It may stand in the environment's MACREG_PORT instead. A port that another program holds is refused.\n"
-    "Without --address the only motor on the line is asked for its own.\n"
+    "{}\n"
     "Exit codes: 0 done; 1 the motor refused, or things differ; 2 wrong usage, a file, or not confirmed;\n"
     "3 the port cannot be opened, nobody answers, or the answers ended before it was done;\n"
     "130 ended by Ctrl-C or SIGTERM before it was done (watch ends with 0).\n"
-    "With --json a failure is {\"ok\": false, \"error\": ...}.\n"
-    "Example: macreg --port PORT get P_IST V_IST MODE_REG";
+    "With --json a failure is {{\"ok\": false, \"error\": ...}}.\n"
+    "Example: macreg --port PORT {}";
+
+std::string footer(const char* address, const char* example) {
+    const std::string can = nplc::host::CanClient::forms();
+    return fmt::format("PORT is {}{}.\n", nplc::host::ByteClient::forms(),
+                       can.empty() ? "" : fmt::format("; for midi also {}", can)) +
+           fmt::format(kFooter, address, example);
+}
+
+std::string footer_of_motors() {
+    return footer("Without --address the only motor on the line is asked for its own.",
+                  "get P_IST V_IST MODE_REG");
+}
+
+std::string footer_of_modules() {
+    return footer("Without --address it is that of a new module: 0, and 1 on CAN.",
+                  "midi --model MAC34-1 status");
+}
 
 void add_common(nplc::arguments::App& app, nplc::macreg::cli::Common& common) {
     nplc::command_line::add_line_options(app, common, "the motor");
@@ -62,9 +79,7 @@ int main(int argc, char** argv) {
         "macreg");
     app.require_subcommand(1);
     app.set_version_flag("--version", std::string("macreg ") + NPLC_VERSION);
-    const std::string can = nplc::host::CanClient::forms();
-    app.footer(fmt::format("PORT is {}{}.\n{}", nplc::host::ByteClient::forms(),
-                           can.empty() ? "" : fmt::format("; for midi also {}", can), kFooter));
+    app.footer(footer_of_motors());  // a command takes its own from here when it is added
     Common common;
     common.program = "macreg";
     common.date =
@@ -85,7 +100,9 @@ int main(int argc, char** argv) {
     add_plot(app, common);
     add_monitor(app, common);
     add_ui(app, common);
+    app.footer(footer_of_modules());
     add_midi(app, common);
+    app.footer(footer_of_motors());
     nplc::command_line::add_generated(app, common, about());
     return nplc::command_line::run(app, common, argc, argv);
 }

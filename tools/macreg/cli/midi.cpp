@@ -28,6 +28,17 @@ std::uint8_t address_of(const MidiCommon& options, const midi_client::Link& link
     return static_cast<std::uint8_t>(said);
 }
 
+/// After a stop that was not confirmed.
+std::string unstopped(MidiSession& session) {
+    try {
+        if (!session.module().moves())
+            return fmt::format("address {} does not answer to a stop; it stood when looked at",
+                               session.address());
+    } catch (const std::runtime_error&) {  // nobody knows
+    }
+    return fmt::format("STILL TURNING, perhaps: address {} does not answer to a stop", session.address());
+}
+
 }  // namespace
 
 std::optional<midi::reg::Model> midi_model(const MidiCommon& midi) {
@@ -114,8 +125,7 @@ std::int32_t bring_to_rest(MidiSession& session) {
     const auto stop_hard = [&] {
         if (master.stop_hard(std::span(&address, 1)).empty()) return;
         throw LineError(LineError::Kind::no_answer,
-                        fmt::format("{}: STILL TURNING, perhaps: address {} does not answer to a stop",
-                                    session.link().name(), address));
+                        fmt::format("{}: {}", session.link().name(), unstopped(session)));
     };
     Kind kind = Kind::silence;
     try {
@@ -132,6 +142,16 @@ std::int32_t bring_to_rest(MidiSession& session) {
         before = position;
         if (session.link().now() > end) stop_hard();
     }
+}
+
+void stop_and_rethrow(MidiSession& session, const std::runtime_error& error) {
+    progress(session.common(), "");
+    try {
+        bring_to_rest(session);
+    } catch (const LineError& stop) {
+        throw LineError(stop.kind(), fmt::format("{}; {}", error.what(), stop.what()));
+    }
+    throw;
 }
 
 void add_midi(arguments::App& app, Common& common) {

@@ -65,6 +65,9 @@ void hold_signals();
 /// a warning in capitals if no stop is confirmed.
 std::int32_t bring_to_rest(MidiSession& session);
 
+/// Within a handler: ends the motion and throws the error again, with the warning if no stop is confirmed.
+[[noreturn]] void stop_and_rethrow(MidiSession& session, const std::runtime_error& error);
+
 using MidiSubcommand = command_line::Subcommand<MidiCommon>;
 MidiSubcommand add_midi_find, add_midi_motion, add_midi_path, add_midi_raw, add_midi_service, add_midi_status,
     add_midi_values;

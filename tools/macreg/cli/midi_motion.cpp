@@ -36,6 +36,14 @@ std::int64_t distance(const std::string& text, const MidiCommon& midi) {
     return number.value;
 }
 
+/// One damaged bit makes a refusal of an acceptance, and then it moves.
+[[noreturn]] void end_refused(MidiSession& session, const midi_client::Refused& error) {
+    if (!error.by_18h() || !session.module().moves()) throw error;
+    throw midi_client::Refused(
+        fmt::format("{}; it moved all the same and was stopped at {}: has the line noise?", error.what(),
+                    midi::position_text(bring_to_rest(session), session.module().known_scale())));
+}
+
 /// A second one to the same place is refused while the first is under way, so doubt is resolved by asking
 /// twice.
 void start_move(MidiSession& session, std::int32_t target) {
@@ -59,10 +67,8 @@ void wait_for(MidiSession& session, std::int32_t target) {
         const std::int32_t position = bring_to_rest(session);
         throw midi_client::Interrupted(
             fmt::format("interrupted; stopped at {}", midi::position_text(position, scale)));
-    } catch (const std::runtime_error&) {
-        progress(session.common(), "");
-        bring_to_rest(session);
-        throw;
+    } catch (const std::runtime_error& error) {
+        stop_and_rethrow(session, error);
     }
 }
 
@@ -80,11 +86,10 @@ void move(const MidiCommon& midi, const MoveOptions& options) {
     const base::Instant begun = session.link().now();
     try {
         start_move(session, static_cast<std::int32_t>(target));
-    } catch (const midi_client::Refused&) {
-        throw;
-    } catch (const std::runtime_error&) {
-        bring_to_rest(session);
-        throw;
+    } catch (const midi_client::Refused& error) {
+        end_refused(session, error);
+    } catch (const std::runtime_error& error) {
+        stop_and_rethrow(session, error);
     }
     if (options.no_wait)
         return session.tell(fmt::format("moves to {}", midi::position_text(target, scale)),
@@ -142,16 +147,14 @@ void jog(const MidiCommon& midi, const JogOptions& options) {
         const std::int64_t direction = period.value < 0 ? midi::reg::kTurnsLeft : 0;
         session.module().order(midi::reg::RUN, data_of(midi::reg::RUN, direction, std::abs(period.value)));
         why = turn(session, base::Microseconds{time.value}, keys);
-    } catch (const midi_client::Refused&) {
-        throw;
+    } catch (const midi_client::Refused& error) {
+        end_refused(session, error);
     } catch (const midi_client::Interrupted&) {
         progress(session.common(), "");
         throw midi_client::Interrupted(
             fmt::format("interrupted; stopped at {}", midi::position_text(bring_to_rest(session), scale)));
-    } catch (const std::runtime_error&) {
-        progress(session.common(), "");
-        bring_to_rest(session);
-        throw;
+    } catch (const std::runtime_error& error) {
+        stop_and_rethrow(session, error);
     }
     progress(session.common(), "");
     const std::int32_t at = bring_to_rest(session);
@@ -167,12 +170,26 @@ struct StopOptions {
     bool all = false;
 };
 
+/// All act on a general message, and one answers.
+void stop_all(MidiSession& session, midi::reg::Command command) {
+    const auto answer = session.master().try_command(session.link().everyone(), command);
+    using Kind = midi_client::Answer::Kind;
+    if (answer.kind == Kind::accepted)
+        return session.tell("stopped: all modules, as the one that answers for them says", {{"all", true}});
+    const bool is_can = session.link().is_can();
+    if (answer.kind == Kind::refused)
+        throw midi_client::Refused(
+            "the module that answers for all refuses it; `macreg midi stop --all --emergency` stops "
+            "anything");
+    throw midi_client::Doubtful(fmt::format(
+        "{}: told to all modules, and no clear answer came for them (address {} would give it, {}): WHETHER "
+        "THEY STOPPED IS NOT KNOWN; stop each with --address",
+        session.link().name(), is_can ? 1 : 0, is_can ? "003 §V.8" : "000 §IV"));
+}
+
 void stop(MidiSession& session, const StopOptions& options) {
     const midi::reg::Command command = options.emergency ? midi::reg::EMERGENCY_STOP : midi::reg::STOP;
-    if (options.all) {
-        session.master().command(session.link().everyone(), command);
-        return session.tell("stopped: all modules, as the one that answers for them says", {{"all", true}});
-    }
+    if (options.all) return stop_all(session, command);
     session.module().order(command);
     const Scale scale = session.module().known_scale();
     hold_signals();

@@ -9,6 +9,7 @@
 
 #include "cli/files.h"
 #include "cli/session.h"
+#include "macreg/midi_monitor.h"
 #include "macreg/words.h"
 #include "registers/gateway.h"
 #include "whole_files/whole_files.h"
@@ -90,21 +91,43 @@ std::vector<std::uint8_t> read_hex(const std::string& text, const std::string& n
     return bytes;
 }
 
+constexpr std::uint32_t kOthersBaud = 19'200;  ///< what --baud has unless said
+
+bool is_midi(const Options& options) {
+    return options.protocol == "midi";
+}
+
+/// As `midi` has it: --baud if said, else the factory's.
+Common line_of_midi(Common common) {
+    if (common.baud == kOthersBaud) common.baud = registers::midi::kFactoryBaud;
+    return common;
+}
+
+std::unique_ptr<Monitor> make_midi(const Common& common) {
+    MidiMonitorOptions how{.baud = common.baud};
+    if (!common.model.empty()) how.model = registers::midi::model_of(common.model);
+    if (!common.model.empty() && !how.model)
+        throw UserError(fmt::format("--model {}: write MAC23, MAC34-1 or MAC34-2", common.model));
+    return make_midi_monitor(how);
+}
+
 std::unique_ptr<Monitor> make(const Common& common, const Options& options) {
+    if (is_midi(options)) return make_midi(common);
     MonitorOptions how{.gateway = static_cast<std::uint8_t>(options.gateway), .baud = common.baud};
     if (const auto model = model_option(common)) how.model = *model;
     if (options.old_code) how.code = protocol::fastmac::RegisterCode::older_example;
     if (options.protocol == "mactalk") return make_mactalk_monitor(how);
     if (options.protocol == "fastmac" || options.protocol == "flexmac") return make_fastmac_monitor(how);
-    throw UserError(
-        fmt::format("--protocol {}: write mactalk or fastmac (which is FlexMAC too)", options.protocol));
+    throw UserError(fmt::format("--protocol {}: write mactalk, fastmac (which is FlexMAC too) or midi",
+                                options.protocol));
 }
 
 Side side_of(const Options& options) {
     if (options.from == "motor") return Side::motor;
     if (options.from == "master") return Side::master;
     if (!options.from.empty()) throw UserError(fmt::format("--from {}: write master or motor", options.from));
-    if (!options.motor_port.empty() || options.protocol != "mactalk") return Side::master;
+    const bool own_pairs = options.protocol != "mactalk" && !is_midi(options);
+    if (!options.motor_port.empty() || own_pairs) return Side::master;
     return Side::both;
 }
 
@@ -172,11 +195,13 @@ void add_monitor(arguments::App& app, Common& common) {
     arguments::App& command = add_command(
         app, "monitor",
         "Tell what others say on a line, decoded; only listens, with an adapter of its own, until Ctrl-C");
-    command.add_option("--protocol", options->protocol, "mactalk, or fastmac (which is FlexMAC too)")
+    command
+        .add_option("--protocol", options->protocol,
+                    "mactalk, fastmac (which is FlexMAC too), or midi (MAC23 and MAC34 on V24)")
         ->capture_default_str();
     command.add_option(
         "--from", options->from,
-        "Whose bytes come: master or motor; both of a MacTalk line, and the master of a FastMAC "
+        "Whose bytes come: master or motor; both of a MacTalk or MIDI line, and the master of a FastMAC "
         "line, if not said");
     command.add_option("--motor-port", options->motor_port,
                        "A second port that hears the motor; --port then hears the master");
@@ -189,7 +214,10 @@ void add_monitor(arguments::App& app, Common& common) {
     command.add_flag("--older-code", options->old_code, "FastMAC register codes of the manual's example");
     command.add_flag("--bytes", options->bytes, "Show the bytes in hex too");
     command.callback([options, &common] {
-        guard(common, [&] { options->replay.empty() ? listen(common, *options) : replay(common, *options); });
+        guard(common, [&] {
+            const Common line = is_midi(*options) ? line_of_midi(common) : common;
+            options->replay.empty() ? listen(line, *options) : replay(line, *options);
+        });
     });
 }
 

@@ -38,13 +38,22 @@ std::int64_t Readings::raw(const Parameter& parameter) const {
 
 const Scale& Module::scale() {
     if (!scale_read_) {
-        const std::int64_t imax = master_.query(address_, reg::GET_RAM, reg::kImaxAddress) >> 24;
         // One without it would have no torque at all.
+        const std::int64_t imax = ask_imax() >> 24;
         scale_.imax = imax == 0 ? std::int64_t{reg::kMostTorque} : imax;
         scale_read_ = true;
     }
     scale_.period = read(*find_parameter("SPEED"));
     return scale_;
+}
+
+/// A module that does not let its RAM be read is taken to have the usual one (000 §VI 26h).
+std::uint32_t Module::ask_imax() {
+    try {
+        return master_.query(address_, reg::GET_RAM, reg::kImaxAddress);
+    } catch (const midi_client::Refused&) {
+        return std::uint32_t{reg::kMostTorque} << 24;
+    }
 }
 
 std::int64_t Module::read(const Parameter& parameter) {
@@ -62,7 +71,7 @@ Readings Module::read_all() {
     all.upper_stop = static_cast<std::int32_t>(ask(reg::GET_UPPER_STOP));
     all.lower_stop = static_cast<std::int32_t>(ask(reg::GET_LOWER_STOP));
     all.release = ask(reg::GET_RELEASE);
-    all.imax = master_.query(address_, reg::GET_RAM, reg::kImaxAddress);
+    all.imax = ask_imax();
     return all;
 }
 
@@ -109,7 +118,7 @@ std::string Module::refusal(std::uint8_t command, std::uint32_t data) {
                "stops anything";
     if (!row->while_moving && moves())
         return "it is refused while the axis moves; `macreg midi stop` stops it";
-    const std::uint32_t imax = master_.query(address_, reg::GET_RAM, reg::kImaxAddress) >> 24;
+    const std::uint32_t imax = ask_imax() >> 24;
     if (command == reg::TORQUE && (data & 0xFF) > imax) return fmt::format("the most is {} (IMAX)", imax);
     if (!reg::is_legal(*row, data)) return "its parameters are out of range";
     if (row->kind == reg::Kind::motion && moves())
@@ -121,7 +130,8 @@ void Module::order(reg::Command command, std::uint32_t data) {
     try {
         master_.command(address_, command, data);
     } catch (const midi_client::Refused& error) {
-        throw midi_client::Refused(fmt::format("{}: {}", error.what(), refusal(command, data)));
+        throw midi_client::Refused(fmt::format("{}: {}", error.what(), refusal(command, data)),
+                                   error.by_18h());
     }
 }
 

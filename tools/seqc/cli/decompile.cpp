@@ -8,6 +8,7 @@
 #include "cli/input.h"
 #include "cli/subcommands.h"
 #include "host/paths.h"
+#include "meaning/motors.h"
 
 namespace nplc::seqc::cli {
 namespace {
@@ -22,11 +23,11 @@ int decompile(const Options& options) {
     DecompileOptions wanted;
     wanted.origin = host::name_of(host::path_of(options.table.file).filename());
     if (!options.motor.empty()) {
-        wanted.motor = registers::model_of(options.motor);
-        if (!wanted.motor) {
-            return file_problem(fmt::format(
-                "there is no motor '{}': they are MAC50, MAC95, MAC140, MAC141 and MAC800", options.motor));
-        }
+        const auto choice = motor_named(options.motor);
+        if (!choice)
+            return file_problem(fmt::format("there is no motor '{}': {}", options.motor, kMotorNames));
+        wanted.motor = choice->map;
+        wanted.midi = choice->midi;
     }
     const Input input = read_input(options.table);
     if (input.exit_code != kOk) return input.exit_code;
@@ -49,7 +50,7 @@ void add_decompile(arguments::App& app, int& exit_code) {
         ->required();
     add_symbols_option(command, options->table);
     command.add_option("-o,--output", options->output, "Write to a file instead of standard output (-)");
-    command.add_option("--motor", options->motor, "The motor the table is for, such as MAC140");
+    command.add_option("--motor", options->motor, "The motor the table is for, such as MAC140 or MAC34");
     command.callback([options, &exit_code] { exit_code = decompile(*options); });
 }
 

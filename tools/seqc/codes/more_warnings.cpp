@@ -216,6 +216,32 @@ STEP T: OWN ERROR; IF IN2 THEN POSITION(B); NEXT := U; END_IF END_STEP
 STEP U: OWN ERROR; IF INPOS THEN INIT(Fast, Soft); NEXT := S; END_IF END_STEP
 END_PROGRAM
 )"},
+    {"W017", "a register of a MIDI drive without a value",
+     R"(A JVL motor has P, V, A, T and Z registers in its flash, with values that somebody stored there. For a MIDI drive the gateway
+keeps them, and knows only what a program writes: a place that is never given is 0, and selecting another register that is
+never given changes nothing. Give it a value in VAR_MOTOR, or write it before.)",
+     R"(PROGRAM P
+MOTOR MAC34;
+VAR_MOTOR Fast AT V1 := 600 rpm; Soft AT A1 := 5000 rpm/s; END_VAR
+POWER_UP INIT(Fast, Soft); NEXT := S; END_POWER_UP
+STEP S:
+    OWN ERROR;
+    IF IN0 THEN POSITION(P2); NEXT := Away; END_IF
+END_STEP
+STEP Away: OWN ERROR; IF INPOS THEN INIT(Fast, Soft); NEXT := S; END_IF END_STEP
+END_PROGRAM
+)",
+     R"(PROGRAM P
+MOTOR MAC34;
+VAR_MOTOR Place AT P2 := 10 rev; Fast AT V1 := 600 rpm; Soft AT A1 := 5000 rpm/s; END_VAR
+POWER_UP INIT(Fast, Soft); NEXT := S; END_POWER_UP
+STEP S:
+    OWN ERROR;
+    IF IN0 THEN POSITION(Place); NEXT := Away; END_IF
+END_STEP
+STEP Away: OWN ERROR; IF INPOS THEN INIT(Fast, Soft); NEXT := S; END_IF END_STEP
+END_PROGRAM
+)"},
 };
 
 }  // namespace

@@ -19,6 +19,7 @@ namespace {
 using registers::Model;
 
 constexpr std::size_t kMostDrafts = 12;
+constexpr std::string_view kNotForDrive = "E044";
 constexpr std::size_t kTermsEverywhere = 1024;  // beyond it only TERMs compile
 
 /// Nothing that a file may be called can end the comment it stands in.
@@ -35,6 +36,7 @@ class Decompiler {
           options_(options),
           layout_(layout_of(table)),
           motor_(choose_motor()),
+          midi_(choose_drive()),
           drafter_(layout_, motor_) {}
 
     Decompilation run() {
@@ -42,19 +44,24 @@ class Decompiler {
         if (table_.size() / sequencer::kTermBytes > kTermsEverywhere) bans = only_terms();
         for (std::size_t i = 0; i < kMostDrafts; ++i) {
             if (attempt(bans)) return in_one_style();
+            if (drops_drive()) continue;
             const Bans before = bans;
             learn(bans);
             if (bans == before) break;
         }
         bans = only_terms();
         bans.given_names = true;
-        return attempt(bans) ? in_one_style() : bytes_alone();
+        return attempt(bans) || (drops_drive() && attempt(bans)) ? in_one_style() : bytes_alone();
     }
 
   private:
     Model choose_motor() const {
         if (options_.motor) return *options_.motor;
         return options_.symbols != nullptr ? options_.symbols->motor : fitting_motor(layout_);
+    }
+    std::optional<registers::midi::Model> choose_drive() const {
+        if (options_.motor) return options_.midi;
+        return options_.symbols != nullptr ? options_.symbols->midi : std::nullopt;
     }
     bool motor_is_sure() const { return options_.motor || options_.symbols != nullptr; }
 
@@ -68,7 +75,8 @@ class Decompiler {
 
     bool attempt(const Bans& bans) {
         draft_ = drafter_.draft(bans);
-        const Naming naming = naming_of(bans.given_names ? nullptr : options_.symbols, stem(), motor_);
+        Naming naming = naming_of(bans.given_names ? nullptr : options_.symbols, stem(), motor_);
+        naming.symbols.midi = midi_;
         const Speech speech{naming, motor_, motor_is_sure(), draft_.power_up.has_value()};
         count();
         manuscript_ = write_program(layout_, draft_, speech, head(naming));
@@ -76,6 +84,19 @@ class Decompiler {
         result_.text = manuscript_.text;
         return compilation_.ok &&
                std::equal(compilation_.table.begin(), compilation_.table.end(), table_.begin(), table_.end());
+    }
+
+    /// A program that names a drive is refused for what the drive cannot do; the table may hold that.
+    bool drops_drive() {
+        if (!midi_) return false;
+        const auto& all = compilation_.diagnostics;
+        const auto found = std::find_if(all.begin(), all.end(), [](const Diagnostic& d) {
+            return d.severity == Severity::error && d.code == kNotForDrive;
+        });
+        if (found == all.end()) return false;
+        why_no_drive_ = found->message;
+        midi_.reset();
+        return true;
     }
 
     Decompilation in_one_style() {
@@ -183,6 +204,9 @@ class Decompiler {
             text += fmt::format("// A table does not say for which motor it is: {} is assumed.\n",
                                 registers::name_of(motor_));
         }
+        if (!why_no_drive_.empty())
+            text += fmt::format("// It is written for a {}, because {}.\n", registers::name_of(motor_),
+                                printable(why_no_drive_));
         if (r.symbolic_terms + r.byte_terms > 0)
             text +=
                 "// A TERM is one term of the table: all that hold act in their order, and the last "
@@ -194,6 +218,8 @@ class Decompiler {
     const DecompileOptions& options_;
     Layout layout_;
     Model motor_;
+    std::optional<registers::midi::Model> midi_;
+    std::string why_no_drive_;
     Drafter drafter_;
     Draft draft_;
     Manuscript manuscript_;

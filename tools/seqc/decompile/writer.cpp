@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "decompile/vocabulary.h"
+#include "meaning/motors.h"
 
 namespace nplc::seqc {
 namespace {
@@ -42,7 +43,7 @@ class Writer {
     Manuscript run(const std::string& head) {
         result_.text = head;
         line(0, "PROGRAM " + names().program);
-        if (needs_motor()) line(0, fmt::format("MOTOR {};", registers::name_of(speech_.motor)));
+        if (needs_motor()) line(0, fmt::format("MOTOR {};", motor_name(names())));
         end_passage(Kind::rest);
         write_signals();
         write_values();

@@ -19,6 +19,10 @@ void check_motor_state(const Plan& plan, registers::Model model, Report& report)
 void check_midi_motion(const Plan& plan, registers::midi::Model model, Report& report,
                        std::vector<Rounding>& roundings);
 
+/// Registers that a program for a MIDI drive selects and never gives a value: a JVL motor has them in its
+/// flash, the gateway begins with 0 and with the drive's own.
+void check_midi_registers(const Plan& plan, registers::midi::Model model, Report& report);
+
 /// Limits of the motor that a program sets, although reaching them does not show in ERROR (001 §5.2.1.6).
 void check_invisible_limits(const Plan& plan, registers::Model model, Report& report);
 

@@ -140,6 +140,8 @@ class MidiMotor final : public Motor {
     std::optional<std::int32_t> target() const;
     bool may_move() const;
     void raise(MidiFault fault, Lack lack = Lack::none);
+    /// It turns since before the error, and nobody leads it any more.
+    bool is_stray() const { return motion_ == Motion::unknown && seen_moving_ && error(); }
     bool moves() const { return motion_ == Motion::going || motion_ == Motion::running; }
 
     MidiLink& link_;

@@ -25,6 +25,7 @@ enum class Lack : std::uint8_t {
     no_register,      ///< any other register
     too_far,          ///< position beyond -1073741824..1073741823 increments
     too_slow,         ///< a period over 65535
+    no_speed,         ///< a move at the drive's own speed, which is none (period 0)
     no_acceleration,  ///< A 0, which on MIDI would be without any limit
     too_soft,         ///< a ramp over 255
     too_much_torque,  ///< T over 1023
@@ -45,8 +46,9 @@ Lack lack_of_profile(Model model, std::int16_t v_soll, std::uint16_t a_soll);
 /// 4096 counts are 2000 increments on MAC23 and 10000 on MAC34; to the nearest, a half upwards. Nothing
 /// beyond kMinPosition..kMaxPosition.
 std::optional<std::int32_t> increments_of_counts(Model model, std::int32_t counts);
-/// To the nearest, a half upwards. For kMinPosition..kMaxPosition. On MAC34 every count of
-/// increments_of_counts() comes back; on MAC23, where an increment is 2.048 counts, it comes back within 1.
+/// To the nearest, a half upwards; wraps beyond 32 bits, as P_IST does (on MAC23 from 1048576000 increments
+/// on). On MAC34 every count of increments_of_counts() comes back; on MAC23, where an increment is 2.048
+/// counts, it comes back within 1.
 std::int32_t counts_of_increments(Model model, std::int32_t increments);
 
 /// V_SOLL's magnitude, in 1/16 count/sample (0.4768 rpm), as VVVV to the nearest, a half upwards. 0 for 0,
@@ -57,7 +59,7 @@ std::optional<std::uint16_t> period_of_v_soll(Model model, std::int16_t v_soll);
 std::int16_t v_soll_of_period(Model model, std::uint16_t period);
 
 /// The ramp that accelerates to a period's speed with at most A_SOLL (1/16 count/sample^2): v^2 / (2 a x 120)
-/// rounded up, from the period itself. Nothing for A_SOLL 0 and over 255. `period` is not 0.
+/// rounded up, from the period itself. Nothing for A_SOLL 0, for period 0 and over 255.
 std::optional<std::uint8_t> ramp_of_a_soll(Model model, std::uint16_t a_soll, std::uint16_t period);
 
 /// T_SOLL 0..1023 as 0..`imax`, rounded down; nothing above.

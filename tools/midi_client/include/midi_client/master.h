@@ -3,6 +3,8 @@
 #include <functional>
 #include <span>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "midi_client/link.h"
@@ -13,7 +15,13 @@ namespace nplc::midi_client {
 /// The module understood and said no.
 class Refused : public std::runtime_error {
   public:
-    using std::runtime_error::runtime_error;
+    explicit Refused(const std::string& what, bool by_18h = false)
+        : std::runtime_error(what), by_18h_(by_18h) {}
+    /// It may have been carried out all the same: see Answer::by_18h.
+    bool by_18h() const { return by_18h_; }
+
+  private:
+    bool by_18h_;
 };
 
 /// Whether the module carried a command out is not known.
@@ -51,6 +59,7 @@ class Master {
     void pause(base::Microseconds time, const std::function<bool()>& goes_on);
 
   private:
+    [[noreturn]] void came_damaged(std::uint8_t address, std::string_view name) const;
     [[noreturn]] void no_answer(std::uint8_t address, unsigned asked, bool heard) const;
 
     Link& link_;

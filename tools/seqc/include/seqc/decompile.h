@@ -13,7 +13,9 @@ namespace nplc::seqc {
 struct DecompileOptions {
     std::string origin;                     ///< the table's file, for the comment at the head
     std::optional<registers::Model> motor;  ///< nothing: that of `symbols`, else the one that fits
-    const Symbols* symbols = nullptr;       ///< names to use; those that are no names are made up
+    /// The drive that a gateway translates for, if `motor` is said; else that of `symbols`.
+    std::optional<registers::midi::Model> midi{};
+    const Symbols* symbols = nullptr;  ///< names to use; those that are no names are made up
 };
 
 struct Decompilation {

@@ -55,6 +55,8 @@ class Module {
     void order(reg::Command command, std::uint32_t data = 0);
 
   private:
+    std::uint32_t ask_imax();
+
     midi_client::Master& master_;
     std::uint8_t address_;
     Scale scale_;
