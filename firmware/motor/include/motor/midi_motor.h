@@ -108,9 +108,11 @@ class MidiMotor final : public Motor {
     void on_status();
     void on_measures(base::Instant now);
     void on_position(base::Instant now);
+    void check_still_there();
     void check_steady(base::Instant now);
     void conclude(base::Instant now);
     void not_taken_after_all();
+    void give_up(MidiFault why);
     bool needs_position() const;
     bool is_at_goal() const;
     std::int32_t slack() const;
