@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 namespace nplc::midi_client {
 
 namespace can = protocol::midi_can;
@@ -67,17 +65,20 @@ CanLink::Programmed CanLink::program_address(std::uint8_t address) {
         refused = kind == Say::address_refused;
     }
     // The module is in configuration whatever it said: it is always led back.
-    boots_.clear();
     send({.kind = can::Request::Kind::operate});
-    for (const base::Instant end = can_.now() + options_.patience; can_.now() < end;) {
+    if (!taken) return refused ? Programmed::refused : Programmed::silence;
+    for (const base::Instant end = can_.now() + options_.longest_boot; can_.now() < end;) {
         const can::Answer answer = hear(end - can_.now());
-        if (taken && answer.kind == Say::booted && answer.address == address) return Programmed::done;
+        if (answer.kind == Say::booted && answer.address == address) return Programmed::done;
     }
-    return refused ? Programmed::refused : Programmed::silence;
+    return Programmed::silence;
 }
 
-std::vector<std::uint8_t> CanLink::take_boots() {
-    return std::exchange(boots_, {});
+bool CanLink::take_boot(std::uint8_t address) {
+    drain();
+    const bool booted = boots_.test(address);
+    boots_.reset(address);
+    return booted;
 }
 
 void CanLink::send(const can::Request& request) {
@@ -112,7 +113,7 @@ can::Answer CanLink::hear(base::Microseconds wait) {
     heard_any_ = true;
     const can::Answer answer = can::decode_answer(
         {.id = static_cast<std::uint16_t>(frame->id), .size = frame->length, .data = frame->data});
-    if (answer.kind == can::Answer::Kind::booted) boots_.push_back(answer.address);
+    if (answer.kind == can::Answer::Kind::booted) boots_.set(answer.address);
     if (answer.kind != can::Answer::Kind::none) heard_ = words_of(*frame);
     return answer;
 }
@@ -123,7 +124,7 @@ void CanLink::drain() {
         const can::Answer answer = can::decode_answer(
             {.id = static_cast<std::uint16_t>(frame->id), .size = frame->length, .data = frame->data});
         if (!frame->extended && !frame->remote && answer.kind == can::Answer::Kind::booted)
-            boots_.push_back(answer.address);
+            boots_.set(answer.address);
     }
 }
 
