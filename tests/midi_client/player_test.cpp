@@ -179,6 +179,14 @@ class OnABus : public testing::Test {
     Master master{link};
 };
 
+// 003 §V.8: on CAN address 0 is every module; on V24 it is a module's.
+TEST_F(OnABus, NoAxisIsAllModules) {
+    const std::string words = "axis 0: that is the address of all modules";
+    EXPECT_EQ(told([&] { go_together(master, {{1, 3000}, {0, -4000}}); }), words);
+    EXPECT_EQ(told([&] { play(master, zigzag(0, 1)); }), words);
+    EXPECT_TRUE(can.sent.empty());
+}
+
 TEST_F(OnABus, AModuleThatStartsAnewOnItsPathGetsNoFurtherSegment) {
     std::size_t segments = 0;
     can.on_step = [&] {

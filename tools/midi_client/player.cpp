@@ -62,6 +62,14 @@ void look_for_boots(Link& link, const std::vector<std::uint8_t>& addresses) {
     }
 }
 
+/// 003 §V.8: to address 0 all modules would move.
+void look_for_everyone(const Link& link, const std::vector<std::uint8_t>& addresses) {
+    for (const std::uint8_t address : addresses) {
+        if (address == link.everyone())
+            throw NotPlayed(fmt::format("axis {}: that is the address of all modules", address));
+    }
+}
+
 void forget_boots(Link& link, const std::vector<std::uint8_t>& addresses) {
     for (const std::uint8_t address : addresses) static_cast<void>(link.take_boot(address));
 }
@@ -287,6 +295,7 @@ std::string obstacles(std::uint32_t status) {
 }
 
 void play(Master& master, const Plan& plan, const PlayOptions& options) {
+    for (const AxisPlan& axis : plan.axes) look_for_everyone(master.link(), {axis.address});
     Player player(master, plan, options);
     with_stop(master, player.addresses(), [&] { player.run(); });
 }
@@ -294,6 +303,7 @@ void play(Master& master, const Plan& plan, const PlayOptions& options) {
 void go_together(Master& master, const std::vector<Target>& targets, const PlayOptions& options) {
     std::vector<std::uint8_t> addresses;
     for (const Target& one : targets) addresses.push_back(one.address);
+    look_for_everyone(master.link(), addresses);
     with_stop(master, addresses, [&] {
         forget_boots(master.link(), addresses);
         for (const Target& one : targets) prepare(master, one);
