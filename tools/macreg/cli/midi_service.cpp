@@ -33,16 +33,22 @@ void reset(MidiSession& session) {
                  {{"status", status}, {"faults", midi::status_words(status & midi::reg::kTrips)}});
 }
 
-void factory(MidiSession& session) {
+void factory(const MidiCommon& midi) {
+    {
+        MidiSession session(midi);
+        ask(session.common(),
+            fmt::format("All parameters of the module with address {} are replaced by the factory's, its address "
+                        "becomes {}{}; the motor stops and holds nothing",
+                        session.address(), session.link().usual_address(),
+                        is_can(midi) ? "" : " and its speed 38400 baud"));
+        session.module().order(midi::reg::FACTORY);
+        session.master().pause(kDeaf, goes_on);
+    }
+    MidiSession session(midi, midi::reg::kFactoryBaud);
     const std::uint8_t usual = session.link().usual_address();
-    ask(session.common(),
-        fmt::format(
-            "All parameters of the module with address {} are replaced by the factory's, its address becomes "
-            "{}{}; the motor stops and holds nothing",
-            session.address(), usual, session.can() != nullptr ? "" : " and its speed 38400 baud"));
-    session.module().order(midi::reg::FACTORY);
-    session.master().pause(kDeaf, goes_on);
-    session.tell(fmt::format("it has the factory's parameters, and address {}", usual), {{"address", usual}});
+    session.master().query(usual, midi::reg::GET_RELEASE);
+    session.tell(fmt::format("it has the factory's parameters, and answers at address {}", usual),
+                 {{"address", usual}});
 }
 
 void program_can(MidiSession& session, std::uint8_t address) {
@@ -131,7 +137,7 @@ void add_midi_service(arguments::App& app, MidiCommon& midi) {
         .callback([&midi] { midi_work(midi, reset); });
     command_line::add_command(app, "factory",
                               "All parameters as from the factory, the address too; asks first")
-        .callback([&midi] { midi_work(midi, factory); });
+        .callback([&midi] { midi_guard(midi, [&] { factory(midi); }); });
 }
 
 }  // namespace nplc::macreg::cli
