@@ -1,5 +1,5 @@
-// The CAN link and the driver against frames written down from 003 §V and §VII by hand, and against everything that
-// can come instead.
+// The CAN link and the driver against frames written down from 003 §V and §VII by hand, and against
+// everything that can come instead.
 
 #include <random>
 #include <string>
@@ -65,10 +65,10 @@ TEST_F(MidiCanLineTest, WhatIsNoAnswerToThis) {
     run();
     for (const char* other :
          {"586 60 15 20 00 00 00 00 00", "581 60 15 20 00 00 00 00 00", "585 60 16 20 00 00 00 00 00",
-          "585 60 15 21 00 00 00 00 00", "585 60 15 20 01 00 00 00 00", "585 60 15 20 00 00 00 00",
-          "585 60", "585", "585 42 15 20 00 00 00 00 00", "585 23 15 20 00 00 F6 03 20",
-          "585 00 15 20 00 00 00 00 00", "605 60 15 20 00 00 00 00 00", "085 00 10 00 00 00 00 00 00",
-          "080", "7E4 11 00 00 00 00 00 00 00", "704 00", "705 05"})
+          "585 60 15 21 00 00 00 00 00", "585 60 15 20 01 00 00 00 00", "585 60 15 20 00 00 00 00", "585 60",
+          "585", "585 42 15 20 00 00 00 00 00", "585 23 15 20 00 00 F6 03 20", "585 00 15 20 00 00 00 00 00",
+          "605 60 15 20 00 00 00 00 00", "085 00 10 00 00 00 00 00 00", "080", "7E4 11 00 00 00 00 00 00 00",
+          "704 00", "705 05"})
         EXPECT_EQ(heard(other).kind, Kind::none) << other;
     ports::CanFrame wrong_format = can_frame(kRunTaken);
     wrong_format.extended = true;

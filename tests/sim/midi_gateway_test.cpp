@@ -32,7 +32,8 @@ struct Ran {
 };
 
 /// By the manuals' resolutions, not by the driver's conversion: 4096 counts, 2000 or 10000 increments.
-double revolutions(const World& world, const Snapshot& snapshot, const std::optional<MidiDriveOptions>& midi) {
+double revolutions(const World& world, const Snapshot& snapshot,
+                   const std::optional<MidiDriveOptions>& midi) {
     if (!midi) return snapshot.p_ist / 4'096.0;
     return world.midi()->drive().module().position() / (midi->model == Model::mac23 ? 2'000.0 : 10'000.0);
 }
@@ -76,8 +77,8 @@ Ran run_example(const std::string& name, const std::optional<MidiDriveOptions>& 
     return ran;
 }
 
-/// Where the shaft stands where it was sent: 60 mm are 12 revolutions. The other steps end in motion, or where the
-/// guard door was opened.
+/// Where the shaft stands where it was sent: 60 mm are 12 revolutions. The other steps end in motion, or
+/// where the guard door was opened.
 void expect_settled(const Ran& ran) {
     constexpr double kTwoCounts = 2 / 4'096.0;
     int holds = 0;

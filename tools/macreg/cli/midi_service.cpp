@@ -37,10 +37,11 @@ void factory(const MidiCommon& midi) {
     {
         MidiSession session(midi);
         ask(session.common(),
-            fmt::format("All parameters of the module with address {} are replaced by the factory's, its address "
-                        "becomes {}{}; the motor stops and holds nothing",
-                        session.address(), session.link().usual_address(),
-                        is_can(midi) ? "" : " and its speed 38400 baud"));
+            fmt::format(
+                "All parameters of the module with address {} are replaced by the factory's, its address "
+                "becomes {}{}; the motor stops and holds nothing",
+                session.address(), session.link().usual_address(),
+                is_can(midi) ? "" : " and its speed 38400 baud"));
         session.module().order(midi::reg::FACTORY);
         session.master().pause(kDeaf, goes_on);
     }

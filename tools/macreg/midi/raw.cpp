@@ -99,7 +99,8 @@ std::string describe_request(const midi_client::Request& request, const Scale& s
     }
     const reg::CommandRow* row = reg::find_command(request.number);
     if (row == nullptr)
-        return fmt::format("command {:02X}h, which no manual knows, to {}", request.number, whom(request, can));
+        return fmt::format("command {:02X}h, which no manual knows, to {}", request.number,
+                           whom(request, can));
     const std::string fields = fields_text(row->fields, request.data, scale);
     return fmt::format("{} to {}{}{}", row->name, whom(request, can), fields.empty() ? "" : ": ", fields);
 }
