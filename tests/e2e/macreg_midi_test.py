@@ -104,6 +104,7 @@ class Values(Case):
         self.told(2, "interface's name", "status")
         self.endpoint = "can:none0"
         self.told(3, "can:none0: ", "status")
+        self.told(2, "LMT names nobody", "--address", "5", "address", "set", "7")
         # 003 §V.8: 0 is every module on the bus.
         with open(self.path("path.csv"), "w", encoding="ascii") as file:
             file.write("time,0 [inc],1 [inc]\n0,0,0\n1,100,100\n")

@@ -59,6 +59,15 @@ TEST_F(CanTest, TheAddressIsProgrammed) {
     EXPECT_EQ(empty.program_address(9), CanLink::Programmed::silence);
 }
 
+// 003 §V.5: one alone; with the last message both would have the same address.
+TEST_F(CanTest, TwoModulesAreNotGivenOneAddress) {
+    EXPECT_EQ(link.program_address(9), CanLink::Programmed::several);
+    EXPECT_EQ(can.modules[0].memory().address, 1);
+    EXPECT_EQ(can.modules[1].memory().address, 2);
+    const ports::CanFrame operate{.id = 0x7E5, .length = 8, .data = {0x04, 0x00}};
+    EXPECT_EQ(std::count(can.sent.begin(), can.sent.end(), operate), 0);
+}
+
 // No manual says how long it takes to start; 000 §VI 00h has two seconds.
 TEST_F(CanTest, ABootUpMayTakeItsTime) {
     BusCan one({1});

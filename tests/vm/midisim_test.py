@@ -45,6 +45,8 @@ m raw 01200000000000
 m together 1=100 2=-100
 m circle --axes 1,2 --radius 1000 --speed 1000inc/s --segment 250ms
 m --address 2 get POSITION
+# 003 §V.5: not with two on the bus.
+./macreg --port can:can1 --yes midi address set 9 2>&1 | grep -q "several modules answered" || { echo "two got one address"; exit 1; }
 ./macreg --port can:can9 midi status 2>&1 | grep -q "there is no interface 'can9'" || { echo "can9"; exit 1; }
 kill -TERM $module
 wait $module || { echo "midisim ended with $?"; cat out; exit 1; }

@@ -2,11 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace nplc::midi_client {
 
 namespace can = protocol::midi_can;
 
 namespace {
+
+/// In which a second module would have answered, too.
+constexpr base::Microseconds kOthers{50'000};
 
 std::string words_of(const ports::CanFrame& frame) {
     std::string text = fmt::format("{:03X}#", frame.id);
@@ -57,17 +62,21 @@ CanLink::Programmed CanLink::program_address(std::uint8_t address) {
     drain();
     send({.kind = can::Request::Kind::configure});
     send({.kind = can::Request::Kind::set_address, .data = address});
-    bool taken = false;
-    bool refused = false;
-    for (const base::Instant end = can_.now() + options_.patience; can_.now() < end && !taken && !refused;) {
+    unsigned taken = 0;
+    unsigned refused = 0;
+    base::Instant end = can_.now() + options_.patience;
+    while (can_.now() < end) {
         const Say kind = hear(end - can_.now()).kind;
-        taken = kind == Say::address_taken;
-        refused = kind == Say::address_refused;
+        if (kind != Say::address_taken && kind != Say::address_refused) continue;
+        ++(kind == Say::address_taken ? taken : refused);
+        end = std::min(end, can_.now() + kOthers);
     }
+    if (taken + refused > 1) return Programmed::several;
     // The module is in configuration whatever it said: it is always led back.
     send({.kind = can::Request::Kind::operate});
-    if (!taken) return refused ? Programmed::refused : Programmed::silence;
-    for (const base::Instant end = can_.now() + options_.longest_boot; can_.now() < end;) {
+    if (taken == 0) return refused != 0 ? Programmed::refused : Programmed::silence;
+    end = can_.now() + options_.longest_boot;
+    while (can_.now() < end) {
         const can::Answer answer = hear(end - can_.now());
         if (answer.kind == Say::booted && answer.address == address) return Programmed::done;
     }

@@ -60,6 +60,11 @@ void program_can(MidiSession& session, std::uint8_t address) {
     using Programmed = midi_client::CanLink::Programmed;
     const Programmed done = session.can()->program_address(address);
     if (done == Programmed::refused) refuse(fmt::format("the module refuses address {}", address));
+    if (done == Programmed::several)
+        refuse(
+            "several modules answered, so none has the new address: switch all off and on, and leave one on "
+            "the "
+            "bus");
     if (done == Programmed::silence)
         throw midi_client::Doubtful(fmt::format(
             "{}: the module did not say that it took the address; `macreg midi find` shows which it has",
@@ -81,9 +86,11 @@ void program_line(MidiSession& session, std::uint8_t address, bool to_one) {
 
 void set_address(const MidiCommon& midi, int address) {
     if (is_can(midi) && address == 0) throw UserError("address 0: modules on CAN have 1 to 127");
+    const bool said = midi.address >= 0 || midi.common.address != 0;
+    if (is_can(midi) && said)
+        throw UserError("--address: LMT names nobody (003 §V.5); leave one module on the bus, and this out");
     MidiSession session(midi);
     const auto wanted = static_cast<std::uint8_t>(address);
-    const bool said = midi.address >= 0 || midi.common.address != 0;
     session.can() != nullptr ? program_can(session, wanted) : program_line(session, wanted, said);
     const std::string release = midi::release_text(session.master().query(wanted, midi::reg::GET_RELEASE));
     session.tell(fmt::format("address {}: a module of release {} answers", address, release),

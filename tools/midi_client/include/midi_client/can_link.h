@@ -34,8 +34,9 @@ class CanLink final : public Link {
     bool heard_anything() const override { return heard_any_; }
 
     /// The whole LMT procedure (003 §V.5) with the only module on the bus; true when it has booted with the
-    /// new address. `refused`: it said no to the address.
-    enum class Programmed : std::uint8_t { done, refused, silence };
+    /// new address. `refused`: it said no to the address. `several`: more than one answered, so the procedure
+    /// was broken off: none has the new address, and all wait in configuration until they are switched off.
+    enum class Programmed : std::uint8_t { done, refused, silence, several };
     Programmed program_address(std::uint8_t address);
 
   private:
