@@ -9,6 +9,7 @@ namespace {
 namespace midi = registers::midi;
 
 constexpr base::Microseconds kSurely{20'000};
+constexpr base::Microseconds kSwing{1'000'000};
 constexpr base::Microseconds kLongestStep{500'000};
 constexpr std::int32_t kStandby = 5;     ///< increments by which a shaft at rest may swing (003 §VII 02h)
 constexpr std::int32_t kSample = 1'920;  ///< us, of a MAC50-141
@@ -110,9 +111,9 @@ bool MidiMotor::needs_position() const {
     return true;
 }
 
-bool MidiMotor::is_at_goal() const {
+bool MidiMotor::is_within(std::int32_t slack) const {
     const auto away = static_cast<std::int64_t>(position_) - goal_;
-    return std::abs(away) <= tolerance_;
+    return std::abs(away) <= slack;
 }
 
 void MidiMotor::on_position(base::Instant now) {
@@ -128,7 +129,7 @@ void MidiMotor::on_position(base::Instant now) {
         base_ = 0;
     }
     if (access_state_ == AccessState::under_way && !access_.is_write) finish_access();
-    if (motion_ == Motion::going && measured_ && not_busy_ && goal_holds_ && is_at_goal()) {
+    if (motion_ == Motion::going && measured_ && not_busy_ && goal_holds_ && is_within(tolerance_)) {
         motion_ = Motion::at_rest;
         arrived_ = true;
         doubtful_ = false;
@@ -140,8 +141,7 @@ void MidiMotor::on_position(base::Instant now) {
 
 /// Another master's move may have been too short to be seen as busy.
 void MidiMotor::check_still_there() {
-    const auto away = static_cast<std::int64_t>(position_) - goal_;
-    if (!arrived_ || !goal_holds_ || std::abs(away) <= std::max<std::int64_t>(tolerance_, kStandby)) return;
+    if (!arrived_ || !goal_holds_ || is_within(std::max<std::int32_t>(tolerance_, kStandby))) return;
     motion_ = Motion::going;
     arrived_ = measured_ = false;
 }
@@ -151,8 +151,10 @@ std::int32_t MidiMotor::slack() const {
     return motion_ == Motion::running ? 0 : kStandby;
 }
 
-/// Long enough for one increment more than the slack, the slowest of a ramp and of catching up.
+/// Long enough for one increment more than the slack, the slowest of a ramp and of catching up. Who swings in
+/// standby is within the tolerance now and then only.
 base::Microseconds MidiMotor::steady_time() const {
+    if (motion_ == Motion::going && goal_holds_ && is_within(kStandby)) return kSwing;
     const std::int32_t slowest =
         std::max<std::int32_t>(2 * std::max(run_period_, period_), 200 * std::int32_t{unstall_});
     return base::Microseconds((slack() + 1) * slowest) + kSurely;

@@ -434,6 +434,35 @@ TEST_F(MidiCanScriptTest, AnotherMastersShortMoveAtRestIsNoticed) {
     expect_one_error(MidiFault::not_arrived);
 }
 
+// 003 §VII 02h: a shaft in standby may swing by 5 increments, and the factory's tolerance is 0.
+TEST_F(MidiCanScriptTest, AShaftThatSwingsInStandbyArrives) {
+    start();
+    move();
+    accept(kGo);
+    for (const char* place : {"00 00 27 0D", "00 00 27 14", "00 00 27 0B"}) {
+        position = place;
+        EXPECT_EQ(until_command(30), "") << place;
+        EXPECT_FALSE(driver.in_position()) << place;
+    }
+    position = "00 00 27 10";
+    EXPECT_EQ(until_command(30), "");
+    EXPECT_TRUE(driver.in_position());
+    EXPECT_FALSE(driver.error());
+}
+
+TEST_F(MidiCanScriptTest, AndOneThatStandsBesideItsPlaceIsAnErrorInTheEnd) {
+    start();
+    move();
+    accept(kGo);
+    position = "00 00 27 0D";
+    const base::Instant begun = now;
+    EXPECT_EQ(until_command(), kHardStop);
+    EXPECT_LT(now - begun, 1'200ms);
+    accept(kHardStop);
+    EXPECT_EQ(until_command(), "");
+    expect_one_error(MidiFault::not_arrived);
+}
+
 // Frames of all kinds, most with a wrong part, at any time: bounded, and no motion sent that was not ordered.
 TEST_F(MidiCanScriptTest, AnythingOnTheBus) {
     for (unsigned seed = 1; seed <= 40; ++seed) {

@@ -114,7 +114,7 @@ class MidiMotor final : public Motor {
     void not_taken_after_all();
     void give_up(MidiFault why);
     bool needs_position() const;
-    bool is_at_goal() const;
+    bool is_within(std::int32_t slack) const;  ///< of goal_
     std::int32_t slack() const;
     base::Microseconds steady_time() const;
     std::uint32_t error_bits() const;
