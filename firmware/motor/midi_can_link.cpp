@@ -27,7 +27,7 @@ void MidiCanLink::begin(const MidiMessage& message, base::Instant now) {
                 .sub_index = message.sub_index,
                 .data = message.data};
     busy_ = true;
-    written_ = write(can::encode(request_));
+    written_ = !booted_ && write(can::encode(request_));  // who has booted is to be told of first
     deadline_ = written_ ? now + settings_.longest_answer : now;
     watch_bus(now);
 }

@@ -5,16 +5,12 @@ namespace {
 
 using namespace registers;
 
-/// No order writes this to V, A, T, INPOSWIN or Z, or it would mean nothing there: -32768, over 1023.
-constexpr std::uint16_t kUnset = 0x8000;
-
 constexpr unsigned kFirst[]{0x00, 0x08, 0x10, 0x14, 0x18, 0x1C};  ///< P V A T L Z in bits 4..0
 constexpr unsigned kSize[]{8, 8, 4, 4, 0, 4};
 
 }  // namespace
 
 MidiRegisters::MidiRegisters() {
-    words_.fill(kUnset);
     set_word(MODE_REG, 0);
     set_position(P_SOLL, 0);
     for (unsigned p = P1; p < P1 + 16U; p += 2) set_position(p, 0);
@@ -30,23 +26,24 @@ unsigned MidiRegisters::place(unsigned number) {
 
 bool MidiRegisters::is_set(unsigned number) const {
     const unsigned at = place(number);
-    return at < kWords && words_[at] != kUnset;
+    return at < kWords && set_[at];
 }
 
 void MidiRegisters::unset(unsigned number) {
-    set_word(number, kUnset);
+    set_word(number, 0);
+    if (const unsigned at = place(number); at < kWords) set_[at] = false;
 }
 
 std::uint16_t MidiRegisters::word(unsigned number) const {
     const unsigned at = place(number);
-    if (at >= kWords) return 0;
-    const bool is_position = number == P_SOLL || number == P_SOLL + 1U || (number >= P1 && number < P1 + 16U);
-    return is_position || words_[at] != kUnset ? words_[at] : std::uint16_t{0};
+    return at < kWords ? words_[at] : std::uint16_t{0};
 }
 
 void MidiRegisters::set_word(unsigned number, std::uint16_t value) {
     const unsigned at = place(number);
-    if (at < kWords) words_[at] = value;
+    if (at >= kWords) return;
+    words_[at] = value;
+    set_[at] = true;
 }
 
 std::int32_t MidiRegisters::position(unsigned number) const {

@@ -9,9 +9,11 @@ namespace {
 namespace midi = registers::midi;
 
 constexpr base::Microseconds kSurely{20'000};
+constexpr base::Microseconds kSwing{1'000'000};
 constexpr base::Microseconds kLongestStep{500'000};
 constexpr std::int32_t kStandby = 5;     ///< increments by which a shaft at rest may swing (003 §VII 02h)
 constexpr std::int32_t kSample = 1'920;  ///< us, of a MAC50-141
+constexpr std::int32_t kMostCounts = INT32_MAX / kSample;
 constexpr std::uint32_t kStops =
     midi::kAtUpperInput | midi::kAtLowerInput | midi::kAtUpperStop | midi::kAtLowerStop;
 
@@ -98,7 +100,7 @@ void MidiMotor::on_measures(base::Instant now) {
 bool MidiMotor::needs_position() const {
     switch (motion_) {
         case Motion::at_rest:
-            return false;
+            return arrived_ && goal_holds_;
         case Motion::going:
             return measured_ && not_busy_;
         case Motion::unknown:
@@ -109,9 +111,9 @@ bool MidiMotor::needs_position() const {
     return true;
 }
 
-bool MidiMotor::is_at_goal() const {
+bool MidiMotor::is_within(std::int32_t slack) const {
     const auto away = static_cast<std::int64_t>(position_) - goal_;
-    return std::abs(away) <= tolerance_;
+    return std::abs(away) <= slack;
 }
 
 void MidiMotor::on_position(base::Instant now) {
@@ -127,13 +129,21 @@ void MidiMotor::on_position(base::Instant now) {
         base_ = 0;
     }
     if (access_state_ == AccessState::under_way && !access_.is_write) finish_access();
-    if (motion_ == Motion::going && measured_ && not_busy_ && goal_holds_ && is_at_goal()) {
+    if (motion_ == Motion::going && measured_ && not_busy_ && goal_holds_ && is_within(tolerance_)) {
         motion_ = Motion::at_rest;
         arrived_ = true;
         doubtful_ = false;
         return;
     }
+    if (motion_ == Motion::at_rest) return check_still_there();
     if (needs_position()) check_steady(now);
+}
+
+/// Another master's move may have been too short to be seen as busy.
+void MidiMotor::check_still_there() {
+    if (!arrived_ || !goal_holds_ || is_within(std::max<std::int32_t>(tolerance_, kStandby))) return;
+    motion_ = Motion::going;
+    arrived_ = measured_ = false;
 }
 
 /// By how much a shaft that stands may move.
@@ -141,8 +151,10 @@ std::int32_t MidiMotor::slack() const {
     return motion_ == Motion::running ? 0 : kStandby;
 }
 
-/// Long enough for one increment more than the slack, the slowest of a ramp and of catching up.
+/// Long enough for one increment more than the slack, the slowest of a ramp and of catching up. Who swings in
+/// standby is within the tolerance now and then only.
 base::Microseconds MidiMotor::steady_time() const {
+    if (motion_ == Motion::going && goal_holds_ && is_within(kStandby)) return kSwing;
     const std::int32_t slowest =
         std::max<std::int32_t>(2 * std::max(run_period_, period_), 200 * std::int32_t{unstall_});
     return base::Microseconds((slack() + 1) * slowest) + kSurely;
@@ -172,12 +184,19 @@ void MidiMotor::conclude(base::Instant) {
     if (!expected) return;
     goal_holds_ = false;
     if (doubtful_) return not_taken_after_all();
-    raise((status_ & kStops) != 0 ? MidiFault::end_stop : MidiFault::not_arrived);
+    if ((status_ & kStops) != 0) return raise(MidiFault::end_stop);
+    give_up(MidiFault::not_arrived);
+}
+
+/// What it was told may still wait, for another master's SYNC; 18h ends that too.
+void MidiMotor::give_up(MidiFault why) {
+    raise(why);
+    stop_wanted_ = stop_hard_ = true;
 }
 
 void MidiMotor::not_taken_after_all() {
     doubtful_ = false;
-    if (repeats_ > settings_.most_repeats) return raise(MidiFault::unclear);
+    if (repeats_ > settings_.most_repeats) return give_up(MidiFault::unclear);
     ++counters_.resent;
 }
 
@@ -255,13 +274,12 @@ std::uint16_t MidiMotor::read_word(unsigned number) const {
 /// Counts a sample, from the last two positions if they are close enough.
 std::int32_t MidiMotor::speed() const {
     if (position_step_ <= base::Microseconds(0) || position_step_ > kLongestStep) return 0;
-    const std::uint32_t moved =
-        static_cast<std::uint32_t>(position_) - static_cast<std::uint32_t>(position_before_);
-    const std::int32_t counts = midi::counts_of_increments(settings_.model, static_cast<std::int32_t>(moved));
-    constexpr std::int32_t kMostCounts = INT32_MAX / kSample;  // in 0.5 s it is 33,000 rpm
-    return std::clamp<std::int32_t>(std::clamp(counts, -kMostCounts, kMostCounts) * kSample /
-                                        static_cast<std::int32_t>(position_step_.count()),
-                                    INT16_MIN, INT16_MAX);
+    const auto moved = static_cast<std::int32_t>(static_cast<std::uint32_t>(position_) -
+                                                 static_cast<std::uint32_t>(position_before_));
+    const std::int32_t counts =
+        std::clamp(midi::counts_of_increments(settings_.model, moved), -kMostCounts, kMostCounts);
+    const std::int32_t a_sample = counts * kSample / static_cast<std::int32_t>(position_step_.count());
+    return std::clamp<std::int32_t>(a_sample, INT16_MIN, INT16_MAX);
 }
 
 std::uint32_t MidiMotor::error_bits() const {

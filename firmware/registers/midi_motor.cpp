@@ -183,9 +183,8 @@ std::int32_t counts_of_increments(Model model, std::int32_t increments) {
         rest += factor;
         --whole;
     }
-    const auto wrapped = static_cast<std::uint32_t>(whole) * static_cast<std::uint32_t>(kCounts);
-    return static_cast<std::int32_t>(wrapped +
-                                     static_cast<std::uint32_t>((rest * kCounts + factor / 2) / factor));
+    const auto rounded = static_cast<std::uint32_t>((rest * kCounts + factor / 2) / factor);
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(whole) * kCounts + rounded);
 }
 
 std::optional<std::uint16_t> period_of_v_soll(Model model, std::int16_t v_soll) {

@@ -117,6 +117,13 @@ class Values(Case):
         self.told(2, "interface's name", "status")
         self.endpoint = "can:none0"
         self.told(3, "can:none0: ", "status")
+        self.told(2, "LMT names nobody", "--address", "5", "address", "set", "7")
+        # 003 §V.8: 0 is every module on the bus.
+        with open(self.path("path.csv"), "w", encoding="ascii") as file:
+            file.write("time,0 [inc],1 [inc]\n0,0,0\n1,100,100\n")
+        for arguments in (("together", "0=2rev", "1=5000"), ("path", self.path("path.csv")),
+                          ("circle", "--axes", "0,1", "--radius", "5", "--speed", "5inc/s")):
+            self.told(2, "axis 0: modules on CAN have the addresses 1 to 127", *arguments)
 
     def test_nobody_answers(self):
         self.modules()

@@ -15,6 +15,11 @@ TEST(MidiRaw, TheManualsExample) {
     EXPECT_EQ(describe_request(request, kMac23), "RUN to address 0: clockwise, period 300 rpm (10000 inc/s)");
     EXPECT_EQ(describe_request(read_raw("7F 15 00 00F60320", false).request, kMac23),
               "RUN to address 127: counter-clockwise, period 300 rpm (10000 inc/s)");
+    // 000 §IV, 003 §V.8: who is meant.
+    EXPECT_EQ(describe_request(read_raw("FF 18 00 00000000", false).request, {}),
+              "EMERGENCY_STOP to all modules");
+    EXPECT_EQ(describe_request(read_raw("00 18 00 00000000", true).request, {}, true),
+              "EMERGENCY_STOP to all modules");
 }
 
 TEST(MidiRaw, Queries) {

@@ -59,6 +59,56 @@ TEST_F(CanTest, TheAddressIsProgrammed) {
     EXPECT_EQ(empty.program_address(9), CanLink::Programmed::silence);
 }
 
+// 003 §V.5: one alone; with the last message both would have the same address.
+TEST_F(CanTest, TwoModulesAreNotGivenOneAddress) {
+    EXPECT_EQ(link.program_address(9), CanLink::Programmed::several);
+    EXPECT_EQ(can.modules[0].memory().address, 1);
+    EXPECT_EQ(can.modules[1].memory().address, 2);
+    const ports::CanFrame operate{.id = 0x7E5, .length = 8, .data = {0x04, 0x00}};
+    EXPECT_EQ(std::count(can.sent.begin(), can.sent.end(), operate), 0);
+}
+
+// No manual says how long it takes to start; 000 §VI 00h has two seconds.
+TEST_F(CanTest, ABootUpMayTakeItsTime) {
+    BusCan one({1});
+    CanLink own(one);
+    base::Instant booted{};
+    one.master_misses = [&](const BusCan::Frame& frame) {
+        if (frame.id == 0x709 && booted == base::Instant{}) booted = one.now();
+        return frame.id == 0x709;
+    };
+    one.on_step = [&] {
+        if (booted == base::Instant{} || one.now() < booted + base::Milliseconds{2'000}) return;
+        one.tell({.id = 0x709, .size = 1});
+        one.on_step = {};
+    };
+    EXPECT_EQ(own.program_address(9), CanLink::Programmed::done);
+}
+
+TEST_F(CanTest, WhatIsNoAnswerIsReadOver) {
+    for (const BusCan::Frame& other : {BusCan::Frame{0x582, 8, {0x42, 0, 0x20, 0, 0, 0, 0, 7}},
+                                       BusCan::Frame{0x581, 8, {0x42, 1, 0x20, 0, 0, 0, 0, 7}},
+                                       BusCan::Frame{0x581, 8, {0x42, 0, 0x20, 1, 0, 0, 0, 7}},
+                                       BusCan::Frame{0x581, 8, {0x60, 0, 0x20, 0, 0, 0, 0, 7}},
+                                       BusCan::Frame{0x581, 7, {0x42, 0, 0x20, 0, 0, 0, 7}},
+                                       BusCan::Frame{0x601, 8, {0x40, 0, 0x20, 0, 0, 0, 0, 0}}}) {
+        can.loses = [&](std::size_t, const BusCan::Frame& frame) {
+            if (frame.id == 0x601) can.tell(other);
+            return false;
+        };
+        EXPECT_EQ(master.position(1), 0);
+    }
+}
+
+TEST_F(CanTest, BootUpsAreKeptByAddress) {
+    EXPECT_EQ(master.position(1), 0);
+    EXPECT_TRUE(link.take_boot(1));
+    EXPECT_FALSE(link.take_boot(1));
+    can.tell({.id = 0x702, .size = 1});
+    EXPECT_FALSE(link.take_boot(1));
+    EXPECT_TRUE(link.take_boot(2));
+}
+
 TEST_F(CanTest, ABusThatTakesNothing) {
     can.takes = false;
     can.state_now = ports::CanState::bus_off;

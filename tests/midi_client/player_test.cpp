@@ -153,7 +153,94 @@ TEST_F(OnALine, AMoveThatIsHeldIsGivenUp) {
     expect_standing();
 }
 
-TEST(OnABus, AModuleThatMissedTheCommonStartIsFoundBeforeAnythingTurns) {
+class OnABus : public testing::Test {
+  protected:
+    OnABus() { link.pause(base::Milliseconds{10}); }  // the first boot-ups
+
+    /// As a module that is back before anybody misses it.
+    void boots(std::uint8_t address) {
+        can.tell({.id = static_cast<std::uint16_t>(0x700 + address), .size = 1});
+    }
+    void expect_standing() {
+        link.pause(base::Milliseconds{50});
+        for (const sim::MidiModule& module : can.modules) {
+            EXPECT_FALSE(module.moving());
+            EXPECT_EQ(module.waiting_segments(), 0);
+        }
+    }
+    std::size_t count(std::uint16_t id, std::uint8_t number) const {
+        std::size_t times = 0;
+        for (const ports::CanFrame& frame : can.sent) times += frame.id == id && frame.data[1] == number;
+        return times;
+    }
+
+    BusCan can{{1, 2}};
+    CanLink link{can};
+    Master master{link};
+};
+
+// 003 §V.8: on CAN address 0 is every module; on V24 it is a module's.
+TEST_F(OnABus, NoAxisIsAllModules) {
+    const std::string words = "axis 0: that is the address of all modules";
+    EXPECT_EQ(told([&] { go_together(master, {{1, 3000}, {0, -4000}}); }), words);
+    EXPECT_EQ(told([&] { play(master, zigzag(0, 1)); }), words);
+    EXPECT_TRUE(can.sent.empty());
+}
+
+TEST_F(OnABus, AModuleThatStartsAnewOnItsPathGetsNoFurtherSegment) {
+    std::size_t segments = 0;
+    can.on_step = [&] {
+        if (segments != 0 || can.modules[1].position() < 2000) return;
+        segments = count(0x602, midi::SEGMENT);
+        boots(2);
+    };
+    const std::string why = told([&] { play(master, zigzag(1, 2)); });
+    EXPECT_NE(why.find("axis 2 started anew by itself"), std::string::npos) << why;
+    EXPECT_EQ(count(0x602, midi::SEGMENT), segments);
+    expect_standing();
+}
+
+// 10h is forgotten, and 13h alone would begin at once.
+TEST_F(OnABus, AModuleThatStartsAnewBetweenTheTwoFramesOfAPreparedMove) {
+    can.loses = [&](std::size_t module, const BusCan::Frame& frame) {
+        if (module == 1 && frame.id == 0x602 && frame.data[1] == midi::WAIT_SYNC) boots(2);
+        return false;
+    };
+    const std::string why = told([&] { go_together(master, {{1, 3000}, {2, -4000}}); });
+    EXPECT_NE(why.find("axis 2 started anew by itself"), std::string::npos) << why;
+    EXPECT_EQ(count(0x602, midi::GO_TO), 0u);
+    EXPECT_EQ(std::count(can.sent.begin(), can.sent.end(), ports::CanFrame{.id = 0x080}), 0);
+    link.synchronise();  // another master's
+    expect_standing();
+    EXPECT_EQ(can.modules[0].position(), 0);
+}
+
+TEST_F(OnABus, AModuleThatStartsAnewOnItsWay) {
+    can.on_step = [&, told_already = false]() mutable {
+        if (told_already || can.modules[1].position() > -500) return;
+        told_already = true;
+        boots(2);
+    };
+    const std::string why = told([&] { go_together(master, {{1, 30'000}, {2, -4000}}); });
+    EXPECT_NE(why.find("axis 2 started anew by itself"), std::string::npos) << why;
+    EXPECT_LT(can.modules[0].position(), 30'000);
+    expect_standing();
+}
+
+// So short a move that it would be within the widest tolerance.
+TEST_F(OnABus, ALostSyncIsNoticed) {
+    can.loses = [](std::size_t module, const BusCan::Frame& frame) {
+        return module == 1 && frame.id == 0x080;
+    };
+    const std::string why = told([&] { go_together(master, {{1, 200}, {2, -200}}); });
+    EXPECT_NE(why.find("axis 2 stands at 0 increments and does not reach -200"), std::string::npos) << why;
+    can.loses = {};
+    link.synchronise();
+    expect_standing();
+    EXPECT_EQ(can.modules[1].position(), 0);
+}
+
+TEST(OnABusOnce, AModuleThatMissedTheCommonStartIsFoundBeforeAnythingTurns) {
     BusCan can({1, 2});
     CanLink link(can);
     Master master(link);
@@ -166,10 +253,11 @@ TEST(OnABus, AModuleThatMissedTheCommonStartIsFoundBeforeAnythingTurns) {
     EXPECT_EQ(can.modules[1].position(), 0);
 }
 
-TEST(OnABus, MovesThatBeginTogetherBySync) {
+TEST(OnABusOnce, MovesThatBeginTogetherBySync) {
     BusCan can({1, 2, 3});
     CanLink link(can);
     Master master(link);
+    link.pause(base::Milliseconds{10});
     go_together(master, {{1, 3000}, {3, -4000}});
     EXPECT_EQ(can.modules[0].position(), 3000);
     EXPECT_EQ(can.modules[1].position(), 0);

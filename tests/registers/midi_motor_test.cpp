@@ -52,8 +52,9 @@ TEST(MidiMotorPosition, Range) {
     }
     EXPECT_EQ(counts_of_increments(Model::mac34_1, kMaxPosition), 439'804'651);
     EXPECT_EQ(counts_of_increments(Model::mac34_1, kMinPosition), -439'804'651);
-    // 1073741823 x 2.048 = 2199023253.5, and 2^32 less, as P_IST wraps.
+    // Beyond 32 bits, where P_IST wraps: 1073741823 x 256 / 125 = 2199023253.5 - 2^32.
     EXPECT_EQ(counts_of_increments(Model::mac23, kMaxPosition), -2'095'944'042);
+    EXPECT_EQ(counts_of_increments(Model::mac23, kMinPosition), 2'095'944'040);
     EXPECT_EQ(counts_of_increments(Model::mac23, 1'048'575'999), 2'147'483'646);
 }
 

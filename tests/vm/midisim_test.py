@@ -45,9 +45,37 @@ m raw 01200000000000
 m together 1=100 2=-100
 m circle --axes 1,2 --radius 1000 --speed 1000inc/s --segment 250ms
 m --address 2 get POSITION
+# 003 §V.5: not with two on the bus.
+./macreg --port can:can1 --yes midi address set 9 2>&1 | grep -q "several modules answered" || { echo "two got one address"; exit 1; }
 ./macreg --port can:can9 midi status 2>&1 | grep -q "there is no interface 'can9'" || { echo "can9"; exit 1; }
 kill -TERM $module
 wait $module || { echo "midisim ended with $?"; cat out; exit 1; }
+# A module alone, on an interface of its own: its address, a restart, the factory's parameters.
+/usr/bin/ip link add vcan0 type vcan && /usr/bin/ip link set vcan0 up || exit 1
+/usr/bin/candump -L vcan0 >log3 &
+until grep -q '^ *vcan0 ' /proc/net/can/rcvlist_all; do :; done
+./midisim --model MAC34-1 --can vcan0 >out3 2>&1 &
+module=$!
+seen '^ready$' out3
+export MACREG_PORT=can:vcan0 MACREG_MIDI_MODEL=MAC34-1
+v() { ./macreg --patience 2000 --yes midi "$@" >>said 2>&1 || { echo "macreg $*"; cat said; exit 1; }; }
+v address set 9
+v --address 9 reset
+v --address 9 factory
+kill -TERM $module
+wait $module
+# The worked example of tools/macreg/README.md.
+./midisim --model MAC34-1 --unit MAC34-1:2 --can vcan0 >out4 2>&1 &
+module=$!
+seen '^ready$' out4
+# A board that is held up for 20 ms ends it, as it should.
+for try in 1 2 3; do
+    ./macreg midi circle --axes 1,2 --radius 1rev --speed 2rev/s --acceleration 4rev/s2 --segment 50ms >out5 2>said && break
+done
+cat out5
+grep -q '^done in 3.64 s: axis 1 at .* inc, axis 2 at .* inc$' out5 || { cat said; exit 1; }
+kill -TERM $module
+wait $module
 grep -q '^position = 100$' eeprom && grep -q '^position = -100$' eeprom.2 || { cat eeprom*; exit 1; }
 """
 
@@ -68,6 +96,17 @@ MACREG = """601#230D2000000000A0 601#230C200000000040
 601#2310200000000000 601#2313200000000064
 602#2310200000000000 602#23132000FFFFFF9C
 080#""".split()
+
+
+# 003 §V.5: the address; §VII 00h and 01h: the answer, then the boot-up, after 01h with the factory's address.
+ALONE = """701#00
+7E5#0401000000000000 7E5#1109000000000000 7E4#1100000000000000 7E5#0400000000000000 709#00
+609#4004200000000000 589#4204200000000704
+609#2300200000000000 589#6000200000000000 709#00
+609#4004200000000000 589#4204200000000704
+609#4001200000000000 589#4201200000000000
+609#2301200000000000 589#6001200000000000 701#00
+601#4004200000000000 581#4204200000000704""".split()
 
 
 def is_position(frame):
@@ -93,6 +132,10 @@ def run(phases, share):
     sent = [frame for frame in frames_of(share, "log2") if frame[:6] in ("601#23", "602#23", "600#23", "080#")]
     if sent[:len(MACREG)] != MACREG or not sent[len(MACREG)].startswith("600#231E2000"):
         print(f"vm: macreg sent {sent}\nand not {MACREG}")
+        return 1
+    alone = frames_of(share, "log3")
+    if alone[:len(ALONE)] != ALONE:
+        print(f"vm: the module alone had {alone[:len(ALONE)]}\nand not {ALONE}")
         return 1
     return status
 

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <utility>
+#include <algorithm>
 
 namespace nplc::midi_client {
 
 namespace can = protocol::midi_can;
 
 namespace {
+
+/// In which a second module would have answered, too.
+constexpr base::Microseconds kOthers{50'000};
 
 std::string words_of(const ports::CanFrame& frame) {
     std::string text = fmt::format("{:03X}#", frame.id);
@@ -59,25 +62,32 @@ CanLink::Programmed CanLink::program_address(std::uint8_t address) {
     drain();
     send({.kind = can::Request::Kind::configure});
     send({.kind = can::Request::Kind::set_address, .data = address});
-    bool taken = false;
-    bool refused = false;
-    for (const base::Instant end = can_.now() + options_.patience; can_.now() < end && !taken && !refused;) {
+    unsigned taken = 0;
+    unsigned refused = 0;
+    base::Instant end = can_.now() + options_.patience;
+    while (can_.now() < end) {
         const Say kind = hear(end - can_.now()).kind;
-        taken = kind == Say::address_taken;
-        refused = kind == Say::address_refused;
+        if (kind != Say::address_taken && kind != Say::address_refused) continue;
+        ++(kind == Say::address_taken ? taken : refused);
+        end = std::min(end, can_.now() + kOthers);
     }
+    if (taken + refused > 1) return Programmed::several;
     // The module is in configuration whatever it said: it is always led back.
-    boots_.clear();
     send({.kind = can::Request::Kind::operate});
-    for (const base::Instant end = can_.now() + options_.patience; can_.now() < end;) {
+    if (taken == 0) return refused != 0 ? Programmed::refused : Programmed::silence;
+    end = can_.now() + options_.longest_boot;
+    while (can_.now() < end) {
         const can::Answer answer = hear(end - can_.now());
-        if (taken && answer.kind == Say::booted && answer.address == address) return Programmed::done;
+        if (answer.kind == Say::booted && answer.address == address) return Programmed::done;
     }
-    return refused ? Programmed::refused : Programmed::silence;
+    return Programmed::silence;
 }
 
-std::vector<std::uint8_t> CanLink::take_boots() {
-    return std::exchange(boots_, {});
+bool CanLink::take_boot(std::uint8_t address) {
+    drain();
+    const bool booted = boots_.test(address);
+    boots_.reset(address);
+    return booted;
 }
 
 void CanLink::send(const can::Request& request) {
@@ -112,7 +122,7 @@ can::Answer CanLink::hear(base::Microseconds wait) {
     heard_any_ = true;
     const can::Answer answer = can::decode_answer(
         {.id = static_cast<std::uint16_t>(frame->id), .size = frame->length, .data = frame->data});
-    if (answer.kind == can::Answer::Kind::booted) boots_.push_back(answer.address);
+    if (answer.kind == can::Answer::Kind::booted) boots_.set(answer.address);
     if (answer.kind != can::Answer::Kind::none) heard_ = words_of(*frame);
     return answer;
 }
@@ -123,7 +133,7 @@ void CanLink::drain() {
         const can::Answer answer = can::decode_answer(
             {.id = static_cast<std::uint16_t>(frame->id), .size = frame->length, .data = frame->data});
         if (!frame->extended && !frame->remote && answer.kind == can::Answer::Kind::booted)
-            boots_.push_back(answer.address);
+            boots_.set(answer.address);
     }
 }
 

@@ -53,6 +53,27 @@ Plan with_probes(const Plan& plan, const Segment& probe) {
     return whole;
 }
 
+/// It would carry out the next order by itself, at once, and from wherever it stands.
+void look_for_boots(Link& link, const std::vector<std::uint8_t>& addresses) {
+    for (const std::uint8_t address : addresses) {
+        if (link.take_boot(address))
+            throw NotPlayed(fmt::format(
+                "axis {} started anew by itself: look at its supply and its security input", address));
+    }
+}
+
+/// 003 §V.8: to address 0 all modules would move.
+void look_for_everyone(const Link& link, const std::vector<std::uint8_t>& addresses) {
+    for (const std::uint8_t address : addresses) {
+        if (address == link.everyone())
+            throw NotPlayed(fmt::format("axis {}: that is the address of all modules", address));
+    }
+}
+
+void forget_boots(Link& link, const std::vector<std::uint8_t>& addresses) {
+    for (const std::uint8_t address : addresses) static_cast<void>(link.take_boot(address));
+}
+
 class Player {
   public:
     Player(Master& master, const Plan& plan, const PlayOptions& options)
@@ -74,6 +95,7 @@ class Player {
         const std::int64_t reserve = options_.reserve.count() * kTicksPerMicrosecond;
         if (std::string why = feeding_problem(plan_, lead_.ticks(), message, reserve); !why.empty())
             throw NotPlayed(why);
+        forget_boots(link(), addresses_);
         look_at_axes();
         begin();
         for (std::size_t axis = 0; axis < plan_.axes.size(); ++axis) fill(axis);
@@ -86,8 +108,9 @@ class Player {
   private:
     Link& link() { return master_.link(); }
 
-    void look() const {
+    void look() {
         if (options_.goes_on && !options_.goes_on()) throw Interrupted("interrupted");
+        look_for_boots(link(), addresses_);
     }
 
     void look_at_axes() {
@@ -191,6 +214,7 @@ class Player {
 
     void finish() {
         wait_until(began_latest_ + time_of(feed_.end()));
+        look();
         const base::Instant last = link().now() + kSettling;
         for (std::size_t axis = 0; axis < addresses_.size(); ++axis) {
             std::int32_t position = master_.position(addresses_[axis]);
@@ -243,9 +267,18 @@ void with_stop(Master& master, const std::vector<std::uint8_t>& addresses, const
     }
 }
 
+/// A module that starts anew in between has forgotten the 10h and would go at once.
 void prepare(Master& master, const Target& target) {
     master.command(target.address, midi::WAIT_SYNC);
+    look_for_boots(master.link(), {target.address});
     master.command(target.address, midi::GO_TO, static_cast<std::uint32_t>(target.position));
+}
+
+/// How far from its target a module may stand that has reached it: its tolerance, and what standby swings
+/// (003 §VII 02h).
+std::int64_t slack_of(Master& master, std::uint8_t address) {
+    constexpr std::int64_t kStandby = 5;
+    return std::max<std::int64_t>(master.query(address, midi::GET_SETTINGS) & 0xFF, kStandby);
 }
 
 }  // namespace
@@ -262,6 +295,7 @@ std::string obstacles(std::uint32_t status) {
 }
 
 void play(Master& master, const Plan& plan, const PlayOptions& options) {
+    for (const AxisPlan& axis : plan.axes) look_for_everyone(master.link(), {axis.address});
     Player player(master, plan, options);
     with_stop(master, player.addresses(), [&] { player.run(); });
 }
@@ -269,20 +303,24 @@ void play(Master& master, const Plan& plan, const PlayOptions& options) {
 void go_together(Master& master, const std::vector<Target>& targets, const PlayOptions& options) {
     std::vector<std::uint8_t> addresses;
     for (const Target& one : targets) addresses.push_back(one.address);
+    look_for_everyone(master.link(), addresses);
     with_stop(master, addresses, [&] {
+        forget_boots(master.link(), addresses);
         for (const Target& one : targets) prepare(master, one);
+        look_for_boots(master.link(), addresses);
         if (master.link().synchronise().kind != Kind::accepted)
             throw NotPlayed(
                 "the common start was not confirmed: one module on the line must have address 00 "
                 "(000 §IV)");
-        for (const Target& one : targets) await_arrival(master, one, options.goes_on);
+        const auto look = [&](std::int32_t) { look_for_boots(master.link(), addresses); };
+        for (const Target& one : targets) await_arrival(master, one, options.goes_on, look);
     });
 }
 
 void await_arrival(Master& master, const Target& target, const std::function<bool()>& goes_on,
                    const std::function<void(std::int32_t)>& seen) {
     constexpr base::Microseconds kLongestStandstill{1'500'000};
-    constexpr std::int64_t kMostTolerance = 0xFF;
+    const std::int64_t slack = slack_of(master, target.address);
     std::optional<std::int32_t> before;
     base::Instant changed = master.link().now();
     for (;;) {
@@ -294,13 +332,14 @@ void await_arrival(Master& master, const Target& target, const std::function<boo
         const base::Instant now = master.link().now();
         if (position != before) changed = now;
         before = position;
+        look_for_boots(master.link(), {target.address});
         const std::string why = obstacles(master.status(target.address));
         if (!why.empty())
             throw NotPlayed(fmt::format("axis {} stopped at {} increments: {}", target.address,
                                         master.position(target.address), why));
         // Within its tolerance it is not busy any more, and may still creep nearer.
         if (now - changed > kLongestStandstill) {
-            if (!busy && std::abs(std::int64_t{position} - target.position) <= kMostTolerance) return;
+            if (!busy && std::abs(std::int64_t{position} - target.position) <= slack) return;
             throw NotPlayed(
                 fmt::format("axis {} stands at {} increments and does not reach {}: is the shaft held, the "
                             "torque too low, or "

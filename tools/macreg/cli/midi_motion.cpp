@@ -119,6 +119,7 @@ std::string turn(MidiSession& session, base::Microseconds time, bool keys) {
     while (!jog_is_over(session, end, keys)) {
         look_for_interruption();
         const std::int32_t position = session.master().position(session.address());
+        if (session.link().take_boot(session.address())) return "it started anew by itself";
         const std::string why = midi_client::obstacles(session.master().status(session.address()));
         if (!why.empty()) return why;
         progress(session.common(), fmt::format("{}, {} stops", midi::position_text(position, scale),

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cli/midi.h"
@@ -22,6 +23,12 @@ struct Job {
     std::vector<Waypoint> path{};  ///< absolute positions
     std::string about{};           ///< what a person wants to know before it begins
 };
+
+/// 003 §V.8: 0 is all of them.
+void look_at_addresses(const MidiCommon& midi, const std::vector<std::uint8_t>& addresses) {
+    if (is_can(midi) && std::find(addresses.begin(), addresses.end(), 0) != addresses.end())
+        throw UserError("axis 0: modules on CAN have the addresses 1 to 127");
+}
 
 Plan plan_of(const Job& job) {
     auto [plan, error] = midi_client::plan_path(job.addresses, job.path);
@@ -97,6 +104,7 @@ void path(const MidiCommon& midi, const PathOptions& options) {
     if (options.check)
         return command_line::tell(midi.common, job.about,
                                   {{"seconds", seconds_of(plan.ticks())}, {"points", job.path.size()}});
+    look_at_addresses(midi, job.addresses);
     MidiSession session(midi);
     carry_out(session, job);
 }
@@ -152,6 +160,7 @@ void circle(const MidiCommon& midi, const CircleOptions& options) {
     if (words.size() != 2) throw UserError("--axes: write the addresses of two modules, as 0,1");
     Job job{.addresses = {axis_of(words[0]), axis_of(words[1])}};
     if (job.addresses[0] == job.addresses[1]) throw UserError("--axes: they must be two different modules");
+    look_at_addresses(midi, job.addresses);
     midi_client::Circle circle = circle_of(midi, options);
     const auto centre = split(options.centre);
     if (!options.centre.empty()) {
@@ -190,6 +199,7 @@ void together(const MidiCommon& midi, const std::vector<std::string>& words) {
                 throw UserError(fmt::format("together: address {} stands there twice", targets[i].address));
         }
     }
+    for (const Target& one : targets) look_at_addresses(midi, {one.address});
     MidiSession session(midi);
     hold_signals();
     midi_client::go_together(session.master(), targets, {.goes_on = goes_on});

@@ -18,7 +18,7 @@ void raw(const MidiCommon& midi, const Options& options) {
     const auto [request, error] = midi::read_raw(options.frame, is_can(midi));
     if (!error.empty()) throw UserError(error);
     const midi::Scale scale{.model = midi_model(midi)};
-    const std::string what = midi::describe_request(request, scale);
+    const std::string what = midi::describe_request(request, scale, is_can(midi));
     if (const std::string danger = midi::danger_of(request); !danger.empty()) {
         if (!options.force) throw UserError(fmt::format("{}: {}; --force if you mean it", what, danger));
         ask(midi.common, fmt::format("{}: {}", what, danger));

@@ -33,16 +33,23 @@ void reset(MidiSession& session) {
                  {{"status", status}, {"faults", midi::status_words(status & midi::reg::kTrips)}});
 }
 
-void factory(MidiSession& session) {
+void factory(const MidiCommon& midi) {
+    {
+        MidiSession session(midi);
+        ask(session.common(),
+            fmt::format(
+                "All parameters of the module with address {} are replaced by the factory's, its address "
+                "becomes {}{}; the motor stops and holds nothing",
+                session.address(), session.link().usual_address(),
+                is_can(midi) ? "" : " and its speed 38400 baud"));
+        session.module().order(midi::reg::FACTORY);
+        session.master().pause(kDeaf, goes_on);
+    }
+    MidiSession session(midi, midi::reg::kFactoryBaud);
     const std::uint8_t usual = session.link().usual_address();
-    ask(session.common(),
-        fmt::format(
-            "All parameters of the module with address {} are replaced by the factory's, its address becomes "
-            "{}{}; the motor stops and holds nothing",
-            session.address(), usual, session.can() != nullptr ? "" : " and its speed 38400 baud"));
-    session.module().order(midi::reg::FACTORY);
-    session.master().pause(kDeaf, goes_on);
-    session.tell(fmt::format("it has the factory's parameters, and address {}", usual), {{"address", usual}});
+    session.master().query(usual, midi::reg::GET_RELEASE);
+    session.tell(fmt::format("it has the factory's parameters, and answers at address {}", usual),
+                 {{"address", usual}});
 }
 
 void program_can(MidiSession& session, std::uint8_t address) {
@@ -53,6 +60,11 @@ void program_can(MidiSession& session, std::uint8_t address) {
     using Programmed = midi_client::CanLink::Programmed;
     const Programmed done = session.can()->program_address(address);
     if (done == Programmed::refused) refuse(fmt::format("the module refuses address {}", address));
+    if (done == Programmed::several)
+        refuse(
+            "several modules answered, so none has the new address: switch all off and on, and leave one on "
+            "the "
+            "bus");
     if (done == Programmed::silence)
         throw midi_client::Doubtful(fmt::format(
             "{}: the module did not say that it took the address; `macreg midi find` shows which it has",
@@ -74,9 +86,11 @@ void program_line(MidiSession& session, std::uint8_t address, bool to_one) {
 
 void set_address(const MidiCommon& midi, int address) {
     if (is_can(midi) && address == 0) throw UserError("address 0: modules on CAN have 1 to 127");
+    const bool said = midi.address >= 0 || midi.common.address != 0;
+    if (is_can(midi) && said)
+        throw UserError("--address: LMT names nobody (003 §V.5); leave one module on the bus, and this out");
     MidiSession session(midi);
     const auto wanted = static_cast<std::uint8_t>(address);
-    const bool said = midi.address >= 0 || midi.common.address != 0;
     session.can() != nullptr ? program_can(session, wanted) : program_line(session, wanted, said);
     const std::string release = midi::release_text(session.master().query(wanted, midi::reg::GET_RELEASE));
     session.tell(fmt::format("address {}: a module of release {} answers", address, release),
@@ -131,7 +145,7 @@ void add_midi_service(arguments::App& app, MidiCommon& midi) {
         .callback([&midi] { midi_work(midi, reset); });
     command_line::add_command(app, "factory",
                               "All parameters as from the factory, the address too; asks first")
-        .callback([&midi] { midi_work(midi, factory); });
+        .callback([&midi] { midi_guard(midi, [&] { factory(midi); }); });
 }
 
 }  // namespace nplc::macreg::cli

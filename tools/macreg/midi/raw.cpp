@@ -4,6 +4,7 @@
 
 #include <cctype>
 
+#include "protocol/midi_can.h"
 #include "protocol/midi_v24.h"
 
 namespace nplc::macreg::midi {
@@ -47,8 +48,9 @@ std::string fields_text(const Fields& fields, std::uint32_t data, const Scale& s
     return text;
 }
 
-std::string whom(const midi_client::Request& request) {
-    const bool everyone = request.address == protocol::midi_v24::kGeneral;
+std::string whom(const midi_client::Request& request, bool can) {
+    const bool everyone =
+        request.address == (can ? protocol::midi_can::kGeneral : protocol::midi_v24::kGeneral);
     return everyone ? "all modules" : fmt::format("address {}", request.address);
 }
 
@@ -86,20 +88,21 @@ RawFrame read_raw(std::string_view text, bool can) {
                         .data = number(6, 8)}};
 }
 
-std::string describe_request(const midi_client::Request& request, const Scale& scale) {
+std::string describe_request(const midi_client::Request& request, const Scale& scale, bool can) {
     if (request.query) {
         const reg::QueryRow* row = reg::find_query(request.number);
         const std::string name =
             row != nullptr ? std::string(row->name) : fmt::format("query {:02X}h", request.number + 0x20);
         const std::string where =
             row != nullptr && row->at_address ? fmt::format(" of byte {:02X}h", request.sub_index) : "";
-        return fmt::format("{}{} to {}", name, where, whom(request));
+        return fmt::format("{}{} to {}", name, where, whom(request, can));
     }
     const reg::CommandRow* row = reg::find_command(request.number);
     if (row == nullptr)
-        return fmt::format("command {:02X}h, which no manual knows, to {}", request.number, whom(request));
+        return fmt::format("command {:02X}h, which no manual knows, to {}", request.number,
+                           whom(request, can));
     const std::string fields = fields_text(row->fields, request.data, scale);
-    return fmt::format("{} to {}{}{}", row->name, whom(request), fields.empty() ? "" : ": ", fields);
+    return fmt::format("{} to {}{}{}", row->name, whom(request, can), fields.empty() ? "" : ": ", fields);
 }
 
 std::string describe_answer(const midi_client::Request& request, const midi_client::Answer& answer,

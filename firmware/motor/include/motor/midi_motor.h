@@ -109,11 +109,13 @@ class MidiMotor final : public Motor {
     void on_status();
     void on_measures(base::Instant now);
     void on_position(base::Instant now);
+    void check_still_there();
     void check_steady(base::Instant now);
     void conclude(base::Instant now);
     void not_taken_after_all();
+    void give_up(MidiFault why);
     bool needs_position() const;
-    bool is_at_goal() const;
+    bool is_within(std::int32_t slack) const;  ///< of goal_
     std::int32_t slack() const;
     base::Microseconds steady_time() const;
     std::uint32_t error_bits() const;

@@ -36,7 +36,8 @@ class MidiRegisters {
     static unsigned place(unsigned number);
     void copy(unsigned from, unsigned to);
 
-    std::array<std::uint16_t, kWords> words_;
+    std::array<std::uint16_t, kWords> words_{};
+    std::array<bool, kWords> set_{};
 };
 
 }  // namespace nplc::motor

@@ -46,9 +46,8 @@ Lack lack_of_profile(Model model, std::int16_t v_soll, std::uint16_t a_soll);
 /// 4096 counts are 2000 increments on MAC23 and 10000 on MAC34; to the nearest, a half upwards. Nothing
 /// beyond kMinPosition..kMaxPosition.
 std::optional<std::int32_t> increments_of_counts(Model model, std::int32_t counts);
-/// To the nearest, a half upwards; wraps beyond 32 bits, as P_IST does (on MAC23 from 1048576000 increments
-/// on). On MAC34 every count of increments_of_counts() comes back; on MAC23, where an increment is 2.048
-/// counts, it comes back within 1.
+/// To the nearest, a half upwards; wraps where 32 bits do not hold it, as P_IST does. On MAC34 every count of
+/// increments_of_counts() comes back; on MAC23, where an increment is 2.048 counts, it comes back within 1.
 std::int32_t counts_of_increments(Model model, std::int32_t increments);
 
 /// V_SOLL's magnitude, in 1/16 count/sample (0.4768 rpm), as VVVV to the nearest, a half upwards. 0 for 0,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <bitset>
 
 #include "host/can_client.h"
 #include "midi_client/link.h"
@@ -10,6 +10,7 @@ namespace nplc::midi_client {
 
 struct CanOptions {
     base::Microseconds patience{150'000};
+    base::Microseconds longest_boot{3'000'000};  ///< R: 000 §VI 00h has two seconds
 };
 
 /// 003 §V. Frames of others are read over.
@@ -29,14 +30,14 @@ class CanLink final : public Link {
     base::Instant now() override { return can_.now(); }
     std::string last_sent() const override { return sent_; }
     std::string last_heard() const override { return heard_; }
+    bool take_boot(std::uint8_t address) override;
     bool heard_anything() const override { return heard_any_; }
 
     /// The whole LMT procedure (003 §V.5) with the only module on the bus; true when it has booted with the
-    /// new address. `refused`: it said no to the address.
-    enum class Programmed : std::uint8_t { done, refused, silence };
+    /// new address. `refused`: it said no to the address. `several`: more than one answered, so the procedure
+    /// was broken off: none has the new address, and all wait in configuration until they are switched off.
+    enum class Programmed : std::uint8_t { done, refused, silence, several };
     Programmed program_address(std::uint8_t address);
-    /// Modules that said 700h + address since the last call: they have just started.
-    std::vector<std::uint8_t> take_boots();
 
   private:
     void send(const protocol::midi_can::Request& request);
@@ -47,7 +48,7 @@ class CanLink final : public Link {
     CanOptions options_;
     std::string sent_;
     std::string heard_;
-    std::vector<std::uint8_t> boots_;
+    std::bitset<protocol::midi_can::kMaxAddress + 1U> boots_;  ///< heard, by address
     bool heard_any_ = false;
 };
 

@@ -62,6 +62,8 @@ class Link {
     /// The last request and what came back, as a person writes it: "02 30 31 .. 03", "601#2313200000000320".
     virtual std::string last_sent() const = 0;
     virtual std::string last_heard() const = 0;
+    /// The module has said that it started anew, since this was asked last. Only on CAN (003 §V.2).
+    virtual bool take_boot(std::uint8_t) { return false; }
     /// Something came since the link was opened, answer or not.
     virtual bool heard_anything() const = 0;
 };

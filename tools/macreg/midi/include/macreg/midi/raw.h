@@ -18,8 +18,8 @@ struct RawFrame {
 /// address 00 is every module.
 RawFrame read_raw(std::string_view text, bool can);
 
-/// "RUN to address 0: direction 0, 300 rpm"
-std::string describe_request(const midi_client::Request& request, const Scale& scale);
+/// "RUN to address 0: direction 0, 300 rpm"; on CAN address 0 is all modules (003 §V.8), on V24 FFh.
+std::string describe_request(const midi_client::Request& request, const Scale& scale, bool can = false);
 /// "accepted", "GET_POSITION: 4660 inc"
 std::string describe_answer(const midi_client::Request& request, const midi_client::Answer& answer,
                             const Scale& scale);
