@@ -2,7 +2,7 @@
 """The most stack that a board's image can need, in bytes, and the calls that need it.
 
 Reads what the compiler wrote with -fcallgraph-info=su: each function's own need and its calls. A call of a virtual
-function can reach the functions of that name that VIRTUAL says of its file. On the deepest path of the loop the deepest
+function can reach the functions of that name that virtual_calls() says of its file. On the deepest path of the loop the deepest
 interrupt can come (all have the same priority), and on that a fault, which takes the stack anew.
 """
 
@@ -20,19 +20,28 @@ INDIRECT = "__indirect_call"
 FILTER = "arm-none-eabi-c++filt"
 
 # Whom virtual calls can reach that stand in a file, by the classes' qualified names; of them what has the called name.
-CHIP = "nplc::hal_mcu::stellaris::"
-SERIAL = "nplc::hal_mcu::BufferedSerial"
-STORAGE = "nplc::hal_mcu::I2cMemory"
-VIRTUAL = [
-    (r"hal/mcu/(include/hal_mcu/)?buffered_serial", [CHIP + "Uart"]),
-    (r"hal/mcu/(include/hal_mcu/)?i2c_memory", [CHIP + "I2cMaster", "nplc::hal_mcu::cortex_m::SysTickClock"]),
-    (r"firmware/boards/bare_metal/", ["nplc::hal_mcu::cortex_m::SysTickClock", SERIAL]),
-    (r"firmware/motor/", [SERIAL]),
-    (r"firmware/store/table_check", ["nplc::gateway::TableKeeper"]),
-    (r"firmware/store/", [STORAGE, "nplc::store::TableCheck", "nplc::store::SettingsStore::Check"]),
-    (r"firmware/gateway/(include/gateway/)?user_port", [SERIAL, "nplc::motor::JvlMotor"]),
-    (r"firmware/gateway/", ["nplc::motor::JvlMotor", CHIP + "InputPins", CHIP + "OutputPins", CHIP + "Watchdog"]),
-]
+HAL = "nplc::hal_mcu::"
+# The classes that a board has of chip, clock and storage, and the lines that its code calls without knowing which.
+BOARDS = {
+    "lm3s6965evb": (HAL + "stellaris::", HAL + "cortex_m::SysTickClock", HAL + "I2cMemory", [HAL + "BufferedSerial"]),
+    "microbit": (HAL + "nrf51::", HAL + "nrf51::TimerClock", HAL + "nrf51::Flash", [HAL + "BufferedSerial", HAL + "NoLine"]),
+}
+
+
+def virtual_calls(board):
+    chip, clock, storage, lines = BOARDS[board]
+    return [
+        (r"hal/mcu/(include/hal_mcu/)?buffered_serial", [chip + "Uart"]),
+        (r"hal/mcu/(include/hal_mcu/)?i2c_memory", [chip + "I2cMaster", clock]),
+        (r"firmware/boards/bare_metal/", [clock, *lines]),
+        (r"firmware/motor/", lines),
+        (r"firmware/store/table_check", ["nplc::gateway::TableKeeper"]),
+        (r"firmware/store/", [storage, "nplc::store::TableCheck", "nplc::store::SettingsStore::Check"]),
+        (r"firmware/gateway/(include/gateway/)?user_port", [*lines, "nplc::motor::JvlMotor"]),
+        (r"firmware/gateway/", ["nplc::motor::JvlMotor", chip + "InputPins", chip + "OutputPins", chip + "Watchdog"]),
+    ]
+
+
 # Of an interface that no board implements: gateway/observer.h.
 OBSERVER = ("ordered", "scanned")
 # Pointers to functions that are called elsewhere than in virtual functions.
@@ -41,7 +50,8 @@ ROOTS = r"nplc_reset$"
 INTERRUPTS = r"nplc::board::on_\w+"
 FRAME = 36  # bytes that an exception takes, with alignment
 # The compiler's and the C library's, whose objects carry no such files; measured in their disassembly, rounded up.
-FOREIGN = {"memcpy": 16, "memmove": 20, "memset": 16, "memcmp": 16, "__aeabi_lmul": 0}
+FOREIGN = {"memcpy": 16, "memmove": 20, "memset": 16, "memcmp": 16, "__aeabi_lmul": 32, "__aeabi_llsr": 8,
+           "__aeabi_uidiv": 16, "__aeabi_uidivmod": 16, "__aeabi_idivmod": 16}
 
 
 def called_at(site):
@@ -52,7 +62,8 @@ def called_at(site):
 
 
 class Graph:
-    def __init__(self, files):
+    def __init__(self, files, board):
+        self.virtual_calls = virtual_calls(board)
         self.need, self.name, self.calls, self.known = {}, {}, defaultdict(set), {}
         for file in files:
             text = file.read_text(encoding="utf-8")
@@ -88,9 +99,9 @@ class Graph:
 
     def virtual(self, title, site):
         """What the virtual call at a place in the sources can reach."""
-        classes = next((classes for of, classes in VIRTUAL if re.search(r"(^|/)" + of, site)), None)
+        classes = next((classes for of, classes in self.virtual_calls if re.search(r"(^|/)" + of, site)), None)
         if classes is None:
-            sys.exit(f"{self.qualified(title)}: {site}: a virtual call of unknown targets; VIRTUAL in {sys.argv[0]} needs a row")
+            sys.exit(f"{self.qualified(title)}: {site}: a virtual call of unknown targets; virtual_calls in {sys.argv[0]} needs a row")
         names = called_at(site)
         if names[0] in OBSERVER:
             return []
@@ -118,9 +129,10 @@ class Graph:
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("graphs", nargs="+", type=pathlib.Path, help="the compiler's .ci files")
+    parser.add_argument("--board", required=True, choices=BOARDS)
     parser.add_argument("--at-most", type=int, required=True, help="bytes that there are")
     arguments = parser.parse_args()
-    graph = Graph(arguments.graphs)
+    graph = Graph(arguments.graphs, arguments.board)
     loop, path = max(graph.deepest(title) for title in graph.matching(ROOTS))
     interrupt, on_top = max(graph.deepest(title) for title in graph.matching(INTERRUPTS))
     total = loop + FRAME + interrupt + FRAME

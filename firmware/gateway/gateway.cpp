@@ -34,6 +34,7 @@ Gateway::Gateway(const Ports& ports, const Settings& settings, StartCause cause)
       settings_(settings),
       debouncer_(settings.debounce),
       quick_debouncer_(quick(settings.debounce)),
+      in_service_(cause == StartCause::service),
       starting_up_(cause == StartCause::power_up) {
     show_outputs();
     if (cause == StartCause::watchdog) {
@@ -115,6 +116,7 @@ void Gateway::serve_sequence(base::Instant now) {
 }
 
 bool Gateway::enabled() const {
+    if (in_service_) return false;
     if (!settings_.enable_input) return true;
     const unsigned input = *settings_.enable_input;
     const unsigned both = unsigned{debouncer_.levels()} & quick_debouncer_.levels();

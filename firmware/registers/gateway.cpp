@@ -137,7 +137,7 @@ std::string_view describe(Result result) {
         case Result::not_running:
             return "the sequence does not run";
         case Result::not_enabled:
-            return "the enable input is off; switch it on, then run";
+            return "the enable input is off (switch it on, then run), or the board was started for service";
         case Result::table_no_end:
             return "the table has no end term";
         case Result::table_ragged:

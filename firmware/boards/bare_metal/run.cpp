@@ -17,9 +17,10 @@ constexpr base::Milliseconds kBeyondLongestWait{500};  ///< of the scan, until t
 /// Two slots of the store looked at and one loaded take 0.7 s at most, on a serial memory's line.
 constexpr base::Milliseconds kStartUp{3'000};
 
-gateway::StartCause start_cause() {
+gateway::StartCause start_cause(bool for_service) {
     const bool bitten = take_watchdog_reset();
     if (bitten && !crash_record().valid()) crash_record().set(EndCause::watchdog, 0);
+    if (for_service) return gateway::StartCause::service;
     return crash_record().valid() ? gateway::StartCause::watchdog : gateway::StartCause::power_up;
 }
 
@@ -61,7 +62,7 @@ void run(const Parts& parts) {
 
     static motor::JvlMotor drive(parts.motor_line, gateway::driver_settings_of(settings.values()));
     static gateway::Gateway sequence({parts.inputs, parts.outputs, parts.watchdog, drive},
-                                     gateway::settings_of(settings.values()), start_cause());
+                                     gateway::settings_of(settings.values()), start_cause(parts.for_service));
     settings.attach(sequence);
     note_crash(sequence);
     static gateway::TableKeeper tables(sequence, drive, parts.storage, parts.table_area, parts.table);

@@ -39,7 +39,11 @@ struct Settings {
     std::optional<std::uint8_t> status_output{};  ///< output 0..3 that shows status_light()
 };
 
-enum class StartCause : std::uint8_t { power_up, watchdog };
+enum class StartCause : std::uint8_t {
+    power_up,
+    watchdog,
+    service,  ///< for a person: not enabled, whatever the settings say, until the next start
+};
 
 /// The loop of the NanoPLC (001 §6.1.9) on ports: debounced inputs, scan, orders, outputs, timer. `poll`
 /// never blocks; a scan that waits for the motor goes on at a later poll.
@@ -193,6 +197,7 @@ class Gateway {
     RunState run_state_ = RunState::stopped;
     SafeReason safe_reason_ = SafeReason::not_started;
     base::Instant safe_since_{};
+    bool in_service_;               ///< StartCause::service
     bool starting_up_;              ///< the first table may start by itself
     bool stop_ordered_ = false;     ///< since run()
     bool stop_after_loss_ = false;  ///< the motor is to be stopped once the link delivers again

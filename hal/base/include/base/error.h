@@ -14,7 +14,7 @@ enum class Error : std::uint8_t {
     not_for_motor,   ///< sequence table with an order that the motor does not have
     not_stopped,     ///< only possible while the sequence is stopped
     no_table,        ///< nothing loaded
-    not_enabled,     ///< the enable input is off
+    not_enabled,     ///< the enable input is off, or it is started for service
     busy,            ///< not now: an operation is under way; ask again
     bad_geometry,    ///< sizes or addresses that do not fit the storage
     bad_offset,      ///< a piece that neither follows what came nor repeats it

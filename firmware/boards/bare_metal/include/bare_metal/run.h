@@ -27,6 +27,7 @@ struct Parts {
     const store::Area& table_area;
     const store::Area& settings_area;
     std::span<std::uint8_t> table;  ///< memory for the active one
+    bool for_service = false;       ///< a person is served, and nothing runs until the next start
 };
 
 /// The chip's interrupts are allowed already.
