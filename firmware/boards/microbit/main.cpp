@@ -55,9 +55,8 @@ void begin_chip() {
 
 }  // namespace
 
-void on_timer0() {
-    chip::TimerClock::on_interrupt();
-    watchdog.on_tick();
+void on_timer1() {
+    watchdog.on_tick(chip::TimerClock::on_interrupt());
 }
 void on_uart0() {
     line.on_interrupt();

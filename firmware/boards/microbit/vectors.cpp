@@ -24,7 +24,7 @@ constexpr Vectors make() {
     Vectors vectors{.core = hal_mcu::cortex_m::vectors_of_core(&link_stack_top, kFault), .chip = {}};
     for (Handler& handler : vectors.chip) handler = kFault;  // the watchdog's too
     vectors.chip[hal_mcu::nrf51::Uart::kInterrupt] = on_uart0;
-    vectors.chip[hal_mcu::nrf51::TimerClock::kInterrupt] = on_timer0;
+    vectors.chip[hal_mcu::nrf51::TimerClock::kInterrupt] = on_timer1;
     return vectors;
 }
 

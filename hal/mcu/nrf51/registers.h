@@ -74,7 +74,9 @@ struct TimerRegisters {
     Register TASKS_CAPTURE[4];  // 040h
     Register reserved_050[60];
     Register EVENTS_COMPARE[4];  // 140h
-    Register reserved_150[109];
+    Register reserved_150[44];
+    Register SHORTS;  // 200h
+    Register reserved_204[64];
     Register INTENSET;  // 304h
     Register reserved_308[128];
     Register BITMODE;  // 508h
@@ -84,6 +86,8 @@ struct TimerRegisters {
     Register CC[4];  // 540h
 };
 inline constexpr std::uint32_t kTimerCompare0 = 1U << 16;
+inline constexpr std::uint32_t kTimerCompare0Clears = 1U << 0;
+inline constexpr std::uint32_t kTimer16Bits = 0;
 inline constexpr std::uint32_t kTimer32Bits = 3;
 
 struct FlashRegisters {
@@ -121,6 +125,9 @@ inline UartRegisters& uart() {
 }
 inline TimerRegisters& timer0() {
     return block<TimerRegisters>(0x4000'8000U);
+}
+inline TimerRegisters& timer1() {
+    return block<TimerRegisters>(0x4000'9000U);
 }
 inline WatchdogRegisters& watchdog() {
     return block<WatchdogRegisters>(0x4001'0000U);

@@ -8,9 +8,8 @@ namespace {
 
 constexpr std::uint32_t kTo1MHz = 4;  // 16 MHz / 2^4
 constexpr std::uint32_t kTick = 1'000;
-constexpr unsigned kNext = 0;  // compare registers
-constexpr unsigned kForLoop = 1;
-constexpr unsigned kForInterrupt = 2;
+constexpr unsigned kForLoop = 0;  // capture registers
+constexpr unsigned kForInterrupt = 1;
 
 std::uint32_t capture(unsigned into) {
     timer0().TASKS_CAPTURE[into] = 1;
@@ -22,9 +21,13 @@ std::uint32_t capture(unsigned into) {
 void TimerClock::begin() {
     timer0().BITMODE = kTimer32Bits;
     timer0().PRESCALER = kTo1MHz;
-    timer0().CC[kNext] = kTick;
-    timer0().INTENSET = kTimerCompare0;
     timer0().TASKS_START = 1;
+    timer1().BITMODE = kTimer16Bits;
+    timer1().PRESCALER = kTo1MHz;
+    timer1().CC[0] = kTick;
+    timer1().SHORTS = kTimerCompare0Clears;
+    timer1().INTENSET = kTimerCompare0;
+    timer1().TASKS_START = 1;
     cortex_m::enable_interrupt(kInterrupt);
 }
 
@@ -35,10 +38,9 @@ base::Instant TimerClock::now() {
     return time_;
 }
 
-/// From now on, so that a tick which was held up (an erasure halts the core) never misses the next.
-void TimerClock::on_interrupt() {
-    timer0().EVENTS_COMPARE[kNext] = 0;
-    timer0().CC[kNext] = capture(kForInterrupt) + kTick;
+std::uint32_t TimerClock::on_interrupt() {
+    timer1().EVENTS_COMPARE[0] = 0;
+    return capture(kForInterrupt);
 }
 
 }  // namespace nplc::hal_mcu::nrf51

@@ -17,15 +17,15 @@ void Watchdog::begin(base::Milliseconds time) {
 }
 
 void Watchdog::set_time(base::Milliseconds time) {
-    time_ = static_cast<std::uint32_t>(time.count());
+    time_ = static_cast<std::uint32_t>(time.count()) * 1000;
     feed();
 }
 
-void Watchdog::on_tick() {
-    const std::uint32_t left = left_;
-    if (left == kNotBegun) return;
-    if (left == 0) return cortex_m::pend_interrupt(kInterrupt);
-    left_ = left - 1;
+void Watchdog::on_tick(std::uint32_t now) {
+    if (time_ == 0) return;
+    if (fed_) fed_at_ = now;
+    fed_ = false;
+    if (now - fed_at_ > time_) return cortex_m::pend_interrupt(kInterrupt);
     watchdog().RR[0] = kWatchdogReload;
 }
 
