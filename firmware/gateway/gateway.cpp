@@ -100,7 +100,7 @@ void Gateway::serve_sequence(base::Instant now) {
             break;
         case RunState::waiting_for_motor:
             ports_.watchdog.feed();
-            if (!enabled()) return enter_safe_state(SafeReason::enable_lost, now);
+            if (!input_enables()) return enter_safe_state(SafeReason::enable_lost, now);
             start_when_ready(now);
             break;
         case RunState::running:
@@ -108,7 +108,7 @@ void Gateway::serve_sequence(base::Instant now) {
         case RunState::held:
             if (run_state_ != RunState::running) ports_.watchdog.feed();
             watch_link(now);
-            if (!enabled()) return enter_safe_state(SafeReason::enable_lost, now);
+            if (!input_enables()) return enter_safe_state(SafeReason::enable_lost, now);
             if (run_state_ == RunState::running) return work(now);
             if (run_state_ == RunState::holding) return hold_when_settled(now);
             break;
@@ -116,7 +116,10 @@ void Gateway::serve_sequence(base::Instant now) {
 }
 
 bool Gateway::enabled() const {
-    if (in_service_) return false;
+    return !in_service_ && input_enables();
+}
+
+bool Gateway::input_enables() const {
     if (!settings_.enable_input) return true;
     const unsigned input = *settings_.enable_input;
     const unsigned both = unsigned{debouncer_.levels()} & quick_debouncer_.levels();

@@ -9,6 +9,7 @@ INPUT_PINS = (18, 20, 23, 22, 21, 16)
 OUTPUT_PINS = (4, 5, 12, 11)
 BUTTON_A = 17
 OUT, DIR = 0x5000_0504, 0x5000_0514
+LOOP_TIME = 0x4000_8540  # TIMER0, CC[0]
 STORAGE, STORAGE_BYTES, PAGE = 0x3B000, 20 * 1024, 1024
 NVMC_CONFIG, NVMC_ERASEPAGE = 0x4001_E504, 0x4001_E508
 READS, WRITES, ERASES = 0, 1, 2
@@ -80,6 +81,10 @@ class Microbit(machine.Emulated):
 
     def drive_input(self, number, level):
         self.drive(INPUT_PINS[number], level)
+
+    def loop_time(self):
+        """Microseconds since the start, as the firmware's loop read them last."""
+        return self.word(LOOP_TIME)
 
     def outputs(self):
         """Levels; those of pins that are no outputs are 0."""

@@ -11,7 +11,6 @@ import re
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 import machine
@@ -119,8 +118,8 @@ class Image(unittest.TestCase):
             debugger.run_code(INTERRUPTS, BRANCH_TO_ITSELF)
             debugger.resume()
             self.shows(SAFE)
-            self.board.drive_input(0, 1)
-            time.sleep(0.2)
+            self.board.monitor.wait_for("RESET")
+            until(self.board.loop_time, lambda microseconds: microseconds > 500_000)
             self.assertEqual(self.board.outputs(), SAFE, "it does not run by itself")
 
     def end_in_service(self, *code):

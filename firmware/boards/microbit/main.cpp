@@ -28,10 +28,10 @@ constexpr store::Area kSettingsArea{.begin = 18 * chip::Flash::kPage, .slot_byte
 
 // Of the chip; in brackets the edge connector's.
 constexpr std::uint8_t kButtonA = 17;
-constexpr chip::Uart::Pins kUsb{.receive = 25, .transmit = 24};   // of the interface chip
-constexpr chip::Uart::Pins kMotor{.receive = 2, .transmit = 3};   // [1, 0]
+constexpr chip::Uart::Pins kUsb{.receive = 25, .transmit = 24};         // of the interface chip
+constexpr chip::Uart::Pins kMotor{.receive = 2, .transmit = 3};         // [1, 0]
 constexpr std::array<std::uint8_t, 6> kInputs{18, 20, 23, 22, 21, 16};  // [8, 12 to 16]
-constexpr std::array<std::uint8_t, 4> kOutputs{4, 5, 12, 11};     // [3, 4, 6, 7]
+constexpr std::array<std::uint8_t, 4> kOutputs{4, 5, 12, 11};           // [3, 4, 6, 7]
 
 chip::TimerClock board_clock;
 chip::InputPins inputs(kInputs);

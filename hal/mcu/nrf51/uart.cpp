@@ -8,7 +8,7 @@ namespace {
 
 /// The rate is to 16 MHz as the register is to 2^32, in steps of 1000h.
 constexpr std::uint32_t divider_of(std::uint32_t baud) {
-    constexpr std::uint32_t kClock = 15'625;  // 16 MHz, in units of 1024 Hz
+    constexpr std::uint32_t kClock = 15'625;                      // 16 MHz, in units of 1024 Hz
     const std::uint32_t units = ((baud << 11) / kClock + 1) / 2;  // of 2^12
     return units << 12;
 }

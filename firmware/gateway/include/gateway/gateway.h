@@ -159,6 +159,7 @@ class Gateway {
   private:
     enum class HoldAfter : std::uint8_t { never, scan, step, at_once };
 
+    bool input_enables() const;
     base::Status run_until(HoldAfter hold_after);
     void begin_hold(bool breakpoint, base::Instant now);
     void hold_when_settled(base::Instant now);

@@ -4,9 +4,9 @@
 
 namespace nplc::hal_mcu::nrf51 {
 
-/// Pages of the chip's own flash. The chip stands still while it works, interrupts included: 46 us at most for
-/// each word, of which interrupts come in between, and 22.3 ms for a page's erasure. So whoever erases knows
-/// that nothing moves.
+/// Pages of the chip's own flash. The chip stands still while it works, interrupts included: 46 us at most
+/// for each word, of which interrupts come in between, and 22.3 ms for a page's erasure. So whoever erases
+/// knows that nothing moves.
 class Flash final : public ports::Storage {
   public:
     static constexpr std::uint32_t kPage = 1024;
@@ -25,7 +25,7 @@ class Flash final : public ports::Storage {
 
     std::uint32_t begin_;
     std::uint32_t size_;
-    std::uint32_t at_ = 0;                    ///< in the chip: of the next word
+    std::uint32_t at_ = 0;                        ///< in the chip: of the next word
     std::span<const std::uint8_t> to_program_{};  ///< what is left
 };
 

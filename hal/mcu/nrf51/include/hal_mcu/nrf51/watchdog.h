@@ -8,9 +8,9 @@
 
 namespace nplc::hal_mcu::nrf51 {
 
-/// Bites twice. After the time without feeding, looked at with each of the clock's ticks, interrupt kInterrupt
-/// comes; when no ticks come any more the chip's own watchdog, whose time cannot be changed once it runs, resets
-/// the chip after kWithoutTicks. Once begun nothing but a reset ends it.
+/// Bites twice. After the time without feeding, looked at with each of the clock's ticks, interrupt
+/// kInterrupt comes; when no ticks come any more the chip's own watchdog, whose time cannot be changed once
+/// it runs, resets the chip after kWithoutTicks. Once begun nothing but a reset ends it.
 class Watchdog final : public ports::Watchdog {
   public:
     static constexpr unsigned kInterrupt = 20;  ///< the first that no device of the chip has
