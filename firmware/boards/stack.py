@@ -22,15 +22,17 @@ FILTER = "arm-none-eabi-c++filt"
 # Whom virtual calls can reach that stand in a file, by the classes' qualified names; of them what has the called name.
 CHIP = "nplc::hal_mcu::stellaris::"
 SERIAL = "nplc::hal_mcu::BufferedSerial"
+MOTOR = ["nplc::motor::JvlMotor", "nplc::motor::MidiMotor"]
 STORAGE = "nplc::hal_mcu::I2cMemory"
 VIRTUAL = [
     (r"hal/mcu/(include/hal_mcu/)?buffered_serial", [CHIP + "Uart"]),
     (r"hal/mcu/(include/hal_mcu/)?i2c_memory", [CHIP + "I2cMaster", "nplc::hal_mcu::cortex_m::SysTickClock"]),
+    (r"firmware/motor/midi_motor", ["nplc::motor::MidiV24Link"]),
     (r"firmware/motor/", [SERIAL]),
     (r"firmware/store/table_check", ["nplc::gateway::TableKeeper"]),
     (r"firmware/store/", [STORAGE, "nplc::store::TableCheck", "nplc::store::SettingsStore::Check"]),
-    (r"firmware/gateway/(include/gateway/)?user_port", [SERIAL, "nplc::motor::JvlMotor"]),
-    (r"firmware/gateway/", ["nplc::motor::JvlMotor", CHIP + "InputPins", CHIP + "OutputPins", CHIP + "Watchdog"]),
+    (r"firmware/gateway/(include/gateway/)?user_port", [SERIAL, *MOTOR]),
+    (r"firmware/gateway/", [*MOTOR, CHIP + "InputPins", CHIP + "OutputPins", CHIP + "Watchdog"]),
 ]
 # Of an interface that no board implements: gateway/observer.h.
 OBSERVER = ("ordered", "scanned")

@@ -47,6 +47,10 @@ constexpr std::array<SettingInfo, kSettings> kAll{{
      "least time between two reads of the motor for the user while the sequence runs"},
     {Setting::motor_silence, "motor_silence", "ms", 20, 20, 200, false, true,
      "silence of the motor that is a lost link; from the next reset on if kept"},
+    {Setting::motor_kind, "motor_kind", "", 0, 0, 3, false, true,
+     "0: a JVL motor, 1: MIDI's MAC23, 2: MAC34-1, 3: MAC34-2; from the next reset on if kept"},
+    {Setting::midi_address, "midi_address", "", 0, 0, 127, false, true,
+     "a MIDI drive's address on its V24 line; from the next reset on if kept"},
 }};
 
 /// What the firmware needs of a setting: a board that shows no names has none in its memory.

@@ -1,5 +1,6 @@
 // The gateway on a Stellaris LM3S6965: which pins and ports it has, and in what order it starts.
 
+#include "gateway/chosen_motor.h"
 #include "gateway/gateway.h"
 #include "gateway/own_registers.h"
 #include "gateway/user_port.h"
@@ -14,7 +15,6 @@
 #include "hal_mcu/stellaris/uart.h"
 #include "hal_mcu/stellaris/watchdog.h"
 #include "interrupts.h"
-#include "motor/jvl_motor.h"
 
 namespace nplc::board {
 namespace {
@@ -138,7 +138,8 @@ void on_i2c0() {
     base::Milliseconds bites_after = kStartUp;
     watchdog.begin(bites_after);
 
-    static motor::JvlMotor drive(motor_line, gateway::driver_settings_of(settings.values()));
+    static gateway::ChosenMotor chosen(motor_line, settings.values());
+    motor::Motor& drive = chosen.motor();
     static gateway::Gateway sequence({inputs, outputs, watchdog, drive},
                                      gateway::settings_of(settings.values()), start_cause());
     settings.attach(sequence);

@@ -34,7 +34,12 @@ enum class Setting : std::uint8_t {
     old_register_codes = 17,
     read_pause = 18,
     motor_silence = 19,
+    motor_kind = 20,
+    midi_address = 21,
 };
+
+/// Values of motor_kind.
+enum class MotorKind : std::uint8_t { jvl, mac23, mac34_1, mac34_2 };
 
 /// `none` in enable_input and status_output.
 inline constexpr std::uint32_t kNone = 255;
@@ -51,7 +56,7 @@ struct SettingInfo {
     std::string_view help;
 };
 
-inline constexpr std::size_t kSettings = 19;
+inline constexpr std::size_t kSettings = 21;
 const std::array<SettingInfo, kSettings>& all_settings();
 /// nullptr if there is none.
 const SettingInfo* find_setting(std::uint8_t id);
