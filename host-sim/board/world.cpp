@@ -214,7 +214,9 @@ void World::wake() {
 Time World::next_poll() {
     const Time steadily = now_ + kPollPeriod;
     if (options_.polling == Polling::steadily) return steadily;
-    base::Instant due = std::min(gateway_->next_poll(instant()), user_port_->next_poll(instant()));
+    const base::Instant motors =
+        midi_ ? midi_->driver().next_poll(instant()) : driver_->next_poll(instant());
+    base::Instant due = std::min(gateway_->next_poll(instant(), motors), user_port_->next_poll(instant()));
     due = std::min(due, instant() + kWatchdogTime / 2);
     const Time at = std::max<Time>(now_, due.time_since_epoch());
     return options_.polling == Polling::at_need ? at : std::min(at, steadily);

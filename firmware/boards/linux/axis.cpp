@@ -222,11 +222,10 @@ void Axis::run_sequence(base::Instant now) {
     look_at_inputs();
     hurries ? motor_.shut_line() : motor_.open_line(now);
     gateway_->poll(now);
-    motor::Motor& driver = motor_.driver();
-    if (driver.next_poll(now) <= now) driver.poll(now);
+    if (motor_.next_poll(now) <= now) motor_.driver().poll(now);
     if (!hurries) return;
     motor_.open_line(now);
-    driver.poll(now);
+    motor_.driver().poll(now);
 }
 
 void Axis::serve(base::Instant now) {
@@ -287,7 +286,7 @@ void Axis::watch_pins(base::Instant now) {
 base::Instant Axis::next(base::Instant now) {
     if (failed_) return base::kNever;
     if (own_registers_->reset_asked()) return now + kBetweenLooks;
-    base::Instant next = std::min(gateway_->next_poll(now), user_port_->next_poll(now));
+    base::Instant next = std::min(gateway_->next_poll(now, motor_.next_poll(now)), user_port_->next_poll(now));
     next = std::min({next, rests_until_, motor_.next_look()});
     if (mactalk_port_) next = std::min(next, mactalk_port_->next_look());
     if (user_uart_) next = std::min(next, user_uart_->next_look());

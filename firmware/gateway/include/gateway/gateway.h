@@ -117,8 +117,8 @@ class Gateway {
     /// Or, instead: whenever something arrives (a byte from the motor, a change of an input) and at the
     /// latest then. Asked after each poll() and whatever was done since; `now` or earlier: at once. The
     /// watchdog may want it sooner. What it sleeps so is no scan time, and scans() counts only those that
-    /// were looked at.
-    base::Instant next_poll(base::Instant now);
+    /// were looked at. `motors`: the driver's own next_poll().
+    base::Instant next_poll(base::Instant now, base::Instant motors);
     /// Least time between a scan that did something and the next one; 0, as often as it is polled. For who
     /// goes by next_poll(): a table may do something in every scan.
     void pace(base::Microseconds least) { pace_ = least; }

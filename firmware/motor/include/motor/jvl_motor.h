@@ -25,7 +25,9 @@ class JvlMotor final : public Motor {
     JvlMotor(ports::SerialPort& port, const Settings& settings);
 
     void poll(base::Instant now) override;
-    base::Instant next_poll(base::Instant now) const override;
+    /// When to poll at the latest, asked after each poll() and each call that gives it something to do; `now` or
+    /// earlier: at once.
+    base::Instant next_poll(base::Instant now) const;
     bool settled() const override;
     bool has_room() const override { return !orders_.full(); }
     void send(const Order& order) override;

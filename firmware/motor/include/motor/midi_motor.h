@@ -46,7 +46,9 @@ class MidiMotor final : public Motor {
     MidiMotor(MidiLink& link, const Settings& settings);
 
     void poll(base::Instant now) override;
-    base::Instant next_poll(base::Instant now) const override;
+    /// When to poll at the latest, asked after each poll() and each call that gives it something to do; `now` or
+    /// earlier: at once.
+    base::Instant next_poll(base::Instant now) const;
     bool settled() const override;
     bool can_execute(const Order& order) const override { return lack_of(order) == Lack::none; }
     bool has_room() const override { return !orders_.full(); }
