@@ -27,6 +27,7 @@ STORAGE = "nplc::hal_mcu::I2cMemory"
 VIRTUAL = [
     (r"hal/mcu/(include/hal_mcu/)?buffered_serial", [CHIP + "Uart"]),
     (r"hal/mcu/(include/hal_mcu/)?i2c_memory", [CHIP + "I2cMaster", "nplc::hal_mcu::cortex_m::SysTickClock"]),
+    (r"firmware/boards/bare_metal/", ["nplc::hal_mcu::cortex_m::SysTickClock", SERIAL]),
     (r"firmware/motor/midi_motor", ["nplc::motor::MidiV24Link"]),
     (r"firmware/motor/", [SERIAL]),
     (r"firmware/store/table_check", ["nplc::gateway::TableKeeper"]),

@@ -2,6 +2,7 @@
 
 #include "hal_mcu/crash_record.h"
 #include "hal_mcu/interrupt_ring.h"
+#include "hal_mcu/safe_levels.h"
 #include "hal_mcu/tick_time.h"
 
 namespace nplc::hal_mcu {
@@ -49,6 +50,14 @@ TEST(CrashRecord, IsKnownFromWhatMemoryHoldsAfterPowerUp) {
     kept.clear();
     EXPECT_FALSE(kept.valid());
     EXPECT_EQ(kept.cause(), EndCause::none);
+}
+
+TEST(SafeLevels, AreAllOffUntilTheyWereKept) {
+    SafeLevels levels{};
+    EXPECT_EQ(levels.get(), 0U);
+    levels.set(0b1010);
+    const SafeLevels kept = levels;
+    EXPECT_EQ(kept.get(), 0b1010U);
 }
 
 }  // namespace

@@ -1,0 +1,86 @@
+#include "bare_metal/run.h"
+
+#include "bare_metal/end.h"
+#include "gateway/chosen_motor.h"
+#include "gateway/gateway.h"
+#include "gateway/own_registers.h"
+#include "gateway/user_port.h"
+#include "hal_mcu/cortex_m/core.h"
+
+namespace nplc::bare_metal {
+namespace {
+
+namespace core = hal_mcu::cortex_m;
+using hal_mcu::EndCause;
+
+constexpr base::Milliseconds kBeyondLongestWait{500};  ///< of the scan, until the watchdog bites
+/// Two slots of the store looked at and one loaded take 0.7 s at most, on a serial memory's line.
+constexpr base::Milliseconds kStartUp{3'000};
+
+gateway::StartCause start_cause() {
+    const bool bitten = take_watchdog_reset();
+    if (bitten && !crash_record().valid()) crash_record().set(EndCause::watchdog, 0);
+    return crash_record().valid() ? gateway::StartCause::watchdog : gateway::StartCause::power_up;
+}
+
+void note_crash(gateway::Gateway& sequence) {
+    if (!crash_record().valid()) return;
+    sequence.note(gateway::Event::gave_up, static_cast<std::uint16_t>(crash_record().cause()));
+    sequence.note(gateway::Event::gave_up_at, static_cast<std::uint16_t>(crash_record().code_address()));
+    crash_record().clear();
+}
+
+/// Longer than a scan may wait for the motor, which a user can change.
+base::Milliseconds watchdog_time(const gateway::SettingsKeeper& settings) {
+    return base::Milliseconds(settings.get(store::Setting::longest_wait)) + kBeyondLongestWait;
+}
+
+/// Until an interrupt has brought something; a millisecond at the most.
+void rest() {
+    core::forbid_interrupts();
+    if (!has_received()) core::sleep();
+    core::allow_interrupts();
+}
+
+/// The answer to the reset command shall leave the line, if it takes it.
+[[noreturn]] void restart(const Parts& parts) {
+    constexpr base::Milliseconds kLongestAnswer{20};
+    const base::Instant asked = parts.clock.now();
+    while (!parts.user_line.transmitter_idle() && parts.clock.now() - asked < kLongestAnswer) rest();
+    core::reset();
+}
+
+}  // namespace
+
+void run(const Parts& parts) {
+    static gateway::SettingsKeeper settings(parts.storage, parts.settings_area);
+    settings.start({});
+    begin_lines(settings.get(store::Setting::user_baud), settings.get(store::Setting::motor_baud));
+    base::Milliseconds bites_after = kStartUp;
+    begin_watchdog(bites_after);
+
+    static gateway::ChosenMotor chosen(parts.motor_line, settings.values());
+    motor::Motor& drive = chosen.motor();
+    static gateway::Gateway sequence({parts.inputs, parts.outputs, parts.watchdog, drive},
+                                     gateway::settings_of(settings.values()), start_cause());
+    settings.attach(sequence);
+    note_crash(sequence);
+    static gateway::TableKeeper tables(sequence, drive, parts.storage, parts.table_area, parts.table);
+    static gateway::OwnRegisters registers(sequence, tables, settings);
+    static gateway::UserPort user_port(parts.user_line, parts.motor_mactalk_line, sequence, drive, registers,
+                                       settings);
+    static_cast<void>(tables.mount());
+    tables.start(parts.clock.now());
+
+    for (;;) {
+        const base::Instant now = parts.clock.now();
+        sequence.poll(now);
+        user_port.poll(now);
+        keep_safe_outputs(sequence.settings().safe_outputs);
+        if (watchdog_time(settings) != bites_after) set_watchdog_time(bites_after = watchdog_time(settings));
+        if (registers.reset_asked()) restart(parts);
+        rest();
+    }
+}
+
+}  // namespace nplc::bare_metal
