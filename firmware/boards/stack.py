@@ -37,6 +37,8 @@ VIRTUAL = [
 ]
 # Of an interface that no board implements: gateway/observer.h.
 OBSERVER = ("ordered", "scanned")
+# Answers a constant: the linker folds it into another function that does.
+CONSTANT = ("take_boot",)
 # Pointers to functions that are called elsewhere than in virtual functions.
 POINTERS = {"nplc_reset": r"_GLOBAL__sub_I_"}
 ROOTS = r"nplc_reset$"
@@ -94,7 +96,7 @@ class Graph:
         if classes is None:
             sys.exit(f"{self.qualified(title)}: {site}: a virtual call of unknown targets; VIRTUAL in {sys.argv[0]} needs a row")
         names = called_at(site)
-        if names[0] in OBSERVER:
+        if names[0] in OBSERVER + CONSTANT:
             return []
         for name in names:
             if found := [target for owner in classes for target in self.matching(rf"{owner}::{name}(\.|$)")]:

@@ -1,5 +1,8 @@
 #include "bare_metal/run.h"
 
+#include <memory>
+#include <utility>
+
 #include "bare_metal/end.h"
 #include "gateway/chosen_motor.h"
 #include "gateway/gateway.h"
@@ -50,25 +53,45 @@ void rest() {
     core::reset();
 }
 
+/// Memory of an object that is made when its turn comes; a local static would be asked each time whether it is.
+template <class T>
+union Later {
+    constexpr Later() {}
+    ~Later() {}  // NOLINT: never: the firmware does not end
+    template <class... Arguments>
+    T& make(Arguments&&... arguments) {
+        return *std::construct_at(&object, std::forward<Arguments>(arguments)...);
+    }
+    T object;
+};
+
+Later<gateway::SettingsKeeper> settings_memory;
+Later<gateway::ChosenMotor> motor_memory;
+Later<gateway::Gateway> sequence_memory;
+Later<gateway::TableKeeper> tables_memory;
+Later<gateway::OwnRegisters> registers_memory;
+Later<gateway::UserPort> user_port_memory;
+
 }  // namespace
 
 void run(const Parts& parts) {
-    static gateway::SettingsKeeper settings(parts.storage, parts.settings_area);
+    gateway::SettingsKeeper& settings = settings_memory.make(parts.storage, parts.settings_area);
     settings.start({});
     begin_lines(settings.get(store::Setting::user_baud), settings.get(store::Setting::motor_baud));
     base::Milliseconds bites_after = kStartUp;
     begin_watchdog(bites_after);
 
-    static gateway::ChosenMotor chosen(parts.motor_line, settings.values());
-    motor::Motor& drive = chosen.motor();
-    static gateway::Gateway sequence({parts.inputs, parts.outputs, parts.watchdog, drive},
-                                     gateway::settings_of(settings.values()), start_cause());
+    motor::Motor& drive = motor_memory.make(parts.motor_line, settings.values()).motor();
+    gateway::Gateway& sequence = sequence_memory.make(
+        gateway::Gateway::Ports{parts.inputs, parts.outputs, parts.watchdog, drive},
+        gateway::settings_of(settings.values()), start_cause());
     settings.attach(sequence);
     note_crash(sequence);
-    static gateway::TableKeeper tables(sequence, drive, parts.storage, parts.table_area, parts.table);
-    static gateway::OwnRegisters registers(sequence, tables, settings);
-    static gateway::UserPort user_port(parts.user_line, parts.motor_mactalk_line, sequence, drive, registers,
-                                       settings);
+    gateway::TableKeeper& tables =
+        tables_memory.make(sequence, drive, parts.storage, parts.table_area, parts.table);
+    gateway::OwnRegisters& registers = registers_memory.make(sequence, tables, settings);
+    gateway::UserPort& user_port = user_port_memory.make(parts.user_line, parts.motor_mactalk_line, sequence,
+                                                         drive, registers, settings);
     static_cast<void>(tables.mount());
     tables.start(parts.clock.now());
 
