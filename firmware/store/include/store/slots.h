@@ -99,7 +99,7 @@ class Slots {
     };
     enum class Closing : std::uint8_t { programming, checking, header, header_back, mark, mark_back };
 
-    base::Result<Slot> examine(unsigned slot);
+    base::Status examine(Slot& slot, unsigned number);
     base::Result<std::uint32_t> crc_of(unsigned slot, std::uint32_t length);
     void choose();
 
