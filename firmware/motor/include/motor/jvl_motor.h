@@ -42,7 +42,7 @@ class JvlMotor final : public Motor {
     Link link() const override;
     std::uint32_t resent() const { return link_.resent(); }
     Counters counters() const override;
-    bool longwords_only() const override { return settings_.registers_are_32_bit; }
+    bool longwords_only() const override { return registers_are_32_bit_; }
 
   private:
     enum class Phase : std::uint8_t { down, look, first_safety, second_safety, first_nop, second_nop, up };
@@ -66,7 +66,10 @@ class JvlMotor final : public Motor {
     void update_hold(base::Instant now);
 
     JvlLink link_;
-    Settings settings_;
+    bool safe_communication_;
+    protocol::fastmac::RegisterCode register_code_;
+    bool registers_are_32_bit_;
+    base::Microseconds sample_period_;
     base::Ring<Order, 8> orders_;
     Order current_;  ///< what the message under way carries, when sending_ is `order`
     Sending sending_ = Sending::nothing;
