@@ -68,7 +68,7 @@ class Graph:
                         sys.exit(f"{label}: its need is not bounded")
             for source, target, site in EDGE.findall(text):
                 self.calls[source].add((target, site if target == INDIRECT else ""))
-        titles = sorted(self.name)
+        titles = sorted({*self.name, *(target for calls in self.calls.values() for target, _ in calls)})
         names = subprocess.run([FILTER], input="\n".join(t.rsplit(":", 1)[-1] for t in titles), check=True, capture_output=True, text=True).stdout
         self.plain = {t: n.replace("(anonymous namespace)::", "").split("(")[0] for t, n in zip(titles, names.split("\n"))}
 
@@ -79,6 +79,11 @@ class Graph:
     def qualified(self, title):
         """nplc::module::Class::function"""
         return self.plain[title]
+
+    def folded_into(self, title):
+        """A template's instance of which only another one is left, because their instructions are the same."""
+        without = lambda t: re.sub(r"<[^<>]*>", "", self.plain[t])
+        return [t for t in self.need if "<" in self.plain[t] and without(t) == without(title)]
 
     def reached(self, title):
         """What a function calls."""
@@ -109,6 +114,8 @@ class Graph:
             title = title.replace("C1E", "C2E")  # a complete object's constructor is its base's
         if title in above:
             sys.exit("recursion: " + " -> ".join(self.qualified(t) for t in (*above, title)))
+        if title not in self.need and (same := self.folded_into(title)):
+            return max(self.deepest(t, above) for t in same)
         if title not in self.need:
             if title not in FOREIGN:
                 sys.exit(f"{title}: called by {self.qualified(above[-1])}, and its need is unknown")

@@ -19,11 +19,11 @@ constexpr base::Microseconds kLateReply{40'000};
 }  // namespace
 
 JvlMotor::JvlMotor(ports::SerialPort& port, const Settings& settings)
-    : link_(port, settings.link),
-      safe_communication_(settings.safe_communication),
+    : safe_communication_(settings.safe_communication),
       register_code_(settings.register_code),
       registers_are_32_bit_(settings.registers_are_32_bit),
-      sample_period_(settings.sample_period) {}
+      sample_period_(settings.sample_period),
+      link_(port, settings.link) {}
 
 void JvlMotor::poll(base::Instant now) {
     switch (link_.poll(now)) {

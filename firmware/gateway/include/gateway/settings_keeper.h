@@ -39,13 +39,13 @@ class SettingsKeeper {
 
   private:
     Gateway* gateway_ = nullptr;
-    store::SettingsStore store_;
+    base::Status begun_;
+    bool damaged_ = false;
     store::SettingValues values_;
     store::SettingValues at_start_;
     store::SettingValues stored_;
     store::SettingValues saving_;
-    base::Status begun_;
-    bool damaged_ = false;
+    store::SettingsStore store_;
 };
 
 }  // namespace nplc::gateway

@@ -65,12 +65,10 @@ class JvlMotor final : public Motor {
     void hold_in_position(base::Instant now);
     void update_hold(base::Instant now);
 
-    JvlLink link_;
     bool safe_communication_;
     protocol::fastmac::RegisterCode register_code_;
     bool registers_are_32_bit_;
     base::Microseconds sample_period_;
-    base::Ring<Order, 8> orders_;
     Order current_;  ///< what the message under way carries, when sending_ is `order`
     Sending sending_ = Sending::nothing;
     Phase phase_ = Phase::down;
@@ -90,6 +88,8 @@ class JvlMotor final : public Motor {
     bool for_access_ = false;  ///< in FlexMAC, or on the way there and back, for accesses only
     std::optional<base::Instant> reply_until_;
     Counters counters_;
+    JvlLink link_;
+    base::Ring<Order, 8> orders_;
 };
 
 }  // namespace nplc::motor

@@ -144,9 +144,6 @@ class MidiMotor final : public Motor {
     bool moves() const { return motion_ == Motion::going || motion_ == Motion::running; }
 
     MidiLink& link_;
-    Settings settings_;
-    MidiRegisters registers_;
-    base::Ring<Order, 8> orders_;
     MidiMessage message_;  ///< under way while link_.busy()
     Phase phase_ = Phase::down;
     Motion motion_ = Motion::unknown;
@@ -209,6 +206,9 @@ class MidiMotor final : public Motor {
     std::uint32_t access_value_ = 0;
     bool access_error_ = false;  ///< ERROR was there before the write
     Counters counters_;
+    Settings settings_;
+    MidiRegisters registers_;
+    base::Ring<Order, 8> orders_;
 };
 
 }  // namespace nplc::motor

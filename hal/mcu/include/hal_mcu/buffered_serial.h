@@ -44,10 +44,10 @@ class BufferedSerial : public ports::SerialPort {
         std::uint8_t value;
         bool fault;
     };
-    InterruptRing<Received, kCapacity> received_;
-    InterruptRing<std::uint8_t, kCapacity> to_send_;
-    LineFaults faults_;
     bool gap_ = false;
+    LineFaults faults_;
+    InterruptRing<std::uint8_t, kCapacity> to_send_;
+    InterruptRing<Received, kCapacity> received_;
 };
 
 }  // namespace nplc::hal_mcu
