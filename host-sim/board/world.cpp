@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "registers/gateway.h"
+
 namespace nplc::sim {
 namespace {
 
@@ -26,6 +28,8 @@ store::SettingValues initial_settings(const WorldOptions& options) {
     set(store::Setting::motor_is_mac800, options.motor == registers::Model::mac800 ? 1 : 0);
     set(store::Setting::safe_communication, options.safe_communication ? 1 : 0);
     set(store::Setting::old_register_codes, options.old_register_codes ? 1 : 0);
+    if (options.midi)
+        set(store::Setting::motor_kind, registers::gateway::motor_kind_of(options.midi->model));
     return values;
 }
 

@@ -59,12 +59,18 @@ std::string Axis::open(const std::string& state_directory, base::Instant now) {
     folder_ = state_directory + "/" + config_.name;
     if (std::string error = open_store(folder_); !error.empty()) return error;
     settings_.emplace(*storage_, kSettingsArea);
-    settings_->start(config_.settings);
+    start_settings();
     if (std::string error = open_lines(); !error.empty()) return error;
     if (std::string error = open_ports(); !error.empty()) return error;
     const gateway::StartCause cause = cause_of_start();
     tell_stored_settings();
     return start(cause, now);
+}
+
+/// Which motor there is stands in the configuration, whatever was stored.
+void Axis::start_settings() {
+    settings_->start(config_.settings);
+    for (const store::Setting setting : kOfTheMotor) settings_->impose(setting, config_.settings.get(setting));
 }
 
 std::string Axis::open_store(const std::string& folder) {
@@ -249,7 +255,7 @@ void Axis::serve(base::Instant now) {
 void Axis::reset(base::Instant now) {
     tell(LogLevel::notice, "reset over the user's port");
     settings_.emplace(*storage_, kSettingsArea);
-    settings_->start(config_.settings);
+    start_settings();
     std::string error = open_ports();
     if (error.empty()) error = start(gateway::StartCause::power_up, now);
     if (error.empty()) return watch_ports();

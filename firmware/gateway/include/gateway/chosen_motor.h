@@ -9,7 +9,7 @@
 
 namespace nplc::gateway {
 
-/// The driver of the motor that setting motor_kind names: in one place, of which only one kind lives.
+/// The driver of the motor that setting motor_kind names, on a serial line. All kinds have the same memory.
 class ChosenMotor {
   public:
     ChosenMotor(ports::SerialPort& line, const store::SettingValues& values);
@@ -20,7 +20,7 @@ class ChosenMotor {
 
   private:
     struct Midi {
-        Midi(ports::SerialPort& line, const store::SettingValues& values);
+        Midi(ports::SerialPort& line, registers::midi::Model model, std::uint8_t address, std::uint32_t baud);
 
         motor::MidiV24Link link;
         motor::MidiMotor motor;

@@ -38,9 +38,6 @@ enum class Setting : std::uint8_t {
     midi_address = 21,
 };
 
-/// Values of motor_kind.
-enum class MotorKind : std::uint8_t { jvl, mac23, mac34_1, mac34_2 };
-
 /// `none` in enable_input and status_output.
 inline constexpr std::uint32_t kNone = 255;
 
