@@ -33,6 +33,7 @@ VIRTUAL = [
     (r"firmware/store/table_check", ["nplc::gateway::TableKeeper"]),
     (r"firmware/store/", [STORAGE, "nplc::store::TableCheck", "nplc::store::SettingsStore::Check"]),
     (r"firmware/gateway/(include/gateway/)?user_port", [SERIAL, *MOTOR]),
+    (r"firmware/gateway/own_registers", [SERIAL, *MOTOR]),
     (r"firmware/gateway/", [*MOTOR, CHIP + "InputPins", CHIP + "OutputPins", CHIP + "Watchdog"]),
 ]
 # Of an interface that no board implements: gateway/observer.h.

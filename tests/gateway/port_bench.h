@@ -29,7 +29,9 @@ struct InstantLine final : ports::SerialPort {
         return count;
     }
     bool transmitter_idle() override { return true; }
+    ports::LineFaults faults() const override { return counted; }
 
+    ports::LineFaults counted;
     std::vector<std::uint8_t> sent;
     std::deque<ports::ReceivedByte> received;
 };

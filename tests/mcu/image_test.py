@@ -18,7 +18,7 @@ SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "machine.seq")
 IDLING, LAMP, ARRIVED = 1, 4, 8
 SAFE = 0b1010  # no step of machine.seq has these outputs
 GAVE_UP, GAVE_UP_AT = 28, 29  # events (REGISTERS.md)
-WATCHDOG, REASON_WATCHDOG = 1, 6
+WATCHDOG, WITHOUT_A_WORD, REASON_WATCHDOG = 1, 9, 6
 # Instructions: b ., cpsie i, cpsid i, udf
 BRANCH_TO_ITSELF, INTERRUPTS, NO_INTERRUPTS, UNDEFINED = 0xE7FE, 0xB662, 0xB672, 0xDEFE
 
@@ -106,6 +106,13 @@ class Image(Case):
         self.hang_with(NO_INTERRUPTS, BRANCH_TO_ITSELF)
         after = until(lambda: self.on_the_line(lambda line: line.read(gw.UPTIME)), lambda up: up < before)
         self.assertLess(after, before)
+        self.assertIn((GAVE_UP, WITHOUT_A_WORD), self.on_the_line(self.bitten))
+        self.ctl("run")
+        self.shows(IDLING)
+        self.ctl("stop")
+        self.ctl("reset")
+        self.shows(IDLING)
+        self.assertEqual(self.on_the_line(lambda line: [event for event, _ in line.log() if event == GAVE_UP]), [])
 
     def test_a_fault_of_the_core_ends_in_the_safe_state_with_its_reason(self):
         self.upload_and_run()

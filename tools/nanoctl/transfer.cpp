@@ -7,6 +7,7 @@
 #include "base/bytes.h"
 #include "base/crc32.h"
 #include "registers/midi_motor.h"
+#include "sequencer/state.h"
 #include "sequencer/table.h"
 #include "store/settings.h"
 

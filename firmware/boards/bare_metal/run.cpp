@@ -20,9 +20,11 @@ constexpr base::Milliseconds kBeyondLongestWait{500};  ///< of the scan, until t
 /// Two slots of the store looked at and one loaded take 0.7 s at most, on a serial memory's line.
 constexpr base::Milliseconds kStartUp{3'000};
 
+/// With the run before not ended by us it was the watchdog's second bite, or a reset that looks the same.
 gateway::StartCause start_cause() {
-    const bool bitten = take_watchdog_reset();
-    if (bitten && !crash_record().valid()) crash_record().set(EndCause::watchdog, 0);
+    const bool bitten = take_watchdog_reset() || run_marker().is_set();
+    if (bitten && !crash_record().valid()) crash_record().set(EndCause::without_a_word, 0);
+    run_marker().set();
     return crash_record().valid() ? gateway::StartCause::watchdog : gateway::StartCause::power_up;
 }
 
@@ -50,6 +52,7 @@ void rest() {
     constexpr base::Milliseconds kLongestAnswer{20};
     const base::Instant asked = parts.clock.now();
     while (!parts.user_line.transmitter_idle() && parts.clock.now() - asked < kLongestAnswer) rest();
+    run_marker().clear();
     core::reset();
 }
 
@@ -92,6 +95,7 @@ void run(const Parts& parts) {
     gateway::OwnRegisters& registers = registers_memory.make(sequence, tables, settings);
     gateway::UserPort& user_port = user_port_memory.make(parts.user_line, parts.motor_mactalk_line, sequence,
                                                          drive, registers, settings);
+    registers.show_faults_of({&parts.user_line, &parts.motor_line, parts.motor_mactalk_line});
     static_cast<void>(tables.mount());
     tables.start(parts.clock.now());
 

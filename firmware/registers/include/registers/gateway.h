@@ -54,6 +54,7 @@ enum Number : std::uint8_t {
     ACCESS_FAILS = 37,
     MESSAGES = 38,
     REFUSED = 39,
+    LINE_FAULTS = 40,
 
     COMMAND = 48,
     FORCE_IN = 49,
@@ -77,6 +78,7 @@ enum Number : std::uint8_t {
     SETTINGS = 200,
 };
 
+inline constexpr std::uint8_t kLines = 3;          ///< LINE_FAULTS and the two after it
 inline constexpr std::uint8_t kFiredWords = 32;    ///< FIRED and the 31 after it: a bit a term
 inline constexpr std::uint8_t kLogEntries = 16;    ///< two registers each, from LOG on
 inline constexpr std::uint8_t kMostSettings = 31;  ///< SETTINGS + number of the setting
