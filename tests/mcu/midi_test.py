@@ -44,7 +44,7 @@ class Midi(image_case.ImageCase):
     def counts(self):
         told = self.macreg("get", "P_IST")
         self.assertEqual(told.returncode, 0, told.stdout + told.stderr)
-        return json.loads(told.stdout.splitlines()[-1])["raw"]
+        return json.loads(told.stdout.splitlines()[-1])["registers"][0]["raw"]
 
     def test_a_table_is_uploaded_and_leads_the_drive_after_a_reset(self):
         self.ctl("upload", self.compile(EXAMPLE))
