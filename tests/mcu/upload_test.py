@@ -127,6 +127,7 @@ class NoMemory(unittest.TestCase):
 class Noise(Case):
     def test_whole_messages_are_understood_after_noise_and_breaks(self):
         print(f"seed {SEED}")
+        self.assertEqual(self.line.read(gw.LINE_FAULTS), 0)
         breaks = 0
         for _ in range(50):
             noise = self.rng.randbytes(self.rng.randrange(1, 400))
@@ -136,7 +137,7 @@ class Noise(Case):
                 breaks += 1
             self.assertEqual(self.line.read(gw.STATUS) & 7, 0)
         self.assertEqual(self.line.log(), [])
-        self.assertEqual(self.line.read(gw.LINE_FAULTS) & 0xFFFF, breaks)
+        self.assertGreaterEqual(self.line.read(gw.LINE_FAULTS) & 0xFFFF, breaks)
 
     def test_a_flood_costs_messages_and_nothing_else(self):
         """The line has no speed here: so much at once overruns the receiver's buffer."""
