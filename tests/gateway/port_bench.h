@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/bytes.h"
+#include "base/crc32.h"
 #include "bench_board.h"
 #include "gateway/user_port.h"
 #include "sim/sim_storage.h"
