@@ -21,6 +21,7 @@ FILTER = "arm-none-eabi-c++filt"
 
 # Whom virtual calls can reach that stand in a file, by the classes' qualified names; of them what has the called name.
 HAL = "nplc::hal_mcu::"
+MOTORS = ["nplc::motor::JvlMotor", "nplc::motor::MidiMotor"]
 # The classes that a board has of chip, clock and storage, and the lines that its code calls without knowing which.
 BOARDS = {
     "lm3s6965evb": (HAL + "stellaris::", HAL + "cortex_m::SysTickClock", HAL + "I2cMemory", [HAL + "BufferedSerial"]),
@@ -34,16 +35,20 @@ def virtual_calls(board):
         (r"hal/mcu/(include/hal_mcu/)?buffered_serial", [chip + "Uart"]),
         (r"hal/mcu/(include/hal_mcu/)?i2c_memory", [chip + "I2cMaster", clock]),
         (r"firmware/boards/bare_metal/", [clock, *lines]),
+        (r"firmware/motor/midi_motor", ["nplc::motor::MidiV24Link"]),
         (r"firmware/motor/", lines),
         (r"firmware/store/table_check", ["nplc::gateway::TableKeeper"]),
         (r"firmware/store/", [storage, "nplc::store::TableCheck", "nplc::store::SettingsStore::Check"]),
-        (r"firmware/gateway/(include/gateway/)?user_port", [*lines, "nplc::motor::JvlMotor"]),
-        (r"firmware/gateway/", ["nplc::motor::JvlMotor", chip + "InputPins", chip + "OutputPins", chip + "Watchdog"]),
+        (r"firmware/gateway/(include/gateway/)?user_port", [*lines, *MOTORS]),
+        (r"firmware/gateway/own_registers", [*lines, *MOTORS]),
+        (r"firmware/gateway/", [*MOTORS, chip + "InputPins", chip + "OutputPins", chip + "Watchdog"]),
     ]
 
 
 # Of an interface that no board implements: gateway/observer.h.
 OBSERVER = ("ordered", "scanned")
+# Answers a constant: the linker folds it into another function that does.
+CONSTANT = ("take_boot",)
 # Pointers to functions that are called elsewhere than in virtual functions.
 POINTERS = {"nplc_reset": r"_GLOBAL__sub_I_"}
 ROOTS = r"nplc_reset$"
@@ -51,7 +56,7 @@ INTERRUPTS = r"nplc::board::on_\w+"
 FRAME = 36  # bytes that an exception takes, with alignment
 # The compiler's and the C library's, whose objects carry no such files; measured in their disassembly, rounded up.
 FOREIGN = {"memcpy": 16, "memmove": 20, "memset": 16, "memcmp": 16, "__aeabi_lmul": 32, "__aeabi_llsr": 8,
-           "__aeabi_uidiv": 16, "__aeabi_uidivmod": 16, "__aeabi_idivmod": 16}
+           "__aeabi_uidiv": 16, "__aeabi_idiv": 16, "__aeabi_uidivmod": 16, "__aeabi_idivmod": 16}
 
 
 def called_at(site):
@@ -75,7 +80,7 @@ class Graph:
                         sys.exit(f"{label}: its need is not bounded")
             for source, target, site in EDGE.findall(text):
                 self.calls[source].add((target, site if target == INDIRECT else ""))
-        titles = sorted(self.name)
+        titles = sorted({*self.name, *(target for calls in self.calls.values() for target, _ in calls)})
         names = subprocess.run([FILTER], input="\n".join(t.rsplit(":", 1)[-1] for t in titles), check=True, capture_output=True, text=True).stdout
         self.plain = {t: n.replace("(anonymous namespace)::", "").split("(")[0] for t, n in zip(titles, names.split("\n"))}
 
@@ -86,6 +91,11 @@ class Graph:
     def qualified(self, title):
         """nplc::module::Class::function"""
         return self.plain[title]
+
+    def folded_into(self, title):
+        """A template's instance of which only another one is left, because their instructions are the same."""
+        without = lambda t: re.sub(r"<[^<>]*>", "", self.plain[t])
+        return [t for t in self.need if "<" in self.plain[t] and without(t) == without(title)]
 
     def reached(self, title):
         """What a function calls."""
@@ -103,7 +113,7 @@ class Graph:
         if classes is None:
             sys.exit(f"{self.qualified(title)}: {site}: a virtual call of unknown targets; virtual_calls in {sys.argv[0]} needs a row")
         names = called_at(site)
-        if names[0] in OBSERVER:
+        if names[0] in OBSERVER + CONSTANT:
             return []
         for name in names:
             if found := [target for owner in classes for target in self.matching(rf"{owner}::{name}(\.|$)")]:
@@ -116,6 +126,8 @@ class Graph:
             title = title.replace("C1E", "C2E")  # a complete object's constructor is its base's
         if title in above:
             sys.exit("recursion: " + " -> ".join(self.qualified(t) for t in (*above, title)))
+        if title not in self.need and (same := self.folded_into(title)):
+            return max(self.deepest(t, above) for t in same)
         if title not in self.need:
             if title not in FOREIGN:
                 sys.exit(f"{title}: called by {self.qualified(above[-1])}, and its need is unknown")

@@ -31,11 +31,11 @@ bool Gateway::motor_takes(sequencer::TermView term) const {
 
 Gateway::Gateway(const Ports& ports, const Settings& settings, StartCause cause)
     : ports_(ports),
+      in_service_(cause == StartCause::service),
+      starting_up_(cause == StartCause::power_up),
       settings_(settings),
       debouncer_(settings.debounce),
-      quick_debouncer_(quick(settings.debounce)),
-      in_service_(cause == StartCause::service),
-      starting_up_(cause == StartCause::power_up) {
+      quick_debouncer_(quick(settings.debounce)) {
     show_outputs();
     if (cause == StartCause::watchdog) {
         safe_reason_ = SafeReason::watchdog;

@@ -47,7 +47,6 @@ struct Board final : ports::DigitalInputs,
     bool transmitter_idle() override { return true; }
 
     void poll(base::Instant) override {}
-    base::Instant next_poll(base::Instant) const override { return base::kNever; }
     bool settled() const override { return true; }
     bool has_room() const override { return true; }
     bool can_execute(const motor::Order&) const override { return true; }

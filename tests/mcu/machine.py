@@ -197,8 +197,8 @@ def until(what, wanted, seconds=LONG):
         time.sleep(0.01)
 
 
-def start_motor(macsim, folder):
-    """The process and the path of its FastMAC line."""
+def start_motor(simulator_program, folder, *options):
+    """The process and the path of its line, whose option is the last one."""
     path = os.path.join(folder, "motor")
-    process, _ = simulator.start(macsim, "--fastmac", "unix:" + path)
+    process, _ = simulator.start(simulator_program, *options, "unix:" + path)
     return process, path

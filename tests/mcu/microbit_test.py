@@ -59,7 +59,7 @@ class Image(unittest.TestCase):
     @contextlib.contextmanager
     def running_motor(self):
         self.board.cut_power()
-        motor, line = machine.start_motor(MACSIM, self.folder.name)
+        motor, line = machine.start_motor(MACSIM, self.folder.name, "--fastmac")
         try:
             self.board.start(motor=line)
             self.shows(IDLING)

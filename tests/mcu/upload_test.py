@@ -134,13 +134,17 @@ class NoMemory(unittest.TestCase):
 class Noise(Case):
     def test_whole_messages_are_understood_after_noise_and_breaks(self):
         print(f"seed {SEED}")
+        self.assertEqual(self.line.read(gw.LINE_FAULTS), 0)
+        breaks = 0
         for _ in range(50):
             noise = self.rng.randbytes(self.rng.randrange(1, 400))
             self.line.socket.sendall(noise)
             if self.rng.random() < 0.5:
                 self.board.monitor.do("chardev-send-break", id="user")
+                breaks += 1
             self.assertEqual(self.line.read(gw.STATUS) & 7, 0)
         self.assertEqual(self.line.log(), [])
+        self.assertGreaterEqual(self.line.read(gw.LINE_FAULTS) & 0xFFFF, breaks)
 
     def test_a_flood_costs_messages_and_nothing_else(self):
         """The line has no speed here: so much at once overruns the receiver's buffer."""
@@ -149,6 +153,7 @@ class Noise(Case):
             self.line.socket.sendall(flood)
             self.assertEqual(self.line.read(gw.STATUS) & 7, 0)
         self.assertEqual(self.line.read(gw.UPLOAD_RECEIVED), 0, "no upload was begun")
+        self.assertGreater(self.line.read(gw.LINE_FAULTS) >> 16, 0, "characters lost")
         self.assertEqual(self.line.log(), [])
 
 

@@ -2,6 +2,7 @@
 
 #include "hal_mcu/cortex_m/core.h"
 #include "hal_mcu/cortex_m/end_cause.h"
+#include "hal_mcu/run_marker.h"
 #include "hal_mcu/safe_levels.h"
 
 namespace nplc::bare_metal {
@@ -12,6 +13,7 @@ namespace {
 
 [[gnu::section(".noinit")]] hal_mcu::CrashRecord kept_crash;
 [[gnu::section(".noinit")]] hal_mcu::SafeLevels kept_levels;
+[[gnu::section(".noinit")]] hal_mcu::RunMarker kept_run;
 
 }  // namespace
 
@@ -25,6 +27,10 @@ void keep_safe_outputs(std::uint8_t levels) {
 
 hal_mcu::CrashRecord& crash_record() {
     return kept_crash;
+}
+
+hal_mcu::RunMarker& run_marker() {
+    return kept_run;
 }
 
 void give_up(EndCause cause, std::uint32_t code_address) {

@@ -59,12 +59,18 @@ std::string Axis::open(const std::string& state_directory, base::Instant now) {
     folder_ = state_directory + "/" + config_.name;
     if (std::string error = open_store(folder_); !error.empty()) return error;
     settings_.emplace(*storage_, kSettingsArea);
-    settings_->start(config_.settings);
+    start_settings();
     if (std::string error = open_lines(); !error.empty()) return error;
     if (std::string error = open_ports(); !error.empty()) return error;
     const gateway::StartCause cause = cause_of_start();
     tell_stored_settings();
     return start(cause, now);
+}
+
+/// Which motor there is stands in the configuration, whatever was stored.
+void Axis::start_settings() {
+    settings_->start(config_.settings);
+    for (const store::Setting setting : kOfTheMotor) settings_->impose(setting, config_.settings.get(setting));
 }
 
 std::string Axis::open_store(const std::string& folder) {
@@ -222,11 +228,10 @@ void Axis::run_sequence(base::Instant now) {
     look_at_inputs();
     hurries ? motor_.shut_line() : motor_.open_line(now);
     gateway_->poll(now);
-    motor::Motor& driver = motor_.driver();
-    if (driver.next_poll(now) <= now) driver.poll(now);
+    if (motor_.next_poll(now) <= now) motor_.driver().poll(now);
     if (!hurries) return;
     motor_.open_line(now);
-    driver.poll(now);
+    motor_.driver().poll(now);
 }
 
 void Axis::serve(base::Instant now) {
@@ -250,7 +255,7 @@ void Axis::serve(base::Instant now) {
 void Axis::reset(base::Instant now) {
     tell(LogLevel::notice, "reset over the user's port");
     settings_.emplace(*storage_, kSettingsArea);
-    settings_->start(config_.settings);
+    start_settings();
     std::string error = open_ports();
     if (error.empty()) error = start(gateway::StartCause::power_up, now);
     if (error.empty()) return watch_ports();
@@ -287,7 +292,7 @@ void Axis::watch_pins(base::Instant now) {
 base::Instant Axis::next(base::Instant now) {
     if (failed_) return base::kNever;
     if (own_registers_->reset_asked()) return now + kBetweenLooks;
-    base::Instant next = std::min(gateway_->next_poll(now), user_port_->next_poll(now));
+    base::Instant next = std::min(gateway_->next_poll(now, motor_.next_poll(now)), user_port_->next_poll(now));
     next = std::min({next, rests_until_, motor_.next_look()});
     if (mactalk_port_) next = std::min(next, mactalk_port_->next_look());
     if (user_uart_) next = std::min(next, user_uart_->next_look());

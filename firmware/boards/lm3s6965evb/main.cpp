@@ -50,6 +50,7 @@ constinit const bare_metal::Parts kParts{.clock = board_clock,
 
 /// Outputs first.
 void begin_chip() {
+    if (chip::was_reset_from_outside()) bare_metal::run_marker().clear();
     const bool has_clock = chip::begin_clock();
     outputs.begin(bare_metal::safe_outputs());
     if (!has_clock) bare_metal::give_up(hal_mcu::EndCause::no_clock, 0);

@@ -45,6 +45,7 @@ bool serves_person = false;
 
 /// Outputs first.
 void begin_chip() {
+    if (chip::was_reset_from_outside()) bare_metal::run_marker().clear();
     outputs.begin(bare_metal::safe_outputs());
     chip::begin_crystal();
     inputs.begin();

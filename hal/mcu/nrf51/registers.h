@@ -12,6 +12,7 @@ struct PowerClockRegisters {
     Register reserved_004[255];
     Register RESETREAS;  // 400h
 };
+inline constexpr std::uint32_t kResetByPin = 1U << 0;
 inline constexpr std::uint32_t kResetByWatchdog = 1U << 1;
 
 struct UartRegisters {

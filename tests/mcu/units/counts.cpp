@@ -93,7 +93,6 @@ struct BlankStorage final : ports::Storage {
 /// A drive that is always ready, so that the scan alone is counted.
 struct ReadyMotor final : motor::Motor {
     void poll(base::Instant) override {}
-    base::Instant next_poll(base::Instant) const override { return base::kNever; }
     bool settled() const override { return true; }
     bool can_execute(const motor::Order&) const override { return true; }
     bool has_room() const override { return true; }

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "hal_mcu/crash_record.h"
+#include "hal_mcu/run_marker.h"
 
 /// How the firmware gives up, and what its next start knows of it.
 namespace nplc::bare_metal {
@@ -11,6 +12,8 @@ namespace nplc::bare_metal {
 std::uint8_t safe_outputs();
 void keep_safe_outputs(std::uint8_t levels);
 hal_mcu::CrashRecord& crash_record();
+/// Set while the firmware runs. A board clears it before run() if its chip says that somebody pressed reset.
+hal_mcu::RunMarker& run_marker();
 
 /// Output pins to their safe values, the reason kept for the next start, reset.
 [[noreturn]] void give_up(hal_mcu::EndCause cause, std::uint32_t code_address);

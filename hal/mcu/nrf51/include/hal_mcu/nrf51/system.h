@@ -8,5 +8,7 @@ void begin_crystal();
 
 /// The chip says that its watchdog has reset it since this was last asked.
 bool take_watchdog_reset();
+/// By power, or by the reset pin, since take_watchdog_reset() was last called.
+bool was_reset_from_outside();
 
 }  // namespace nplc::hal_mcu::nrf51
