@@ -16,7 +16,7 @@ NM = "arm-none-eabi-nm"
 LIBRARIES = "compiler's libraries"
 # Namespaces and the folders that they follow; protocol's have one below for each codec.
 FOLDERS = {
-    "board": "firmware/boards", "gateway": "firmware/gateway", "motor": "firmware/motor", "protocol": "firmware/protocol",
+    "bare_metal": "firmware/boards/bare_metal", "board": "firmware/boards", "gateway": "firmware/gateway", "motor": "firmware/motor", "protocol": "firmware/protocol",
     "registers": "firmware/registers", "store": "firmware/store", "hal_mcu": "hal/mcu", "sequencer": "sequencer",
     "base": "hal/base",
 }

@@ -2,7 +2,7 @@
 """The most stack that a board's image can need, in bytes, and the calls that need it.
 
 Reads what the compiler wrote with -fcallgraph-info=su: each function's own need and its calls. A call of a virtual
-function can reach the functions of that name that VIRTUAL says of its file. On the deepest path of the loop the deepest
+function can reach the functions of that name that virtual_calls() says of its file. On the deepest path of the loop the deepest
 interrupt can come (all have the same priority), and on that a fault, which takes the stack anew.
 """
 
@@ -20,27 +20,43 @@ INDIRECT = "__indirect_call"
 FILTER = "arm-none-eabi-c++filt"
 
 # Whom virtual calls can reach that stand in a file, by the classes' qualified names; of them what has the called name.
-CHIP = "nplc::hal_mcu::stellaris::"
-SERIAL = "nplc::hal_mcu::BufferedSerial"
-STORAGE = "nplc::hal_mcu::I2cMemory"
-VIRTUAL = [
-    (r"hal/mcu/(include/hal_mcu/)?buffered_serial", [CHIP + "Uart"]),
-    (r"hal/mcu/(include/hal_mcu/)?i2c_memory", [CHIP + "I2cMaster", "nplc::hal_mcu::cortex_m::SysTickClock"]),
-    (r"firmware/motor/", [SERIAL]),
-    (r"firmware/store/table_check", ["nplc::gateway::TableKeeper"]),
-    (r"firmware/store/", [STORAGE, "nplc::store::TableCheck", "nplc::store::SettingsStore::Check"]),
-    (r"firmware/gateway/(include/gateway/)?user_port", [SERIAL, "nplc::motor::JvlMotor"]),
-    (r"firmware/gateway/", ["nplc::motor::JvlMotor", CHIP + "InputPins", CHIP + "OutputPins", CHIP + "Watchdog"]),
-]
+HAL = "nplc::hal_mcu::"
+MOTORS = ["nplc::motor::JvlMotor", "nplc::motor::MidiMotor"]
+# The classes that a board has of chip, clock and storage, and the lines that its code calls without knowing which.
+BOARDS = {
+    "lm3s6965evb": (HAL + "stellaris::", HAL + "cortex_m::SysTickClock", HAL + "I2cMemory", [HAL + "BufferedSerial"]),
+    "microbit": (HAL + "nrf51::", HAL + "nrf51::TimerClock", HAL + "nrf51::Flash", [HAL + "BufferedSerial", HAL + "NoLine"]),
+}
+
+
+def virtual_calls(board):
+    chip, clock, storage, lines = BOARDS[board]
+    return [
+        (r"hal/mcu/(include/hal_mcu/)?buffered_serial", [chip + "Uart"]),
+        (r"hal/mcu/(include/hal_mcu/)?i2c_memory", [chip + "I2cMaster", clock]),
+        (r"firmware/boards/bare_metal/", [clock, *lines]),
+        (r"firmware/motor/midi_motor", ["nplc::motor::MidiV24Link"]),
+        (r"firmware/motor/", lines),
+        (r"firmware/store/table_check", ["nplc::gateway::TableKeeper"]),
+        (r"firmware/store/", [storage, "nplc::store::TableCheck", "nplc::store::SettingsStore::Check"]),
+        (r"firmware/gateway/(include/gateway/)?user_port", [*lines, *MOTORS]),
+        (r"firmware/gateway/own_registers", [*lines, *MOTORS]),
+        (r"firmware/gateway/", [*MOTORS, chip + "InputPins", chip + "OutputPins", chip + "Watchdog"]),
+    ]
+
+
 # Of an interface that no board implements: gateway/observer.h.
 OBSERVER = ("ordered", "scanned")
+# Answers a constant: the linker folds it into another function that does.
+CONSTANT = ("take_boot",)
 # Pointers to functions that are called elsewhere than in virtual functions.
 POINTERS = {"nplc_reset": r"_GLOBAL__sub_I_"}
 ROOTS = r"nplc_reset$"
 INTERRUPTS = r"nplc::board::on_\w+"
 FRAME = 36  # bytes that an exception takes, with alignment
 # The compiler's and the C library's, whose objects carry no such files; measured in their disassembly, rounded up.
-FOREIGN = {"memcpy": 16, "memmove": 20, "memset": 16, "memcmp": 16, "__aeabi_lmul": 0}
+FOREIGN = {"memcpy": 16, "memmove": 20, "memset": 16, "memcmp": 16, "__aeabi_lmul": 32, "__aeabi_llsr": 8,
+           "__aeabi_uidiv": 16, "__aeabi_idiv": 16, "__aeabi_uidivmod": 16, "__aeabi_idivmod": 16}
 
 
 def called_at(site):
@@ -51,7 +67,8 @@ def called_at(site):
 
 
 class Graph:
-    def __init__(self, files):
+    def __init__(self, files, board):
+        self.virtual_calls = virtual_calls(board)
         self.need, self.name, self.calls, self.known = {}, {}, defaultdict(set), {}
         for file in files:
             text = file.read_text(encoding="utf-8")
@@ -63,7 +80,7 @@ class Graph:
                         sys.exit(f"{label}: its need is not bounded")
             for source, target, site in EDGE.findall(text):
                 self.calls[source].add((target, site if target == INDIRECT else ""))
-        titles = sorted(self.name)
+        titles = sorted({*self.name, *(target for calls in self.calls.values() for target, _ in calls)})
         names = subprocess.run([FILTER], input="\n".join(t.rsplit(":", 1)[-1] for t in titles), check=True, capture_output=True, text=True).stdout
         self.plain = {t: n.replace("(anonymous namespace)::", "").split("(")[0] for t, n in zip(titles, names.split("\n"))}
 
@@ -74,6 +91,11 @@ class Graph:
     def qualified(self, title):
         """nplc::module::Class::function"""
         return self.plain[title]
+
+    def folded_into(self, title):
+        """A template's instance of which only another one is left, because their instructions are the same."""
+        without = lambda t: re.sub(r"<[^<>]*>", "", self.plain[t])
+        return [t for t in self.need if "<" in self.plain[t] and without(t) == without(title)]
 
     def reached(self, title):
         """What a function calls."""
@@ -87,11 +109,11 @@ class Graph:
 
     def virtual(self, title, site):
         """What the virtual call at a place in the sources can reach."""
-        classes = next((classes for of, classes in VIRTUAL if re.search(r"(^|/)" + of, site)), None)
+        classes = next((classes for of, classes in self.virtual_calls if re.search(r"(^|/)" + of, site)), None)
         if classes is None:
-            sys.exit(f"{self.qualified(title)}: {site}: a virtual call of unknown targets; VIRTUAL in {sys.argv[0]} needs a row")
+            sys.exit(f"{self.qualified(title)}: {site}: a virtual call of unknown targets; virtual_calls in {sys.argv[0]} needs a row")
         names = called_at(site)
-        if names[0] in OBSERVER:
+        if names[0] in OBSERVER + CONSTANT:
             return []
         for name in names:
             if found := [target for owner in classes for target in self.matching(rf"{owner}::{name}(\.|$)")]:
@@ -104,6 +126,8 @@ class Graph:
             title = title.replace("C1E", "C2E")  # a complete object's constructor is its base's
         if title in above:
             sys.exit("recursion: " + " -> ".join(self.qualified(t) for t in (*above, title)))
+        if title not in self.need and (same := self.folded_into(title)):
+            return max(self.deepest(t, above) for t in same)
         if title not in self.need:
             if title not in FOREIGN:
                 sys.exit(f"{title}: called by {self.qualified(above[-1])}, and its need is unknown")
@@ -117,9 +141,10 @@ class Graph:
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("graphs", nargs="+", type=pathlib.Path, help="the compiler's .ci files")
+    parser.add_argument("--board", required=True, choices=BOARDS)
     parser.add_argument("--at-most", type=int, required=True, help="bytes that there are")
     arguments = parser.parse_args()
-    graph = Graph(arguments.graphs)
+    graph = Graph(arguments.graphs, arguments.board)
     loop, path = max(graph.deepest(title) for title in graph.matching(ROOTS))
     interrupt, on_top = max(graph.deepest(title) for title in graph.matching(INTERRUPTS))
     total = loop + FRAME + interrupt + FRAME

@@ -31,10 +31,11 @@ bool Gateway::motor_takes(sequencer::TermView term) const {
 
 Gateway::Gateway(const Ports& ports, const Settings& settings, StartCause cause)
     : ports_(ports),
+      in_service_(cause == StartCause::service),
+      starting_up_(cause == StartCause::power_up),
       settings_(settings),
       debouncer_(settings.debounce),
-      quick_debouncer_(quick(settings.debounce)),
-      starting_up_(cause == StartCause::power_up) {
+      quick_debouncer_(quick(settings.debounce)) {
     show_outputs();
     if (cause == StartCause::watchdog) {
         safe_reason_ = SafeReason::watchdog;
@@ -94,6 +95,7 @@ void Gateway::poll_inputs(base::Instant now) {
     expire_forces(now);
     serve_sequence(now);
     show_outputs();
+    ports_.motor.begin_orders(now);
 }
 
 void Gateway::serve_sequence(base::Instant now) {
@@ -103,7 +105,7 @@ void Gateway::serve_sequence(base::Instant now) {
             break;
         case RunState::waiting_for_motor:
             ports_.watchdog.feed();
-            if (!enabled()) return enter_safe_state(SafeReason::enable_lost, now);
+            if (!input_enables()) return enter_safe_state(SafeReason::enable_lost, now);
             start_when_ready(now);
             break;
         case RunState::running:
@@ -111,7 +113,7 @@ void Gateway::serve_sequence(base::Instant now) {
         case RunState::held:
             if (run_state_ != RunState::running) ports_.watchdog.feed();
             watch_link(now);
-            if (!enabled()) return enter_safe_state(SafeReason::enable_lost, now);
+            if (!input_enables()) return enter_safe_state(SafeReason::enable_lost, now);
             if (run_state_ == RunState::running) return work(now);
             if (run_state_ == RunState::holding) return hold_when_settled(now);
             break;
@@ -119,6 +121,10 @@ void Gateway::serve_sequence(base::Instant now) {
 }
 
 bool Gateway::enabled() const {
+    return !in_service_ && input_enables();
+}
+
+bool Gateway::input_enables() const {
     if (!settings_.enable_input) return true;
     const unsigned input = *settings_.enable_input;
     const unsigned both = unsigned{debouncer_.levels()} & quick_debouncer_.levels();
@@ -181,7 +187,6 @@ void Gateway::enter_safe_state(SafeReason reason, base::Instant now) {
     hold_after_ = HoldAfter::never;
     set_safe_reason(reason, now);
     ports_.motor.stop();
-    ports_.motor.begin_orders(now);
 }
 
 void Gateway::work(base::Instant now) {

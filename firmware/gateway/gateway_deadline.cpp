@@ -12,9 +12,9 @@ constexpr base::Microseconds kTick{1};
 
 }  // namespace
 
-base::Instant Gateway::next_poll(base::Instant now) {
-    base::Instant next = std::min({ports_.motor.next_poll(now), debouncer_.next_update(),
-                                   quick_debouncer_.next_update(), forces_.end(settings_.force_time)});
+base::Instant Gateway::next_poll(base::Instant now, base::Instant motors) {
+    base::Instant next = std::min({motors, debouncer_.next_update(), quick_debouncer_.next_update(),
+                                   forces_.end(settings_.force_time)});
     if (settings_.status_output) {
         const std::uint32_t beat = next_status_light(run_state_, safe_reason_, uptime_.milliseconds());
         if (beat != 0) next = std::min(next, uptime_.in(beat));

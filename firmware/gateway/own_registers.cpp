@@ -49,6 +49,7 @@ std::uint32_t OwnRegisters::value(std::uint8_t reg, base::Instant now) const {
     if (reg >= LOG && reg < LOG + 2 * kLogEntries) return log_value(reg);
     if (reg >= STATUS && reg <= RESULT) return live_value(reg, now);
     if (reg >= LINK_LOSSES && reg <= REFUSED) return count_value(reg);
+    if (reg >= LINE_FAULTS && reg < LINE_FAULTS + kLines) return line_faults(lines_[reg - LINE_FAULTS]);
     if (reg >= SETTINGS) {
         const auto id = static_cast<std::uint8_t>(reg - SETTINGS);
         return store::is_setting(id) ? settings_.get(store::Setting{id}) : 0;
@@ -172,6 +173,13 @@ std::uint32_t OwnRegisters::count_value(std::uint8_t reg) const {
         default:
             return port_.refused;
     }
+}
+
+std::uint32_t OwnRegisters::line_faults(const ports::SerialPort* line) const {
+    constexpr std::uint32_t kMost = 0xFFFF;
+    if (line == nullptr) return 0;
+    const ports::LineFaults faults = line->faults();
+    return std::min(faults.framing, kMost) | (std::min(faults.overruns, kMost) << 16);
 }
 
 std::uint32_t OwnRegisters::status() const {

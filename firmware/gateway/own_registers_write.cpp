@@ -55,8 +55,7 @@ Progress OwnRegisters::poll_write(std::span<const std::uint8_t> bytes, base::Ins
     if (!outcome_) outcome_ = continue_write(bytes, now);
     if (!outcome_) return std::nullopt;
     waiting_ = Waiting::nothing;
-    result_ = static_cast<std::uint32_t>(outcome_->result) | (static_cast<std::uint32_t>(written_) << 8) |
-              (static_cast<std::uint32_t>(outcome_->detail) << 16);
+    result_ = outcome_.word() | (std::uint32_t{written_} << 8);
     return outcome_;
 }
 
@@ -70,7 +69,7 @@ Progress OwnRegisters::continue_write(std::span<const std::uint8_t> bytes, base:
             return tables_.poll_activation(now);
         case Waiting::reset: {
             const Progress active = tables_.poll_activation(now);
-            reset_asked_ = active && active->result == Result::done;
+            reset_asked_ = active.is_done();
             return active;
         }
         case Waiting::keeping:
@@ -93,7 +92,7 @@ Progress OwnRegisters::write(std::uint8_t reg, std::span<const std::uint8_t> byt
 
 Progress OwnRegisters::write_value(std::uint8_t reg, std::uint32_t value, base::Instant now) {
     const auto is_known = [](std::uint8_t number) {
-        return (number >= IDENTITY && number <= STORE_FLAGS) || (number >= STATUS && number <= REFUSED) ||
+        return (number >= IDENTITY && number <= STORE_FLAGS) || (number >= STATUS && number < LINE_FAULTS + kLines) ||
                (number >= UPLOAD_STATE && number <= TABLE_DATA) ||
                (number >= FIRED_SCAN && number <= FIRED_KEY) ||
                (number >= FIRED && number < LOG + 2 * kLogEntries);

@@ -82,6 +82,11 @@ void SettingsKeeper::start(const store::SettingValues& initial) {
     stored_ = at_start_ = values_;
 }
 
+void SettingsKeeper::impose(Setting setting, std::uint32_t value) {
+    for (store::SettingValues* values : {&values_, &at_start_, &stored_})
+        static_cast<void>(values->set(setting, value));
+}
+
 void SettingsKeeper::attach(Gateway& gateway) {
     gateway_ = &gateway;
     if (damaged_) gateway.note(Event::store_damaged);

@@ -91,7 +91,7 @@ Progress TableKeeper::poll_activation(base::Instant now) {
     if (gateway_.run_state() != RunState::stopped) return Outcome{Result::not_stopped};
     if (!slots_.has_current()) return Outcome{Result::nothing_stored};
     const Progress still = standstill_.poll(now);
-    if (!still || still->result != Result::done) return still;
+    if (!still.is_done()) return still;
     return load_stored(now);
 }
 

@@ -140,7 +140,7 @@ void UserPort::go_on(base::Instant now) {
         case Serving::own_write: {
             const Progress outcome = own_.poll_write(std::span(data_).first(data_size_), now);
             if (!outcome) return;
-            return outcome->result == Result::done ? answer(mactalk::encode_accept()) : refuse();
+            return outcome.is_done() ? answer(mactalk::encode_accept()) : refuse();
         }
         case Serving::motor:
             return serve_motor(now);

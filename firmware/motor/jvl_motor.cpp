@@ -19,7 +19,11 @@ constexpr base::Microseconds kLateReply{40'000};
 }  // namespace
 
 JvlMotor::JvlMotor(ports::SerialPort& port, const Settings& settings)
-    : link_(port, settings.link), settings_(settings) {}
+    : safe_communication_(settings.safe_communication),
+      register_code_(settings.register_code),
+      registers_are_32_bit_(settings.registers_are_32_bit),
+      sample_period_(settings.sample_period),
+      link_(port, settings.link) {}
 
 void JvlMotor::poll(base::Instant now) {
     switch (link_.poll(now)) {
@@ -103,7 +107,7 @@ void JvlMotor::on_accepted(base::Instant now) {
     }
     if (phase_ == Phase::up && !was_up_) {
         was_up_ = true;
-        safe_now_ = settings_.safe_communication;
+        safe_now_ = safe_communication_;
         link_.clear_framing_error();
     }
 }
@@ -151,7 +155,7 @@ void JvlMotor::start_up(base::Instant now) {
 }
 
 std::uint8_t JvlMotor::safety_command() const {
-    return command_byte(settings_.safe_communication ? Number::safe_communication
+    return command_byte(safe_communication_ ? Number::safe_communication
                                                      : Number::rapid_communication);
 }
 
@@ -194,7 +198,7 @@ void JvlMotor::work(base::Instant now) {
     if (stop_wanted_) {
         return write_register(
             Sending::stop,
-            {.is_register_write = true, .reg = kModeReg, .longword = settings_.registers_are_32_bit}, now);
+            {.is_register_write = true, .reg = kModeReg, .longword = registers_are_32_bit_}, now);
     }
     if (accesses) return send_access(now);
     if (orders_.empty()) return;
@@ -259,8 +263,8 @@ void JvlMotor::command(Sending what, std::uint8_t command, base::Instant now) {
 }
 
 std::uint8_t JvlMotor::on_the_wire(std::uint8_t command) const {
-    const bool is_own_code = settings_.register_code == protocol::fastmac::RegisterCode::format_list;
-    return is_own_code ? command : recoded(command, settings_.register_code);
+    const bool is_own_code = register_code_ == protocol::fastmac::RegisterCode::format_list;
+    return is_own_code ? command : recoded(command, register_code_);
 }
 
 void JvlMotor::send(const Order& order) {
@@ -269,7 +273,7 @@ void JvlMotor::send(const Order& order) {
 
 /// R: a MAC800 knows longwords only.
 bool JvlMotor::can_execute(const Order& order) const {
-    return !order.is_register_write || order.longword || !settings_.registers_are_32_bit;
+    return !order.is_register_write || order.longword || !registers_are_32_bit_;
 }
 
 void JvlMotor::stop() {
@@ -308,7 +312,7 @@ Link JvlMotor::link() const {
 
 void JvlMotor::hold_in_position(base::Instant now) {
     holds_ = true;
-    hold_until_ = now + 2 * settings_.sample_period;
+    hold_until_ = now + 2 * sample_period_;
     hold_counts_ = false;
 }
 

@@ -156,9 +156,9 @@ void put_data(Encoded<N>& out, std::span<const std::uint8_t> data) {
 
 EncodedRequest encode(const Request& request) {
     const bool is_write = request.kind == Kind::write;
-    if (has_register(request.kind) && request.reg == 0) return {};
-    if (is_write && !is_write_length(request.length)) return {};
     EncodedRequest out;
+    if (has_register(request.kind) && request.reg == 0) return out;
+    if (is_write && !is_write_length(request.length)) return out;
     begin(out, request.kind, request.address);
     if (has_register(request.kind)) put_protected(out, request.reg);
     if (is_write) {
@@ -172,8 +172,8 @@ EncodedRequest encode(const Request& request) {
 
 EncodedLongWrite encode_long_write(std::uint8_t address, std::uint8_t reg,
                                    std::span<const std::uint8_t> data) {
-    if (reg == 0 || !is_long_length(data.size())) return {};
     EncodedLongWrite out;
+    if (reg == 0 || !is_long_length(data.size())) return out;
     begin(out, Kind::write, address);
     put_protected(out, reg);
     put_data(out, data);
@@ -187,8 +187,8 @@ EncodedReply encode_accept() {
 }
 
 EncodedReply encode_registers(std::uint8_t reg, std::span<const std::uint8_t> data) {
-    if (reg == 0 || data.size() > kMaxReplyData) return {};
     EncodedReply out;
+    if (reg == 0 || data.size() > kMaxReplyData) return out;
     begin(out, Kind::write, kMasterAddress);
     put_protected(out, reg);
     put_data(out, data);
@@ -196,8 +196,8 @@ EncodedReply encode_registers(std::uint8_t reg, std::span<const std::uint8_t> da
 }
 
 EncodedReply encode_samples(std::span<const std::uint8_t> data) {
-    if (data.size() > kMaxReplyData) return {};
     EncodedReply out;
+    if (data.size() > kMaxReplyData) return out;
     begin(out, Kind::write, kMasterAddress);
     put_data(out, data);
     return out;

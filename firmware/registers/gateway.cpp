@@ -51,6 +51,10 @@ constexpr std::array kMap{
     Row{ACCESS_FAILS, 1, "ACCESS_FAILS", kRead, "those that failed"},
     Row{MESSAGES, 1, "MESSAGES", kRead, "whole messages on the user's port, for whatever address"},
     Row{REFUSED, 1, "REFUSED", kRead, "those refused"},
+    Row{LINE_FAULTS, kLines, "LINE_FAULTS", kRead,
+        "of the user's port, the motor's and the motor's own MacTalk port, one register each: characters with a "
+        "framing error, breaks too, in bits 15..0; characters lost by overruns in bits 31..16; each stays at "
+        "65535"},
     Row{COMMAND, 1, "COMMAND", Access::write, "see Commands below; reads the last one"},
     Row{FORCE_IN, 1, "FORCE_IN", kBoth, "bits 5..0 levels, bits 13..8 which inputs are forced; 0: none"},
     Row{FORCE_OUT, 1, "FORCE_OUT", kBoth, "bits 3..0 levels, bits 11..8 which outputs are forced; 0: none"},
@@ -137,7 +141,7 @@ std::string_view describe(Result result) {
         case Result::not_running:
             return "the sequence does not run";
         case Result::not_enabled:
-            return "the enable input is off; switch it on, then run";
+            return "the enable input is off (switch it on, then run), or the board was started for service";
         case Result::table_no_end:
             return "the table has no end term";
         case Result::table_ragged:

@@ -47,22 +47,39 @@ constexpr std::array<SettingInfo, kSettings> kAll{{
      "least time between two reads of the motor for the user while the sequence runs"},
     {Setting::motor_silence, "motor_silence", "ms", 20, 20, 200, false, true,
      "silence of the motor that is a lost link; from the next reset on if kept"},
+    {Setting::motor_kind, "motor_kind", "", 0, 0, 3, false, true,
+     "0: a JVL motor, 1: MIDI's MAC23, 2: MAC34-1, 3: MAC34-2; from the next reset on if kept"},
+    {Setting::midi_address, "midi_address", "", 0, 0, 127, false, true,
+     "a MIDI drive's address on its V24 line; from the next reset on if kept"},
 }};
 
-/// What the firmware needs of a setting: a board that shows no names has none in its memory.
+/// What the firmware needs of a setting, in eight bytes: a board that shows no names has none in its memory.
 struct Rule {
-    std::uint32_t initial;
-    std::uint32_t lowest;
     std::uint32_t highest;
-    bool has_none;
+    std::uint16_t lowest;
+    std::uint16_t initial;
+    /// Those that can be none are so initially.
+    constexpr bool has_none() const { return initial > highest; }
 };
 
 constexpr std::array<Rule, kSettings> kRules = [] {
     std::array<Rule, kSettings> rules{};
     for (std::size_t i = 0; i < rules.size(); ++i)
-        rules[i] = {kAll[i].initial, kAll[i].lowest, kAll[i].highest, kAll[i].has_none};
+        rules[i] = {kAll[i].highest, static_cast<std::uint16_t>(kAll[i].lowest),
+                    static_cast<std::uint16_t>(kAll[i].initial)};
     return rules;
 }();
+
+constexpr bool rules_say_all() {
+    for (std::size_t i = 0; i < kRules.size(); ++i) {
+        const Rule& rule = kRules[i];
+        if (rule.lowest != kAll[i].lowest || rule.initial != kAll[i].initial ||
+            rule.has_none() != kAll[i].has_none)
+            return false;
+    }
+    return true;
+}
+static_assert(rules_say_all());
 
 constexpr bool is_rate(Setting setting) {
     return setting == Setting::user_baud || setting == Setting::motor_baud;
@@ -92,7 +109,7 @@ bool is_allowed(Setting setting, std::uint32_t value) {
     const auto id = static_cast<std::uint8_t>(setting);
     if (!is_setting(id) || (is_rate(setting) && !is_standard_rate(value))) return false;
     const Rule& rule = kRules[id - 1U];
-    return (value >= rule.lowest && value <= rule.highest) || (rule.has_none && value == kNone);
+    return (value >= rule.lowest && value <= rule.highest) || (rule.has_none() && value == kNone);
 }
 
 SettingValues::SettingValues() {

@@ -20,34 +20,32 @@ base::Status Slots::mount() {
     fallback_ = false;
     if (!layout_.is_possible()) return base::Error::bad_geometry;
     for (unsigned i = 0; i < slots_.size(); ++i) {
-        const auto examined = examine(i);
-        if (!examined) return examined.error();
-        slots_[i] = examined.value();
+        if (const auto status = examine(slots_[i], i); !status) return status;
     }
     choose();
     return {};
 }
 
-base::Result<Slots::Slot> Slots::examine(unsigned slot) {
-    std::array<std::uint8_t, kHeaderBytes> header{};
-    std::array<std::uint8_t, kMarkBytes> mark{};
-    if (const auto status = storage_.read(layout_.header(slot), header); !status) return status.error();
-    if (const auto status = storage_.read(layout_.mark(slot), mark); !status) return status.error();
-    Slot result;
+base::Status Slots::examine(Slot& slot, unsigned number) {
+    std::array<std::uint8_t, kHeaderBytes> header;
+    std::array<std::uint8_t, kMarkBytes> mark;
+    slot = {};
+    if (const auto status = storage_.read(layout_.header(number), header); !status) return status;
+    if (const auto status = storage_.read(layout_.mark(number), mark); !status) return status;
     const auto decoded = decode(header);
-    result.header_known =
+    slot.header_known =
         decoded.ok() && decoded.value().kind == kind_ && decoded.value().length <= layout_.capacity();
-    if (result.header_known) result.header = decoded.value();
+    if (slot.header_known) slot.header = decoded.value();
     if (is_blank(mark)) {
-        result.state = is_blank(header) ? SlotState::empty : SlotState::unfinished;
-        return result;
+        slot.state = is_blank(header) ? SlotState::empty : SlotState::unfinished;
+        return {};
     }
-    result.state = SlotState::damaged;
-    if (!result.header_known || mark != mark_for(header)) return result;
-    const auto crc = crc_of(slot, result.header.length);
+    slot.state = SlotState::damaged;
+    if (!slot.header_known || mark != mark_for(header)) return {};
+    const auto crc = crc_of(number, slot.header.length);
     if (!crc) return crc.error();
-    if (crc.value() == result.header.crc) result.state = SlotState::good;
-    return result;
+    if (crc.value() == slot.header.crc) slot.state = SlotState::good;
+    return {};
 }
 
 base::Result<std::uint32_t> Slots::crc_of(unsigned slot, std::uint32_t length) {

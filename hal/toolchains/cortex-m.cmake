@@ -1,7 +1,8 @@
-# Bare-metal Arm Cortex-M with Debian's gcc-arm-none-eabi. NPLC_CPU chooses the core.
+# Bare-metal Arm Cortex-M with Debian's gcc-arm-none-eabi. NPLC_CPU chooses the core, NPLC_BOARD the firmware's board.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR arm)
 set(NPLC_CPU "cortex-m3" CACHE STRING "Value for -mcpu")
+set(NPLC_BOARD "lm3s6965evb" CACHE STRING "Folder of firmware/boards")
 
 set(CMAKE_C_COMPILER arm-none-eabi-gcc)
 set(CMAKE_CXX_COMPILER arm-none-eabi-g++)

@@ -44,6 +44,12 @@ MODULES = [
         core=True,
     ),
     Module("firmware/boards", None, ANY, os=True, clock=True),
+    Module(
+        "firmware/boards/bare_metal",
+        "bare_metal",
+        ("base", "ports", "hal_mcu", "motor", "store", "gateway"),
+        core=True,
+    ),
     Module("firmware/boards/shared_line", "shared_line", ("base", "protocol", "hal_linux")),
     Module("host-sim", "sim", ("base", "ports", "protocol", "registers"), os=True),
     Module("host-sim/board", "sim", ANY, os=True, clock=True),

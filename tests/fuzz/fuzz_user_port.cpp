@@ -48,7 +48,6 @@ struct Board final : ports::DigitalInputs,
 
     void poll(base::Instant) override {}
     void begin_orders(base::Instant) override {}
-    base::Instant next_poll(base::Instant) const override { return base::kNever; }
     bool settled() const override { return true; }
     bool has_room() const override { return true; }
     bool can_execute(const motor::Order&) const override { return true; }

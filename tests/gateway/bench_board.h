@@ -24,7 +24,6 @@ struct BenchBoard final : ports::DigitalInputs,
 
     void poll(base::Instant) override { ++polls; }
     void begin_orders(base::Instant) override { begun = sent.size() + static_cast<std::size_t>(stops); }
-    base::Instant next_poll(base::Instant) const override { return base::kNever; }
     bool settled() const override { return is_settled; }
     bool has_room() const override { return room != 0; }
     bool can_execute(const motor::Order& order) const override { return order.reg != missing_register; }

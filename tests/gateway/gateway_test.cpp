@@ -49,11 +49,16 @@ TEST_F(GatewayTest, AnOrderLeavesAtOnceAndAnEdgeNeedsNoPollOfTheMotor) {
     EXPECT_EQ(board.polls, polls);
 }
 
-TEST_F(GatewayTest, AStopLeavesAtOnce) {
-    Gateway gateway = make();
+TEST_F(GatewayTest, AStopLeavesInThePollThatFindsItsReason) {
+    const Bytes table{kIn0ToNop};
+    board.in = 2;
+    Gateway gateway = make({.enable_input = 1, .debounce = 0us});
+    ASSERT_TRUE(gateway.load(table, board.now).ok);
     board.run(gateway, 10ms);
+    ASSERT_EQ(gateway.run_state(), RunState::running);
     const int stops = board.stops;
-    gateway.stop(board.now);
+    board.in = 0;
+    gateway.poll_inputs(board.now);
     EXPECT_EQ(board.stops, stops + 1);
     EXPECT_EQ(board.begun, static_cast<std::size_t>(board.stops));
 }

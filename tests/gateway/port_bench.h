@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/bytes.h"
+#include "base/crc32.h"
 #include "bench_board.h"
 #include "gateway/user_port.h"
 #include "sim/sim_storage.h"
@@ -29,7 +31,9 @@ struct InstantLine final : ports::SerialPort {
         return count;
     }
     bool transmitter_idle() override { return true; }
+    ports::LineFaults faults() const override { return counted; }
 
+    ports::LineFaults counted;
     std::vector<std::uint8_t> sent;
     std::deque<ports::ReceivedByte> received;
 };

@@ -73,6 +73,23 @@ TEST_F(Safety, AfterAWatchdogResetTheSequenceDoesNotStartByItself) {
     EXPECT_EQ(board.out, 0x0F);
 }
 
+TEST_F(Safety, InServiceNothingRunsAndOutputsStaySafe) {
+    Gateway gateway(board.ports(), settings, StartCause::service);
+    EXPECT_TRUE(gateway.load(kOutputsOn, board.now).ok);
+    for (const auto start : {&Gateway::run, &Gateway::scan_once, &Gateway::step_once}) {
+        const base::Status started = (gateway.*start)();
+        ASSERT_FALSE(started.ok());
+        EXPECT_EQ(started.error(), base::Error::not_enabled);
+        board.run(gateway, 100ms);
+    }
+    EXPECT_FALSE(gateway.enabled());
+    EXPECT_EQ(gateway.scans(), 0U);
+    EXPECT_TRUE(board.sent.empty());
+    expect_safe(gateway, SafeReason::not_started);
+    ASSERT_TRUE(gateway.change(settings).ok());
+    EXPECT_FALSE(gateway.enabled()) << "no setting ends it";
+}
+
 TEST_F(Safety, ALostLinkIsTheSafeStateUntilTheSequenceHasAcknowledged) {
     Gateway gateway(board.ports(), settings, StartCause::power_up);
     ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);

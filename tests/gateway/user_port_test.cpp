@@ -212,6 +212,30 @@ TEST_F(UserPortTest, TheLogTellsReasonsWithTheirTimes) {
     EXPECT_EQ(read(reg::LOG_COUNT), 0U);
 }
 
+TEST_F(UserPortTest, FaultsOfLinesAreShownIfTheBoardNamesThem) {
+    EXPECT_EQ(read(reg::LINE_FAULTS), 0U);
+    own->show_faults_of({&line, nullptr, &motor_line});
+    line.counted = {.framing = 3, .overruns = 2};
+    motor_line.counted = {.framing = 65'535, .overruns = 65'536};
+    EXPECT_EQ(read(reg::LINE_FAULTS), 0x0002'0003U);
+    EXPECT_EQ(read(reg::LINE_FAULTS + 1), 0U);
+    EXPECT_EQ(read(reg::LINE_FAULTS + 2), 0xFFFF'FFFFU) << "it stays there";
+    EXPECT_FALSE(write(reg::LINE_FAULTS + 2, 0));
+    EXPECT_EQ(result(), result_of(Result::read_only, reg::LINE_FAULTS + 2));
+    EXPECT_FALSE(write(reg::LINE_FAULTS + 3, 0));
+    EXPECT_EQ(result(), result_of(Result::no_register, reg::LINE_FAULTS + 3));
+}
+
+TEST(SettingsKeeper, WhatTheBoardDecidesGoesBeforeWhatWasStored) {
+    sim::SimStorage flash(PortBench::kFlash);
+    SettingsKeeper keeper(flash, PortBench::kSettings);
+    keeper.start({});
+    keeper.impose(store::Setting::motor_kind, 2);
+    EXPECT_EQ(keeper.get(store::Setting::motor_kind), 2U);
+    EXPECT_EQ(keeper.at_start(store::Setting::motor_kind), 2U);
+    EXPECT_FALSE(keeper.differ());
+}
+
 TEST(SettingsKeeper, TheMotorsSilenceIsTheDrivers) {
     store::SettingValues values;
     EXPECT_EQ(driver_settings_of(values).link.silence, base::Milliseconds(20));

@@ -2,6 +2,8 @@
 
 #include "hal_mcu/crash_record.h"
 #include "hal_mcu/interrupt_ring.h"
+#include "hal_mcu/run_marker.h"
+#include "hal_mcu/safe_levels.h"
 #include "hal_mcu/tick_time.h"
 
 namespace nplc::hal_mcu {
@@ -49,6 +51,24 @@ TEST(CrashRecord, IsKnownFromWhatMemoryHoldsAfterPowerUp) {
     kept.clear();
     EXPECT_FALSE(kept.valid());
     EXPECT_EQ(kept.cause(), EndCause::none);
+}
+
+TEST(SafeLevels, AreAllOffUntilTheyWereKept) {
+    SafeLevels levels{};
+    EXPECT_EQ(levels.get(), 0U);
+    levels.set(0b1010);
+    const SafeLevels kept = levels;
+    EXPECT_EQ(kept.get(), 0b1010U);
+}
+
+TEST(RunMarker, IsClearInWhatMemoryHoldsAfterPowerUp) {
+    RunMarker marker{};
+    EXPECT_FALSE(marker.is_set());
+    marker.set();
+    RunMarker kept = marker;
+    EXPECT_TRUE(kept.is_set());
+    kept.clear();
+    EXPECT_FALSE(kept.is_set());
 }
 
 }  // namespace

@@ -4,61 +4,30 @@
 usage: image_test.py IMAGE.bin MACSIM NANOCTL MACREG SEQC
 """
 
-import json
 import os
 import re
-import subprocess
 import sys
-import tempfile
 import unittest
 
+import image_case
 import machine
 import user_line as gw
 from machine import until
 
-IMAGE = MACSIM = NANOCTL = MACREG = SEQC = ""
 SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "machine.seq")
 IDLING, LAMP, ARRIVED = 1, 4, 8
 SAFE = 0b1010  # no step of machine.seq has these outputs
 GAVE_UP, GAVE_UP_AT = 28, 29  # events (REGISTERS.md)
-WATCHDOG, REASON_WATCHDOG = 1, 6
+WATCHDOG, WITHOUT_A_WORD, REASON_WATCHDOG = 1, 9, 6
 # Instructions: b ., cpsie i, cpsid i, udf
 BRANCH_TO_ITSELF, INTERRUPTS, NO_INTERRUPTS, UNDEFINED = 0xE7FE, 0xB662, 0xB672, 0xDEFE
 
 
-class Case(unittest.TestCase):
+class Case(image_case.ImageCase):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.table = os.path.join(self.folder.name, "machine.bin")
-        subprocess.run([SEQC, "build", SOURCE, "-o", self.table], check=True, capture_output=True)
-        self.motor, line = machine.start_motor(MACSIM, self.folder.name)
-        self.addCleanup(self.end_motor)
-        self.board = machine.Machine(IMAGE, self.folder.name, motor=line).start()
-        self.addCleanup(lambda: self.board.process and self.board.cut_power())
-
-    def end_motor(self):
-        self.motor.kill()
-        self.motor.communicate()
-
-    def tool(self, program, *arguments):
-        return subprocess.run([program, "--port", self.board.endpoint(), "--patience", "2000", "--json", *arguments],
-                              capture_output=True, text=True, timeout=4 * machine.LONG, check=False)
-
-    def ctl(self, *arguments):
-        result = self.tool(NANOCTL, *arguments)
-        self.assertEqual(result.returncode, 0, f"{arguments}: {result.stdout} {result.stderr}")
-        return json.loads(result.stdout.splitlines()[-1])
-
-    def shows(self, outputs):
-        until(self.board.outputs, lambda seen: seen == outputs)
-
-    def on_the_line(self, what):
-        line = gw.UserLine(self.board.path("user"))
-        try:
-            return what(line)
-        finally:
-            line.close()
+        self.take_folder()
+        self.table = self.compile(SOURCE)
+        self.start_board("--model", "MAC140", "--fastmac")
 
     def upload_and_run(self):
         self.ctl("settings", "set", f"safe_outputs={SAFE}", "--keep")
@@ -91,21 +60,21 @@ class Image(Case):
         for _ in range(2):
             self.board.drive_input(0, 1)
             self.shows(ARRIVED)
-            told = self.tool(MACREG, "--model", "MAC140", "--address", "254", "get", "P_IST")
+            told = self.macreg("get", "P_IST")
             self.assertEqual(told.returncode, 0, told.stdout + told.stderr)
             self.board.drive_input(0, 0)
             self.shows(IDLING)
         self.assertGreaterEqual(self.ctl("status")["orders"], 6)
 
     def stack_bound(self):
-        with open(re.sub(r"\.bin$", ".stack", IMAGE), encoding="utf-8") as file:
+        with open(re.sub(r"\.bin$", ".stack", image_case.IMAGE), encoding="utf-8") as file:
             return int(file.read().split()[0])
 
     def test_the_stack_stays_within_what_was_computed(self):
         self.upload_and_run()
         self.board.drive_input(0, 1)
         self.shows(ARRIVED)
-        self.tool(MACREG, "--model", "MAC140", "--address", "254", "get", "P_IST", "V_IST")
+        self.macreg("get", "P_IST", "V_IST")
         used = self.board.stack_used()
         print(f"{used} bytes of stack used, {self.stack_bound()} computed")
         self.assertGreater(used, 400, "the painted stack was not looked at")
@@ -137,6 +106,13 @@ class Image(Case):
         self.hang_with(NO_INTERRUPTS, BRANCH_TO_ITSELF)
         after = until(lambda: self.on_the_line(lambda line: line.read(gw.UPTIME)), lambda up: up < before)
         self.assertLess(after, before)
+        self.assertIn((GAVE_UP, WITHOUT_A_WORD), self.on_the_line(self.bitten))
+        self.ctl("run")
+        self.shows(IDLING)
+        self.ctl("stop")
+        self.ctl("reset")
+        self.shows(IDLING)
+        self.assertEqual(self.on_the_line(lambda line: [event for event, _ in line.log() if event == GAVE_UP]), [])
 
     def test_a_fault_of_the_core_ends_in_the_safe_state_with_its_reason(self):
         self.upload_and_run()
@@ -149,5 +125,5 @@ class Image(Case):
 
 
 if __name__ == "__main__":
-    IMAGE, MACSIM, NANOCTL, MACREG, SEQC = sys.argv[1:6]
+    image_case.take(*sys.argv[1:6])
     unittest.main(argv=sys.argv[:1])

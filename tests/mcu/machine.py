@@ -18,6 +18,7 @@ INPUT_LINES = (0, 1, 4, 5, 6, 7)  # of port D
 OUTPUT_LINES = (0, 1, 5, 6)  # of port B
 OUTPUTS = 0x4000_5000 + (sum(1 << line for line in OUTPUT_LINES) << 2)
 STACK, STACK_BYTES, PAINT = 0x2000_0000, 2048, 0xA5A5_A5A5
+HEX = tuple("0123456789abcdef")
 SCRATCH = 0x2000_F000  # RAM that the firmware does not use
 
 
@@ -25,29 +26,36 @@ class Monitor:
     """qemu's own: QMP."""
 
     def __init__(self, path):
-        self.lines = Lines(path)
+        self.lines, self.events = Lines(path), []
         self.lines.file.readline()
         self.do("qmp_capabilities")
 
     def do(self, command, **arguments):
         answer = json.loads(self.lines.ask(json.dumps({"execute": command, "arguments": arguments})))
         while "event" in answer:
+            self.events.append(answer["event"])
             answer = json.loads(self.lines.file.readline())
         if "return" not in answer:
             raise AssertionError(f"{command}: {answer}")
         return answer["return"]
 
+    def wait_for(self, event):
+        """The next one since the last wait."""
+        while event not in self.events:
+            self.events.append(json.loads(self.lines.file.readline())["event"])
+        self.events.clear()
+
 
 class Debugger:
     """gdb's remote protocol, as little as is needed. The core stands from here to resume()."""
 
-    def __init__(self, path):
-        self.socket, self.received = connected(path), b""
+    def __init__(self, path, scratch):
+        self.socket, self.received, self.scratch = connected(path), b"", scratch
         self.command("?", "T")
         self.command("qXfer:features:read:target.xml:0,400", ("l", "m"))  # without it no single register is written
 
     def command(self, text, begins):
-        """Until an answer that begins so; what the stopped core says by itself is passed over."""
+        """The answer that begins so; what the stopped core says by itself is passed over."""
         self.socket.sendall(f"${text}#{sum(text.encode()) % 256:02x}".encode())
         while True:
             packet = re.search(rb"\$([^#]*)#..", self.received)
@@ -60,14 +68,18 @@ class Debugger:
             self.socket.sendall(b"+")
             answer = packet.group(1).decode()
             if answer.startswith(begins):
-                return
+                return answer
             assert answer.startswith("T"), f"{text}: {answer!r}"
+
+    def in_interrupt(self):
+        """Bits 8 to 0 of XPSR."""
+        return int.from_bytes(bytes.fromhex(self.command("p19", HEX)), "little") & 0x1FF != 0
 
     def run_code(self, *halfwords):
         """The core goes on with these instructions instead of its own."""
         code = struct.pack(f"<{len(halfwords)}H", *halfwords)
-        self.command(f"M{SCRATCH:x},{len(code):x}:{code.hex()}", "OK")
-        self.jump(SCRATCH)
+        self.command(f"M{self.scratch:x},{len(code):x}:{code.hex()}", "OK")
+        self.jump(self.scratch)
 
     def jump(self, address):
         self.command(f"Pf={struct.pack('<I', address).hex()}", "OK")
@@ -77,47 +89,28 @@ class Debugger:
         self.socket.close()
 
 
-class Machine:
-    """In real time, as the virtual motor is; with fast=True time is counted in instructions, and an idle core's is skipped."""
+class Emulated:
+    """A board in qemu's process; its files in a folder."""
 
-    def __init__(self, image, folder, motor=None, fast=False, has_memory=True):
-        self.image, self.folder, self.motor, self.fast, self.has_memory = image, folder, motor, fast, has_memory
-        self.memory = os.path.join(folder, "memory")
-        if not os.path.exists(self.memory):
-            with open(self.memory, "wb") as file:
-                file.write(b"\xFF" * MEMORY)
-        self.process = None
+    def __init__(self, image, folder):
+        self.image, self.folder, self.process = image, folder, None
 
     def path(self, name):
         return os.path.join(self.folder, name)
 
-    def start(self):
-        for name in ("user", "qmp", "pins", "gdb"):
-            if os.path.exists(self.path(name)):
-                os.unlink(self.path(name))
-        motor = f"socket,id=motor,path={self.motor}" if self.motor else "null,id=motor"
-        memory = ["-drive", f"if=none,id=memory,format=raw,file={self.memory}",
-                  "-device", f"at24c-eeprom,bus=i2c,address=0x50,rom-size={MEMORY},drive=memory"]
-        server = "server=on,wait=off"
+    def server(self, name):
+        """A socket to connect to, as qemu's options have it."""
+        if os.path.exists(self.path(name)):
+            os.unlink(self.path(name))
+        return f"path={self.path(name)},server=on,wait=off"
+
+    def spawn(self, *options):
+        unix = {name: "unix:" + self.server(name).removeprefix("path=") for name in ("qmp", "pins", "gdb")}
         self.process = subprocess.Popen(
-            ["qemu-system-arm", "-M", "lm3s6965evb", "-nodefaults", "-display", "none", "-nic", "none",
-             *(["-icount", "shift=5,sleep=off"] if self.fast else []), "-kernel", self.image,
-             *(memory if self.has_memory else []),
-             "-chardev", f"socket,id=user,path={self.path('user')},{server}", "-serial", "chardev:user",
-             "-chardev", motor, "-serial", "chardev:motor",
-             "-qmp", f"unix:{self.path('qmp')},{server}", "-gdb", f"unix:{self.path('gdb')},{server}",
-             "-qtest", f"unix:{self.path('pins')},{server}", "-qtest-log", "none"],
+            ["qemu-system-arm", "-nodefaults", "-display", "none", "-nic", "none", "-kernel", self.image, *options,
+             "-qmp", unix["qmp"], "-gdb", unix["gdb"], "-qtest", unix["pins"], "-qtest-log", "none"],
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.monitor = Monitor(self.path("qmp"))
-        # The emulated clock can stand for ever if the pins' client comes before the firmware runs.
-        line = user_line.UserLine(self.path("user"))
-        line.read(user_line.FW_VERSION)
-        line.close()
-        self.pins = Lines(self.path("pins"))
-        devices = self.monitor.do("qom-list", path="/machine/unattached")
-        ports = sorted((int(d["name"][7:-1]), d["name"]) for d in devices if d["type"] == "child<pl061_luminary>")
-        self.port_d = "/machine/unattached/" + ports[3][1]
-        return self
 
     def cut_power(self):
         self.process.kill()
@@ -129,8 +122,56 @@ class Machine:
     def reset(self):
         self.monitor.do("system_reset")
 
+    def debugger(self, scratch):
+        """The core stands outside of interrupts. `scratch`: RAM that the firmware does not use."""
+        while (debugger := Debugger(self.path("gdb"), scratch)).in_interrupt():
+            debugger.resume()
+        return debugger
+
+    def word(self, address):
+        answer = self.pins.ask(f"readl {address:#x}").split()
+        assert answer[0] == "OK", answer
+        return int(answer[1], 16)
+
+    def stack_used(self):
+        """Bytes of painted stack that were ever written."""
+        for offset in range(0, STACK_BYTES, 4):
+            if self.word(STACK + offset) != PAINT:
+                return STACK_BYTES - offset
+        return 0
+
+
+class Machine(Emulated):
+    """In real time, as the virtual motor is; with fast=True time is counted in instructions, and an idle core's is skipped."""
+
+    def __init__(self, image, folder, motor=None, fast=False, has_memory=True):
+        super().__init__(image, folder)
+        self.motor, self.fast, self.has_memory = motor, fast, has_memory
+        self.memory = os.path.join(folder, "memory")
+        if not os.path.exists(self.memory):
+            with open(self.memory, "wb") as file:
+                file.write(b"\xFF" * MEMORY)
+
+    def start(self):
+        motor = f"socket,id=motor,path={self.motor}" if self.motor else "null,id=motor"
+        memory = ["-drive", f"if=none,id=memory,format=raw,file={self.memory}",
+                  "-device", f"at24c-eeprom,bus=i2c,address=0x50,rom-size={MEMORY},drive=memory"]
+        self.spawn("-M", "lm3s6965evb", *(["-icount", "shift=5,sleep=off"] if self.fast else []),
+                   *(memory if self.has_memory else []),
+                   "-chardev", f"socket,id=user,{self.server('user')}", "-serial", "chardev:user",
+                   "-chardev", motor, "-serial", "chardev:motor")
+        # The emulated clock can stand for ever if the pins' client comes before the firmware runs.
+        line = user_line.UserLine(self.path("user"))
+        line.read(user_line.FW_VERSION)
+        line.close()
+        self.pins = Lines(self.path("pins"))
+        devices = self.monitor.do("qom-list", path="/machine/unattached")
+        ports = sorted((int(d["name"][7:-1]), d["name"]) for d in devices if d["type"] == "child<pl061_luminary>")
+        self.port_d = "/machine/unattached/" + ports[3][1]
+        return self
+
     def debugger(self):
-        return Debugger(self.path("gdb"))
+        return super().debugger(SCRATCH)
 
     def endpoint(self):
         return "unix:" + self.path("user")
@@ -139,21 +180,9 @@ class Machine:
         answer = self.pins.ask(f"set_irq_in {self.port_d} unnamed-gpio-in {INPUT_LINES[number]} {level}")
         assert answer.startswith("OK"), answer
 
-    def word(self, address):
-        answer = self.pins.ask(f"readl {address:#x}").split()
-        assert answer[0] == "OK", answer
-        return int(answer[1], 16)
-
     def outputs(self):
         pins = self.word(OUTPUTS)
         return sum((pins >> line & 1) << number for number, line in enumerate(OUTPUT_LINES))
-
-    def stack_used(self):
-        """Bytes of painted stack that were ever written."""
-        for offset in range(0, STACK_BYTES, 4):
-            if self.word(STACK + offset) != PAINT:
-                return STACK_BYTES - offset
-        return 0
 
 
 def until(what, wanted, seconds=LONG):
@@ -168,8 +197,8 @@ def until(what, wanted, seconds=LONG):
         time.sleep(0.01)
 
 
-def start_motor(macsim, folder):
-    """The process and the path of its FastMAC line."""
+def start_motor(simulator_program, folder, *options):
+    """The process and the path of its line, whose option is the last one."""
     path = os.path.join(folder, "motor")
-    process, _ = simulator.start(macsim, "--fastmac", "unix:" + path)
+    process, _ = simulator.start(simulator_program, *options, "unix:" + path)
     return process, path

@@ -17,7 +17,6 @@ from user_line import number
 
 IMAGE = ""
 SEED = 0
-RESETS, POWER_CUTS = 100, 5
 PIECE = 24  # the emulated line has no speed: a whole message must fit the firmware's buffer
 END = bytes.fromhex("3F00000000000000")
 
@@ -42,11 +41,17 @@ class Case(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
-        self.board = machine.Machine(IMAGE, self.folder.name, fast=True).start()
+        self.board = self.make_board(self.folder.name).start()
         self.addCleanup(self.board.cut_power)
-        self.line = gw.UserLine(self.board.path("user"))
+        self.line = self.open_line()
         self.addCleanup(lambda: self.line.close())
         self.rng = random.Random(SEED)
+
+    def make_board(self, folder):
+        return machine.Machine(IMAGE, folder, fast=True)
+
+    def open_line(self):
+        return gw.UserLine(self.board.path("user"))
 
     def send(self, register, data):
         self.assertTrue(self.line.write(register, data), f"register {register}: {self.line.read(gw.RESULT):08X}h")
@@ -74,6 +79,8 @@ class Case(unittest.TestCase):
 
 
 class Uploads(Case):
+    resets, power_cuts = 100, 5
+
     def one_cut(self, old, cut):
         """An upload that is cut; the table that is stored then."""
         new = table(self.rng)
@@ -98,15 +105,15 @@ class Uploads(Case):
         self.line.close()
         self.board.cut_power()
         self.board.start()
-        self.line = gw.UserLine(self.board.path("user"))
+        self.line = self.open_line()
 
     def test_a_reset_in_an_upload_leaves_the_old_or_the_new_table(self):
         self.cuts = {}
         stored = table(self.rng)
         self.upload(stored)
-        for number_of in range(RESETS + POWER_CUTS):
-            stored = self.one_cut(stored, self.reset if number_of < RESETS else self.cut_power)
-        print(f"seed {SEED}: {RESETS} resets and {POWER_CUTS} power cuts; (commit sent, new table stored): {self.cuts}")
+        for number_of in range(self.resets + self.power_cuts):
+            stored = self.one_cut(stored, self.reset if number_of < self.resets else self.cut_power)
+        print(f"seed {SEED}: {self.resets} resets and {self.power_cuts} power cuts; (commit sent, new table stored): {self.cuts}")
         self.upload(table(self.rng))
 
 
@@ -127,13 +134,17 @@ class NoMemory(unittest.TestCase):
 class Noise(Case):
     def test_whole_messages_are_understood_after_noise_and_breaks(self):
         print(f"seed {SEED}")
+        self.assertEqual(self.line.read(gw.LINE_FAULTS), 0)
+        breaks = 0
         for _ in range(50):
             noise = self.rng.randbytes(self.rng.randrange(1, 400))
             self.line.socket.sendall(noise)
             if self.rng.random() < 0.5:
                 self.board.monitor.do("chardev-send-break", id="user")
+                breaks += 1
             self.assertEqual(self.line.read(gw.STATUS) & 7, 0)
         self.assertEqual(self.line.log(), [])
+        self.assertGreaterEqual(self.line.read(gw.LINE_FAULTS) & 0xFFFF, breaks)
 
     def test_a_flood_costs_messages_and_nothing_else(self):
         """The line has no speed here: so much at once overruns the receiver's buffer."""
@@ -142,6 +153,7 @@ class Noise(Case):
             self.line.socket.sendall(flood)
             self.assertEqual(self.line.read(gw.STATUS) & 7, 0)
         self.assertEqual(self.line.read(gw.UPLOAD_RECEIVED), 0, "no upload was begun")
+        self.assertGreater(self.line.read(gw.LINE_FAULTS) >> 16, 0, "characters lost")
         self.assertEqual(self.line.log(), [])
 
 

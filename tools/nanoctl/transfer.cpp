@@ -6,6 +6,10 @@
 
 #include "base/bytes.h"
 #include "base/crc32.h"
+#include "registers/midi_motor.h"
+#include "sequencer/state.h"
+#include "sequencer/table.h"
+#include "store/settings.h"
 
 namespace nplc::nanoctl {
 namespace {
@@ -129,6 +133,20 @@ void upload_whole(GatewayClient& gateway, std::span<const std::uint8_t> table, c
     if (end.state != kStored) upload_failed(gw::Result::no_upload, 0);
 }
 
+/// What a MIDI drive has not; empty where nobody knows.
+std::string_view why_not(GatewayClient& gateway, std::span<const std::uint8_t> table, std::uint16_t term) {
+    constexpr auto kMotorKind =
+        static_cast<std::uint8_t>(gw::SETTINGS + static_cast<int>(store::Setting::motor_kind));
+    const auto loaded = sequencer::Table::load(table);
+    if (!loaded.ok || term >= loaded.table.size()) return {};
+    const auto model = gw::model_of_kind(gateway.read(kMotorKind));
+    if (!model) return {};
+    const auto order = sequencer::order_of(loaded.table.term(term));
+    return registers::midi::text_of(
+        order.is_flex ? registers::midi::lack_of_write(*model, order.reg, order.longword, order.value)
+                      : registers::midi::lack_of_command(order.command));
+}
+
 void give_up(GatewayClient& gateway) {
     try {
         gateway.command(gw::Command::upload_abort);
@@ -148,7 +166,11 @@ void upload(GatewayClient& gateway, std::span<const std::uint8_t> table, const P
     } catch (const Refused& refused) {
         // What is under way now is another client's if this one was given up.
         if (refused.reg() != gw::UPLOAD_STATE && refused.result() != gw::Result::no_upload) give_up(gateway);
-        throw;
+        if (refused.result() != gw::Result::not_for_motor) throw;
+        const std::string_view why = why_not(gateway, table, refused.detail());
+        if (why.empty()) throw;
+        throw Refused(refused.result(), refused.reg(), refused.detail(),
+                      fmt::format("the table was not stored, for its term {}: {}", refused.detail(), why));
     } catch (const Interrupted&) {
         give_up(gateway);
         throw Interrupted("interrupted; the upload was given up, the stored table is as it was");

@@ -63,12 +63,18 @@ std::string Axis::open(const std::string& state_directory, base::Instant now) {
     folder_ = state_directory + "/" + config_.name;
     if (std::string error = open_store(folder_); !error.empty()) return error;
     settings_.emplace(*storage_, kSettingsArea);
-    settings_->start(config_.settings);
+    start_settings();
     if (std::string error = open_lines(); !error.empty()) return error;
     if (std::string error = open_ports(); !error.empty()) return error;
     const gateway::StartCause cause = cause_of_start();
     tell_stored_settings();
     return start(cause, now);
+}
+
+/// Which motor there is stands in the configuration, whatever was stored.
+void Axis::start_settings() {
+    settings_->start(config_.settings);
+    for (const store::Setting setting : kOfTheMotor) settings_->impose(setting, config_.settings.get(setting));
 }
 
 std::string Axis::open_store(const std::string& folder) {
@@ -227,7 +233,7 @@ void Axis::run_sequence(base::Instant now) {
     motor::Motor& driver = motor_.driver();
     if (hurries) return driver.poll(now);
     gateway_->poll(now);
-    if (driver.next_poll(now) <= now) driver.poll(now);
+    if (motor_.next_poll(now) <= now) driver.poll(now);
 }
 
 void Axis::serve(base::Instant now) {
@@ -251,7 +257,7 @@ void Axis::serve(base::Instant now) {
 void Axis::reset(base::Instant now) {
     tell(LogLevel::notice, "reset over the user's port");
     settings_.emplace(*storage_, kSettingsArea);
-    settings_->start(config_.settings);
+    start_settings();
     std::string error = open_ports();
     if (error.empty()) error = start(gateway::StartCause::power_up, now);
     if (error.empty()) return watch_ports();
@@ -288,7 +294,7 @@ void Axis::watch_pins(base::Instant now) {
 base::Instant Axis::next(base::Instant now) {
     if (failed_) return base::kNever;
     if (own_registers_->reset_asked()) return now + kBetweenLooks;
-    base::Instant next = std::min(gateway_->next_poll(now), user_port_->next_poll(now));
+    base::Instant next = std::min(gateway_->next_poll(now, motor_.next_poll(now)), user_port_->next_poll(now));
     next = std::min({next, rests_until_, tell_silence_at_, motor_.next_look()});
     if (mactalk_port_) next = std::min(next, mactalk_port_->next_look());
     if (user_uart_) next = std::min(next, user_uart_->next_look());

@@ -59,6 +59,7 @@ class Axis {
 
   private:
     std::string open_store(const std::string& folder);
+    void start_settings();
     std::string open_lines();
     std::string open_ports();
     std::string load_table(base::Instant now);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 
+#include "registers/gateway.h"
 #include "section.h"
 
 namespace nplc::boards {
@@ -153,7 +154,10 @@ class Reader {
 
     void read_settings(Section& axis_section, AxisConfig& axis) {
         Section section(axis_section.table("settings"), axis_section.path() + ".settings", findings_);
+        set(axis, Setting::motor_kind, registers::gateway::motor_kind_of(axis.motor.midi));
+        set(axis, Setting::midi_address, axis.motor.midi_address);
         for (const store::SettingInfo& info : store::all_settings()) {
+            if (std::find(kOfTheMotor.begin(), kOfTheMotor.end(), info.id) != kOfTheMotor.end()) continue;
             const std::string key(info.name);
             if (axis.motor.midi && is_for_jvl_only(info.id) && section.any(key) != nullptr) {
                 section.complain(key, "is for a JVL motor, and this one is a MIDI drive; leave it out");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -34,5 +35,8 @@ MotorConfig read_motor(Section& axis, int axis_line, Findings& findings);
 
 /// Has a meaning with JVL motors only.
 bool is_for_jvl_only(store::Setting setting);
+
+/// Settings that here are keys of table `motor`.
+inline constexpr std::array kOfTheMotor{store::Setting::motor_kind, store::Setting::midi_address};
 
 }  // namespace nplc::boards

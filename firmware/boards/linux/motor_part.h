@@ -28,6 +28,10 @@ class MotorPart {
     bool has_driver() const { return driver_ != nullptr; }
     motor::Motor& driver() { return *driver_; }
     const motor::Motor& driver() const { return *driver_; }
+    /// The driver's.
+    base::Instant next_poll(base::Instant now) const {
+        return midi_ ? midi_->next_poll(now) : jvl_->next_poll(now);
+    }
 
     void watch(hal_linux::EventLoop& loop, std::uint32_t mark);
     void ignore(hal_linux::EventLoop& loop);

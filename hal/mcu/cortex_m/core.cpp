@@ -8,6 +8,10 @@ void enable_interrupt(unsigned number) {
     interrupt_enable()[number / 32] = 1U << (number % 32);
 }
 
+void pend_interrupt(unsigned number) {
+    interrupt_pending()[number / 32] = 1U << (number % 32);
+}
+
 void forbid_interrupts() {
     asm volatile("cpsid i" ::: "memory");
 }

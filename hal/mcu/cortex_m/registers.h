@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-/// What every Cortex-M3 has, as the ARMv7-M architecture names it; only what is used.
+/// What every Cortex-M has, as Arm's architecture names it; only what is used.
 namespace nplc::hal_mcu::cortex_m {
 
 using Register = volatile std::uint32_t;
@@ -32,6 +32,9 @@ inline SysTick& systick() {
 }
 inline Register* interrupt_enable() {
     return reinterpret_cast<Register*>(0xE000'E100U);
+}
+inline Register* interrupt_pending() {
+    return reinterpret_cast<Register*>(0xE000'E200U);
 }
 inline SystemControl& system_control() {
     return *reinterpret_cast<SystemControl*>(0xE000'ED00U);

@@ -74,10 +74,10 @@ void nplc_reset() {
         "mrs r1, ipsr\n\t"
         "ldr r2, =link_stack_top - 256\n\t"
         "cmp r0, r2\n\t"
-        "it lo\n\t"
-        "ldrlo r2, =link_stack_top\n\t"
-        "mov sp, r2\n\t"
-        "b nplc_fault_on_fresh_stack\n\t"
+        "bhs 1f\n\t"
+        "ldr r2, =link_stack_top\n\t"
+        "1: mov sp, r2\n\t"
+        "bl nplc_fault_on_fresh_stack\n\t"
         ".ltorg");
 }
 

@@ -19,6 +19,7 @@ struct SystemControl {
 };
 inline constexpr std::uint32_t kRisPllLocked = 1U << 6;
 inline constexpr std::uint32_t kRescWatchdog = 1U << 3;
+inline constexpr std::uint32_t kRescFromOutside = 7U << 0;  ///< reset pin, power-on, brown-out
 inline constexpr std::uint32_t kRccMainOscillatorOff = 1U << 0;
 inline constexpr std::uint32_t kRccSource = 3U << 4;
 inline constexpr std::uint32_t kRccCrystal = 0xFU << 6;

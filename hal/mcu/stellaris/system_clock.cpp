@@ -34,6 +34,10 @@ bool begin_clock() {
     return true;
 }
 
+bool was_reset_from_outside() {
+    return (system_control().RESC & kRescFromOutside) != 0;
+}
+
 bool take_watchdog_reset() {
     const bool was_watchdog = (system_control().RESC & kRescWatchdog) != 0;
     system_control().RESC = 0;

@@ -39,7 +39,11 @@ struct Settings {
     std::optional<std::uint8_t> status_output{};  ///< output 0..3 that shows status_light()
 };
 
-enum class StartCause : std::uint8_t { power_up, watchdog };
+enum class StartCause : std::uint8_t {
+    power_up,
+    watchdog,
+    service,  ///< for a person: not enabled, whatever the settings say, until the next start
+};
 
 /// The loop of the NanoPLC (001 §6.1.9) on ports: debounced inputs, scan, orders, outputs, timer. `poll`
 /// never blocks; a scan that waits for the motor goes on at a later poll.
@@ -119,8 +123,8 @@ class Gateway {
     /// Or, instead: whenever something arrives (a byte from the motor, a change of an input) and at the
     /// latest then. Asked after each poll() and whatever was done since; `now` or earlier: at once. The
     /// watchdog may want it sooner. What it sleeps so is no scan time, and scans() counts only those that
-    /// were looked at.
-    base::Instant next_poll(base::Instant now);
+    /// were looked at. `motors`: the driver's own next_poll().
+    base::Instant next_poll(base::Instant now, base::Instant motors);
     /// Least time between a scan that did something and the next one; 0, as often as it is polled. For who
     /// goes by next_poll(): a table may do something in every scan.
     void pace(base::Microseconds least) { pace_ = least; }
@@ -157,6 +161,7 @@ class Gateway {
   private:
     enum class HoldAfter : std::uint8_t { never, scan, step, at_once };
 
+    bool input_enables() const;
     base::Status run_until(HoldAfter hold_after);
     void begin_hold(bool breakpoint, base::Instant now);
     void hold_when_settled(base::Instant now);
@@ -184,48 +189,47 @@ class Gateway {
     void count_timer(base::Instant now);
     void write_outputs(std::uint8_t levels);
 
+    // Small members first: a Thumb instruction of two bytes reaches only an object's first 32 to 128.
     Ports ports_;
-    Settings settings_;
-    sequencer::Table table_;
-    sequencer::Engine engine_{table_};
-    Debouncer debouncer_;
-    Debouncer quick_debouncer_;  ///< for the enable input's loss
-    Observer* observer_ = nullptr;
-
     RunState run_state_ = RunState::stopped;
     SafeReason safe_reason_ = SafeReason::not_started;
-    base::Instant safe_since_{};
+    bool in_service_;               ///< StartCause::service
     bool starting_up_;              ///< the first table may start by itself
     bool stop_ordered_ = false;     ///< since run()
     bool stop_after_loss_ = false;  ///< the motor is to be stopped once the link delivers again
-
-    bool in_scan_ = false;
-    std::optional<sequencer::MotorOrder> held_;  ///< order that found no room
-    sequencer::State before_;                    ///< as the scan under way found it
-    base::Instant progress_{};                   ///< last time a scan did not have to wait
-    bool rests_ = false;                         ///< nothing could change at the last look
-    std::optional<base::Instant> may_rest_until_;
-    base::Microseconds pace_{};
-    base::Instant next_scan_{};
-    base::Instant ticked_{};  ///< the timer has been counted up to here
-    sequencer::InputImage image_ = 0;
-    std::optional<sequencer::Key> quiet_key_;  ///< a scan with this key would do nothing
-    std::uint32_t scans_ = 0;
-    std::optional<std::uint8_t> written_;
-
     HoldAfter hold_after_ = HoldAfter::never;
     bool broke_ = false;  ///< held, or about to be, by a breakpoint
     bool stop_ordered_to_hold_ = false;
     bool resumes_ = false;  ///< the next scan is the first after having been held
-    std::uint64_t breakpoints_ = 0;
-    Forces forces_;
-    Uptime uptime_;
+    bool in_scan_ = false;
+    bool rests_ = false;                 ///< nothing could change at the last look
+    sequencer::InputImage image_ = 0;    ///< of the last scan
+    std::optional<std::uint8_t> written_;
+    std::optional<sequencer::Key> quiet_key_;  ///< a scan with this key would do nothing
+    Observer* observer_ = nullptr;
+    std::uint32_t scans_ = 0;
     std::uint32_t safe_since_uptime_ = 0;
-    EventLog log_;
-    motor::Link last_link_ = motor::Link::down;
+    sequencer::State before_;                    ///< as the scan under way found it
+    std::optional<sequencer::MotorOrder> held_;  ///< order that found no room
+    Settings settings_;
+    sequencer::Table table_;
+    sequencer::Engine engine_{table_};
+
+    base::Instant safe_since_{};
+    base::Instant progress_{};  ///< last time a scan did not have to wait
+    std::optional<base::Instant> may_rest_until_;
+    base::Microseconds pace_{};
+    base::Instant next_scan_{};
+    base::Instant ticked_{};  ///< the timer has been counted up to here
     std::optional<base::Instant> scan_ended_;
     base::Microseconds scan_time_{};
     base::Microseconds worst_scan_time_{};
+    std::uint64_t breakpoints_ = 0;
+    Forces forces_;
+    Uptime uptime_;
+    Debouncer debouncer_;
+    Debouncer quick_debouncer_;  ///< for the enable input's loss
+    EventLog log_;
 };
 
 }  // namespace nplc::gateway

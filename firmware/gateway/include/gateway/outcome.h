@@ -11,12 +11,33 @@ namespace nplc::gateway {
 
 using registers::gateway::Result;
 
-/// Of a deed that may take several polls: nothing while it is under way.
-struct Outcome {
-    Result result = Result::done;
-    std::uint16_t detail = 0;  ///< of a table's fault: the term
+/// How a deed ended, as register RESULT has it, in one word.
+class Outcome {
+  public:
+    /// `detail`: of a table's fault the term.
+    constexpr Outcome(Result result = Result::done, std::uint16_t detail = 0)  // NOLINT: implicit by purpose
+        : word_(static_cast<std::uint32_t>(result) | (std::uint32_t{detail} << 16)) {}
+    /// Bits 15..8 are 0.
+    constexpr std::uint32_t word() const { return word_; }
+
+  private:
+    std::uint32_t word_;
 };
-using Progress = std::optional<Outcome>;
+
+/// Of a deed that may take several polls: nothing while it is under way.
+class Progress {
+  public:
+    constexpr Progress() = default;
+    constexpr Progress(std::nullopt_t) {}                           // NOLINT: implicit by purpose
+    constexpr Progress(Outcome outcome) : word_(outcome.word()) {}  // NOLINT: implicit by purpose
+    constexpr explicit operator bool() const { return word_ != kUnderWay; }
+    constexpr std::uint32_t word() const { return word_; }
+    constexpr bool is_done() const { return word_ == Outcome(Result::done).word(); }
+
+  private:
+    static constexpr std::uint32_t kUnderWay = 0xFFFF'FFFF;
+    std::uint32_t word_ = kUnderWay;
+};
 
 constexpr Result result_of(base::Error error) {
     switch (error) {

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
 #include "gateway/settings_keeper.h"
 #include "gateway/table_keeper.h"
+#include "ports/serial.h"
 
 namespace nplc::gateway {
 
@@ -32,6 +34,9 @@ class OwnRegisters {
     void drop_write();
 
     PortCounters& port() { return port_; }
+    /// Whose faults LINE_FAULTS shows, in its order; null: none.
+    using Lines = std::array<const ports::SerialPort*, registers::gateway::kLines>;
+    void show_faults_of(const Lines& lines) { lines_ = lines; }
     /// A user has asked for a reset.
     bool reset_asked() const { return reset_asked_; }
     void poll();
@@ -46,6 +51,7 @@ class OwnRegisters {
     std::uint32_t live_value(std::uint8_t reg, base::Instant now) const;
     std::uint32_t count_value(std::uint8_t reg) const;
     std::uint32_t table_value(std::uint8_t reg) const;
+    std::uint32_t line_faults(const ports::SerialPort* line) const;
     std::uint32_t status() const;
     std::uint32_t fired(std::size_t word) const;
     std::uint32_t log_value(std::uint8_t reg) const;
@@ -65,6 +71,7 @@ class OwnRegisters {
     TableKeeper& tables_;
     SettingsKeeper& settings_;
     PortCounters port_;
+    Lines lines_{};
     bool reset_asked_ = false;
 
     std::uint8_t written_ = 0;

@@ -20,6 +20,8 @@ class SettingsKeeper {
 
     /// For the start-up, before there is a Gateway: the stored settings, or `initial` if there are none.
     void start(const store::SettingValues& initial);
+    /// After it: a setting that the board's wiring decides, whatever is stored. Needs an allowed value.
+    void impose(store::Setting setting, std::uint32_t value);
     /// Whom settings written from now on are for; it has the present ones already.
     void attach(Gateway& gateway);
 
@@ -39,13 +41,13 @@ class SettingsKeeper {
 
   private:
     Gateway* gateway_ = nullptr;
-    store::SettingsStore store_;
+    base::Status begun_;
+    bool damaged_ = false;
     store::SettingValues values_;
     store::SettingValues at_start_;
     store::SettingValues stored_;
     store::SettingValues saving_;
-    base::Status begun_;
-    bool damaged_ = false;
+    store::SettingsStore store_;
 };
 
 }  // namespace nplc::gateway

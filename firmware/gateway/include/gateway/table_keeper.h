@@ -67,13 +67,13 @@ class TableKeeper final : private store::TermCheck {
     Gateway::LoadResult take(std::size_t length, base::Instant now);
 
     Gateway& gateway_;
+    store::Phase last_phase_ = store::Phase::idle;
     std::span<std::uint8_t> memory_;
+    std::span<const std::uint8_t> active_;
+    std::uint32_t active_crc_ = 0;
     Standstill standstill_;
     store::TableCheck check_{this};
     store::Slots slots_;
-    std::span<const std::uint8_t> active_;
-    std::uint32_t active_crc_ = 0;
-    store::Phase last_phase_ = store::Phase::idle;
 };
 
 }  // namespace nplc::gateway

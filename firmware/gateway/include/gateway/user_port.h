@@ -21,9 +21,9 @@ class UserPort {
         : line_(line),
           motor_line_(motor_line),
           gateway_(gateway),
-          bridge_(motor),
           own_(own),
-          settings_(settings) {}
+          settings_(settings),
+          bridge_(motor) {}
 
     /// After Gateway::poll.
     void poll(base::Instant now);
@@ -54,20 +54,20 @@ class UserPort {
     ports::SerialPort& line_;
     ports::SerialPort* motor_line_;
     Gateway& gateway_;
-    MotorBridge bridge_;
     OwnRegisters& own_;
     SettingsKeeper& settings_;
 
-    protocol::mactalk::RequestDecoder decoder_;
     Serving serving_ = Serving::nothing;
     base::Instant begun_{};
-    protocol::mactalk::EncodedReply out_;
     std::size_t sent_ = 0;
-    protocol::mactalk::EncodedRequest passed_;
     std::size_t passed_sent_ = 0;
+    std::size_t data_size_ = 0;
+    MotorBridge bridge_;
+    protocol::mactalk::RequestDecoder decoder_;
+    protocol::mactalk::EncodedReply out_;
+    protocol::mactalk::EncodedRequest passed_;
     /// Of a write that is not done yet; the decoder may be receiving already.
     std::array<std::uint8_t, protocol::mactalk::kMaxLongWrite> data_{};
-    std::size_t data_size_ = 0;
 };
 
 }  // namespace nplc::gateway

@@ -93,12 +93,7 @@ class JvlLink {
     bool repeat_is_harmless() const { return expect_ == Expect::toggle && size_ <= 2; }
 
     ports::SerialPort& port_;
-    Settings settings_;
-    base::Microseconds character_;
-    StatusFilter filter_;
-    protocol::flexmac::ReplyDecoder replies_;
 
-    std::array<std::uint8_t, protocol::flexmac::kMaxBytes> message_{};
     std::uint8_t size_ = 0;
     std::uint8_t sent_ = 0;
     std::uint8_t resends_ = 0;
@@ -123,6 +118,11 @@ class JvlLink {
     base::Microseconds heard_{};  ///< on the line since the poll before: characters read now
     bool overslept_ = false;      ///< nobody listened for longer than `silence`
     std::uint32_t resent_ = 0;
+    Settings settings_;
+    base::Microseconds character_;
+    StatusFilter filter_;
+    protocol::flexmac::ReplyDecoder replies_;
+    std::array<std::uint8_t, protocol::flexmac::kMaxBytes> message_{};
 };
 
 }  // namespace nplc::motor

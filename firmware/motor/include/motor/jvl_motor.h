@@ -26,7 +26,9 @@ class JvlMotor final : public Motor {
 
     void poll(base::Instant now) override;
     void begin_orders(base::Instant now) override;
-    base::Instant next_poll(base::Instant now) const override;
+    /// When to poll at the latest, asked after each poll() and each call that gives it something to do; `now` or
+    /// earlier: at once.
+    base::Instant next_poll(base::Instant now) const;
     bool settled() const override;
     bool has_room() const override { return !orders_.full(); }
     void send(const Order& order) override;
@@ -41,7 +43,7 @@ class JvlMotor final : public Motor {
     Link link() const override;
     std::uint32_t resent() const { return link_.resent(); }
     Counters counters() const override;
-    bool longwords_only() const override { return settings_.registers_are_32_bit; }
+    bool longwords_only() const override { return registers_are_32_bit_; }
 
   private:
     enum class Phase : std::uint8_t { down, look, first_safety, second_safety, first_nop, second_nop, up };
@@ -64,9 +66,10 @@ class JvlMotor final : public Motor {
     void hold_in_position(base::Instant now);
     void update_hold(base::Instant now);
 
-    JvlLink link_;
-    Settings settings_;
-    base::Ring<Order, 8> orders_;
+    bool safe_communication_;
+    protocol::fastmac::RegisterCode register_code_;
+    bool registers_are_32_bit_;
+    base::Microseconds sample_period_;
     Order current_;  ///< what the message under way carries, when sending_ is `order`
     Sending sending_ = Sending::nothing;
     Phase phase_ = Phase::down;
@@ -86,6 +89,8 @@ class JvlMotor final : public Motor {
     bool for_access_ = false;  ///< in FlexMAC, or on the way there and back, for accesses only
     std::optional<base::Instant> reply_until_;
     Counters counters_;
+    JvlLink link_;
+    base::Ring<Order, 8> orders_;
 };
 
 }  // namespace nplc::motor

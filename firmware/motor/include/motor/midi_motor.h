@@ -47,7 +47,9 @@ class MidiMotor final : public Motor {
 
     void poll(base::Instant now) override;
     void begin_orders(base::Instant now) override { work(now); }
-    base::Instant next_poll(base::Instant now) const override;
+    /// When to poll at the latest, asked after each poll() and each call that gives it something to do; `now` or
+    /// earlier: at once.
+    base::Instant next_poll(base::Instant now) const;
     bool settled() const override;
     bool can_execute(const Order& order) const override { return lack_of(order) == Lack::none; }
     bool has_room() const override { return !orders_.full(); }
@@ -147,9 +149,6 @@ class MidiMotor final : public Motor {
     bool moves() const { return motion_ == Motion::going || motion_ == Motion::running; }
 
     MidiLink& link_;
-    Settings settings_;
-    MidiRegisters registers_;
-    base::Ring<Order, 8> orders_;
     MidiMessage message_;  ///< under way while link_.busy()
     Phase phase_ = Phase::down;
     Motion motion_ = Motion::unknown;
@@ -212,6 +211,9 @@ class MidiMotor final : public Motor {
     std::uint32_t access_value_ = 0;
     bool access_error_ = false;  ///< ERROR was there before the write
     Counters counters_;
+    Settings settings_;
+    MidiRegisters registers_;
+    base::Ring<Order, 8> orders_;
 };
 
 }  // namespace nplc::motor

@@ -36,17 +36,17 @@ class MidiV24Link final : public MidiLink {
     void transmit();
 
     ports::SerialPort& port_;
-    Settings settings_;
-    base::Microseconds character_;
-    protocol::midi_v24::AnswerDecoder decoder_;
-    protocol::midi_v24::Request request_;
-    protocol::midi_v24::RequestBytes bytes_{};
     std::uint8_t sent_ = 0;
     State state_ = State::idle;
     bool noisy_ = false;   ///< something unexpected was heard, or may still come
     bool spoilt_ = false;  ///< a framing error since the request
     base::Instant heard_{};
     base::Instant deadline_{};
+    Settings settings_;
+    base::Microseconds character_;
+    protocol::midi_v24::AnswerDecoder decoder_;
+    protocol::midi_v24::Request request_;
+    protocol::midi_v24::RequestBytes bytes_{};
 };
 
 }  // namespace nplc::motor

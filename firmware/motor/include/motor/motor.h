@@ -63,11 +63,9 @@ constexpr bool delivers(Link link) {
 /// A drive as the gateway sees it. Nothing blocks; time is passed in.
 class Motor {
   public:
-    /// Moves bytes and time limits on. To be called at least once a millisecond.
+    /// Moves bytes and time limits on. To be called at least once a millisecond; or whenever something arrives
+    /// on the line, and when the driver's own next_poll() is due, which a board that always polls does not have.
     virtual void poll(base::Instant now) = 0;
-    /// Or, instead: whenever something arrives on the line, and at the latest then. After each poll() and
-    /// each call that gives it something to do; `now` or earlier: at once.
-    virtual base::Instant next_poll(base::Instant now) const = 0;
 
     /// Begins what send() and stop() have left to do, as far as the line is free, so that it need not wait for
     /// the next poll(). Reads nothing.

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
+
+#include "registers/midi.h"
 
 /// The gateway's own registers on the user's port, reached by MacTalk (001 §5.1). No manual describes them:
 /// the map is ours. One register is a longword in one number; numbers without a row read 0. What each means
@@ -51,6 +54,7 @@ enum Number : std::uint8_t {
     ACCESS_FAILS = 37,
     MESSAGES = 38,
     REFUSED = 39,
+    LINE_FAULTS = 40,
 
     COMMAND = 48,
     FORCE_IN = 49,
@@ -74,9 +78,19 @@ enum Number : std::uint8_t {
     SETTINGS = 200,
 };
 
+inline constexpr std::uint8_t kLines = 3;          ///< LINE_FAULTS and the two after it
 inline constexpr std::uint8_t kFiredWords = 32;    ///< FIRED and the 31 after it: a bit a term
 inline constexpr std::uint8_t kLogEntries = 16;    ///< two registers each, from LOG on
 inline constexpr std::uint8_t kMostSettings = 31;  ///< SETTINGS + number of the setting
+
+/// Setting motor_kind: 0 is a JVL motor, then come the models of registers/midi.h.
+constexpr std::uint32_t motor_kind_of(std::optional<midi::Model> model) {
+    return model ? static_cast<std::uint32_t>(*model) + 1 : 0;
+}
+constexpr std::optional<midi::Model> model_of_kind(std::uint32_t motor_kind) {
+    if (motor_kind == 0) return std::nullopt;
+    return static_cast<midi::Model>(motor_kind - 1);
+}
 
 /// What COMMAND takes.
 enum class Command : std::uint8_t {

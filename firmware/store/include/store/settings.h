@@ -34,6 +34,8 @@ enum class Setting : std::uint8_t {
     old_register_codes = 17,
     read_pause = 18,
     motor_silence = 19,
+    motor_kind = 20,
+    midi_address = 21,
 };
 
 /// `none` in enable_input and status_output.
@@ -51,7 +53,7 @@ struct SettingInfo {
     std::string_view help;
 };
 
-inline constexpr std::size_t kSettings = 19;
+inline constexpr std::size_t kSettings = 21;
 const std::array<SettingInfo, kSettings>& all_settings();
 /// nullptr if there is none.
 const SettingInfo* find_setting(std::uint8_t id);

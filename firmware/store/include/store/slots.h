@@ -43,7 +43,7 @@ enum class Phase : std::uint8_t {
 class Slots {
   public:
     Slots(ports::Storage& storage, const Area& area, Kind kind, Content& content)
-        : storage_(storage), layout_(storage.geometry(), area), kind_(kind), content_(content) {}
+        : storage_(storage), content_(content), kind_(kind), layout_(storage.geometry(), area) {}
     Slots(const Slots&) = delete;
     Slots& operator=(const Slots&) = delete;
 
@@ -99,7 +99,7 @@ class Slots {
     };
     enum class Closing : std::uint8_t { programming, checking, header, header_back, mark, mark_back };
 
-    base::Result<Slot> examine(unsigned slot);
+    base::Status examine(Slot& slot, unsigned number);
     base::Result<std::uint32_t> crc_of(unsigned slot, std::uint32_t length);
     void choose();
 
@@ -120,29 +120,28 @@ class Slots {
     void fail(base::Error error);
 
     ports::Storage& storage_;
-    Layout layout_;
-    Kind kind_;
     Content& content_;
-
-    std::array<Slot, 2> slots_{};
-    std::optional<unsigned> current_;
-    bool fallback_ = false;
-
+    Kind kind_;
     Phase phase_ = Phase::idle;
     base::Error error_{};
     Closing closing_ = Closing::programming;
     bool waiting_ = false;  ///< for an operation of ours
+    bool fallback_ = false;
+    std::optional<unsigned> current_;
+    Layout layout_;
+    std::array<Slot, 2> slots_{};
+
     unsigned target_ = 0;   ///< the slot being written
     std::uint32_t erased_ = 0;
     std::uint32_t received_ = 0;
     std::uint32_t crc_ = 0;
     std::uint32_t checked_ = 0;
     std::uint32_t checked_crc_ = 0;
-    Buffer fill_;
-    Buffer flush_;
     std::uint32_t flushed_ = 0;  ///< bytes of flush_ that were programmed, whole units
     std::uint32_t in_hand_ = 0;  ///< bytes of flush_ being programmed
     Header header_;              ///< of what is being written
+    Buffer fill_;
+    Buffer flush_;
 };
 
 }  // namespace nplc::store

@@ -4,9 +4,10 @@
 
 namespace nplc::base {
 
-/// What can go wrong in the firmware. A partial message is a state of its decoder, never an error.
+/// What can go wrong in the firmware. A partial message is a state of its decoder, never an error. 0 is none: a
+/// Result needs no other mark.
 enum class Error : std::uint8_t {
-    no_space,        ///< the caller's storage or a queue is full
+    no_space = 1,    ///< the caller's storage or a queue is full
     table_no_end,    ///< sequence table without a term whose STATE is 3Fh
     table_ragged,    ///< sequence table cut inside a term
     bad_next_step,   ///< NEXT_STATE 3Fh
@@ -14,7 +15,7 @@ enum class Error : std::uint8_t {
     not_for_motor,   ///< sequence table with an order that the motor does not have
     not_stopped,     ///< only possible while the sequence is stopped
     no_table,        ///< nothing loaded
-    not_enabled,     ///< the enable input is off
+    not_enabled,     ///< the enable input is off, or it is started for service
     busy,            ///< not now: an operation is under way; ask again
     bad_geometry,    ///< sizes or addresses that do not fit the storage
     bad_offset,      ///< a piece that neither follows what came nor repeats it

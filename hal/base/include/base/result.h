@@ -8,31 +8,29 @@ namespace nplc::base {
 template <class T>
 class [[nodiscard]] Result {
   public:
-    constexpr Result(T value) : value_(value), ok_(true) {}       // NOLINT: implicit by purpose
-    constexpr Result(Error error) : error_(error), ok_(false) {}  // NOLINT: implicit by purpose
-    constexpr bool ok() const { return ok_; }
-    constexpr explicit operator bool() const { return ok_; }
+    constexpr Result(T value) : value_(value) {}      // NOLINT: implicit by purpose
+    constexpr Result(Error error) : error_(error) {}  // NOLINT: implicit by purpose
+    constexpr bool ok() const { return error_ == Error{}; }
+    constexpr explicit operator bool() const { return ok(); }
     constexpr const T& value() const { return value_; }
     constexpr Error error() const { return error_; }
 
   private:
     T value_{};
     Error error_{};
-    bool ok_;
 };
 
 template <>
 class [[nodiscard]] Result<void> {
   public:
     constexpr Result() = default;
-    constexpr Result(Error error) : error_(error), ok_(false) {}  // NOLINT: implicit by purpose
-    constexpr bool ok() const { return ok_; }
-    constexpr explicit operator bool() const { return ok_; }
+    constexpr Result(Error error) : error_(error) {}  // NOLINT: implicit by purpose
+    constexpr bool ok() const { return error_ == Error{}; }
+    constexpr explicit operator bool() const { return ok(); }
     constexpr Error error() const { return error_; }
 
   private:
     Error error_{};
-    bool ok_ = true;
 };
 
 using Status = Result<void>;

@@ -37,9 +37,9 @@ class Ring {
         return index >= Capacity ? index - Capacity : index;
     }
 
-    std::array<T, Capacity> items_{};
     std::size_t head_ = 0;
     std::size_t count_ = 0;
+    std::array<T, Capacity> items_{};
 };
 
 }  // namespace nplc::base

@@ -7,12 +7,6 @@
 
 namespace nplc::hal_mcu {
 
-/// What a line's receiver lost or could not read, modulo 2^32.
-struct LineFaults {
-    std::uint32_t framing = 0;   ///< stop bit missing, breaks included
-    std::uint32_t overruns = 0;  ///< characters that found the chip's or our own buffer full, at least
-};
-
 /// A serial line whose interrupt moves the characters. The chip's part derives from it. A place where
 /// characters were lost is handed on as a character with framing_error, so that no message is put together
 /// across the gap.
@@ -25,7 +19,7 @@ class BufferedSerial : public ports::SerialPort {
     bool transmitter_idle() final { return to_send_.empty() && line_is_idle(); }
 
     bool has_received() const { return !received_.empty(); }
-    const LineFaults& faults() const { return faults_; }
+    ports::LineFaults faults() const final { return faults_; }
 
   protected:
     ~BufferedSerial() = default;
@@ -44,10 +38,10 @@ class BufferedSerial : public ports::SerialPort {
         std::uint8_t value;
         bool fault;
     };
-    InterruptRing<Received, kCapacity> received_;
-    InterruptRing<std::uint8_t, kCapacity> to_send_;
-    LineFaults faults_;
     bool gap_ = false;
+    ports::LineFaults faults_;
+    InterruptRing<std::uint8_t, kCapacity> to_send_;
+    InterruptRing<Received, kCapacity> received_;
 };
 
 }  // namespace nplc::hal_mcu

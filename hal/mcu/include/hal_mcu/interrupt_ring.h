@@ -41,9 +41,9 @@ class InterruptRing {
         return static_cast<std::uint16_t>(end - begin);
     }
 
-    std::array<T, Capacity> items_{};
     std::atomic<std::uint16_t> begin_{0};  ///< both run on through 65535 to 0
     std::atomic<std::uint16_t> end_{0};
+    std::array<T, Capacity> items_{};
 };
 
 }  // namespace nplc::hal_mcu

@@ -11,6 +11,12 @@ struct ReceivedByte {
     bool framing_error = false;
 };
 
+/// What a line's receiver lost or could not read, modulo 2^32.
+struct LineFaults {
+    std::uint32_t framing = 0;   ///< stop bit missing, breaks included
+    std::uint32_t overruns = 0;  ///< characters that found the chip's or our own buffer full, at least
+};
+
 /// One asynchronous serial line, full duplex. No call blocks.
 class SerialPort {
   public:
@@ -22,6 +28,9 @@ class SerialPort {
 
     /// True once the stop bit of the last byte taken has left the line.
     virtual bool transmitter_idle() = 0;
+
+    /// None where the port does not count.
+    virtual LineFaults faults() const { return {}; }
 
   protected:
     ~SerialPort() = default;

@@ -11,5 +11,7 @@ bool begin_clock();
 
 /// The chip says that its watchdog has reset it since this was last asked.
 bool take_watchdog_reset();
+/// By power, or by the reset pin, since take_watchdog_reset() was last called.
+bool was_reset_from_outside();
 
 }  // namespace nplc::hal_mcu::stellaris

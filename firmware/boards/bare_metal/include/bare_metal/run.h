@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "base/time.h"
+#include "ports/clock.h"
+#include "ports/digital_io.h"
+#include "ports/serial.h"
+#include "ports/storage.h"
+#include "ports/watchdog.h"
+#include "store/layout.h"
+
+/// The gateway on a board without an operating system: in what order it starts, its loop, its restart.
+namespace nplc::bare_metal {
+
+/// A board's ports, begun but for lines and watchdog.
+struct Parts {
+    ports::Clock& clock;
+    ports::DigitalInputs& inputs;
+    ports::DigitalOutputs& outputs;
+    ports::Watchdog& watchdog;
+    ports::Storage& storage;
+    ports::SerialPort& user_line;
+    ports::SerialPort& motor_line;
+    ports::SerialPort* motor_mactalk_line;  ///< the motor's own MacTalk port; null: not wired
+    const store::Area& table_area;
+    const store::Area& settings_area;
+    std::span<std::uint8_t> table;  ///< memory for the active one
+    bool for_service = false;       ///< a person is served, and nothing runs until the next start
+};
+
+/// The chip's interrupts are allowed already.
+[[noreturn]] void run(const Parts& parts);
+
+// The board's: what no port has.
+
+void begin_lines(std::uint32_t user_baud, std::uint32_t motor_baud);
+bool has_received();  ///< on any line
+/// The watchdog bites after this time without food, from now on.
+void begin_watchdog(base::Milliseconds time);
+void set_watchdog_time(base::Milliseconds time);
+/// The chip says that its watchdog has reset it since this was last asked.
+bool take_watchdog_reset();
+
+}  // namespace nplc::bare_metal

@@ -1,0 +1,114 @@
+#include "bare_metal/run.h"
+
+#include <memory>
+#include <utility>
+
+#include "bare_metal/end.h"
+#include "gateway/chosen_motor.h"
+#include "gateway/gateway.h"
+#include "gateway/own_registers.h"
+#include "gateway/user_port.h"
+#include "hal_mcu/cortex_m/core.h"
+
+namespace nplc::bare_metal {
+namespace {
+
+namespace core = hal_mcu::cortex_m;
+using hal_mcu::EndCause;
+
+constexpr base::Milliseconds kBeyondLongestWait{500};  ///< of the scan, until the watchdog bites
+/// Two slots of the store looked at and one loaded take 0.7 s at most, on a serial memory's line.
+constexpr base::Milliseconds kStartUp{3'000};
+
+/// With the run before not ended by us it was the watchdog's second bite, or a reset that looks the same.
+gateway::StartCause start_cause(bool for_service) {
+    const bool bitten = take_watchdog_reset() || run_marker().is_set();
+    if (bitten && !crash_record().valid()) crash_record().set(EndCause::without_a_word, 0);
+    run_marker().set();
+    if (for_service) return gateway::StartCause::service;
+    return crash_record().valid() ? gateway::StartCause::watchdog : gateway::StartCause::power_up;
+}
+
+void note_crash(gateway::Gateway& sequence) {
+    if (!crash_record().valid()) return;
+    sequence.note(gateway::Event::gave_up, static_cast<std::uint16_t>(crash_record().cause()));
+    sequence.note(gateway::Event::gave_up_at, static_cast<std::uint16_t>(crash_record().code_address()));
+    crash_record().clear();
+}
+
+/// Longer than a scan may wait for the motor, which a user can change.
+base::Milliseconds watchdog_time(const gateway::SettingsKeeper& settings) {
+    return base::Milliseconds(settings.get(store::Setting::longest_wait)) + kBeyondLongestWait;
+}
+
+/// Until an interrupt has brought something; a millisecond at the most.
+void rest() {
+    core::forbid_interrupts();
+    if (!has_received()) core::sleep();
+    core::allow_interrupts();
+}
+
+/// The answer to the reset command shall leave the line, if it takes it.
+[[noreturn]] void restart(const Parts& parts) {
+    constexpr base::Milliseconds kLongestAnswer{20};
+    const base::Instant asked = parts.clock.now();
+    while (!parts.user_line.transmitter_idle() && parts.clock.now() - asked < kLongestAnswer) rest();
+    run_marker().clear();
+    core::reset();
+}
+
+/// Memory of an object that is made when its turn comes; a local static would be asked each time whether it is.
+template <class T>
+union Later {
+    constexpr Later() {}
+    ~Later() {}  // NOLINT: never: the firmware does not end
+    template <class... Arguments>
+    T& make(Arguments&&... arguments) {
+        return *std::construct_at(&object, std::forward<Arguments>(arguments)...);
+    }
+    T object;
+};
+
+Later<gateway::SettingsKeeper> settings_memory;
+Later<gateway::ChosenMotor> motor_memory;
+Later<gateway::Gateway> sequence_memory;
+Later<gateway::TableKeeper> tables_memory;
+Later<gateway::OwnRegisters> registers_memory;
+Later<gateway::UserPort> user_port_memory;
+
+}  // namespace
+
+void run(const Parts& parts) {
+    gateway::SettingsKeeper& settings = settings_memory.make(parts.storage, parts.settings_area);
+    settings.start({});
+    begin_lines(settings.get(store::Setting::user_baud), settings.get(store::Setting::motor_baud));
+    base::Milliseconds bites_after = kStartUp;
+    begin_watchdog(bites_after);
+
+    motor::Motor& drive = motor_memory.make(parts.motor_line, settings.values()).motor();
+    gateway::Gateway& sequence = sequence_memory.make(
+        gateway::Gateway::Ports{parts.inputs, parts.outputs, parts.watchdog, drive},
+        gateway::settings_of(settings.values()), start_cause(parts.for_service));
+    settings.attach(sequence);
+    note_crash(sequence);
+    gateway::TableKeeper& tables =
+        tables_memory.make(sequence, drive, parts.storage, parts.table_area, parts.table);
+    gateway::OwnRegisters& registers = registers_memory.make(sequence, tables, settings);
+    gateway::UserPort& user_port = user_port_memory.make(parts.user_line, parts.motor_mactalk_line, sequence,
+                                                         drive, registers, settings);
+    registers.show_faults_of({&parts.user_line, &parts.motor_line, parts.motor_mactalk_line});
+    static_cast<void>(tables.mount());
+    tables.start(parts.clock.now());
+
+    for (;;) {
+        const base::Instant now = parts.clock.now();
+        sequence.poll(now);
+        user_port.poll(now);
+        keep_safe_outputs(sequence.settings().safe_outputs);
+        if (watchdog_time(settings) != bites_after) set_watchdog_time(bites_after = watchdog_time(settings));
+        if (registers.reset_asked()) restart(parts);
+        rest();
+    }
+}
+
+}  // namespace nplc::bare_metal
