@@ -92,7 +92,8 @@ Progress OwnRegisters::write(std::uint8_t reg, std::span<const std::uint8_t> byt
 
 Progress OwnRegisters::write_value(std::uint8_t reg, std::uint32_t value, base::Instant now) {
     const auto is_known = [](std::uint8_t number) {
-        return (number >= IDENTITY && number <= STORE_FLAGS) || (number >= STATUS && number < LINE_FAULTS + kLines) ||
+        return (number >= IDENTITY && number <= STORE_FLAGS) ||
+               (number >= STATUS && number < LINE_FAULTS + kLines) ||
                (number >= UPLOAD_STATE && number <= TABLE_DATA) ||
                (number >= FIRED_SCAN && number <= FIRED_KEY) ||
                (number >= FIRED && number < LOG + 2 * kLogEntries);

@@ -155,8 +155,7 @@ void JvlMotor::start_up(base::Instant now) {
 }
 
 std::uint8_t JvlMotor::safety_command() const {
-    return command_byte(safe_communication_ ? Number::safe_communication
-                                                     : Number::rapid_communication);
+    return command_byte(safe_communication_ ? Number::safe_communication : Number::rapid_communication);
 }
 
 /// A stream without a pause may never come in step: "transmit slowly" with either toggle, twice for safe
@@ -196,9 +195,9 @@ void JvlMotor::work(base::Instant now) {
     if (!in_flexmac && (writes || accesses))
         return command(Sending::link_command, command_byte(Number::use_flexmac), now);
     if (stop_wanted_) {
-        return write_register(
-            Sending::stop,
-            {.is_register_write = true, .reg = kModeReg, .longword = registers_are_32_bit_}, now);
+        return write_register(Sending::stop,
+                              {.is_register_write = true, .reg = kModeReg, .longword = registers_are_32_bit_},
+                              now);
     }
     if (accesses) return send_access(now);
     if (orders_.empty()) return;

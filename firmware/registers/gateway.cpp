@@ -52,7 +52,8 @@ constexpr std::array kMap{
     Row{MESSAGES, 1, "MESSAGES", kRead, "whole messages on the user's port, for whatever address"},
     Row{REFUSED, 1, "REFUSED", kRead, "those refused"},
     Row{LINE_FAULTS, kLines, "LINE_FAULTS", kRead,
-        "of the user's port, the motor's and the motor's own MacTalk port, one register each: characters with a "
+        "of the user's port, the motor's and the motor's own MacTalk port, one register each: characters "
+        "with a "
         "framing error, breaks too, in bits 15..0; characters lost by overruns in bits 31..16; each stays at "
         "65535"},
     Row{COMMAND, 1, "COMMAND", Access::write, "see Commands below; reads the last one"},

@@ -135,7 +135,8 @@ struct GpioBits::Part {
     }
     unsigned from(unsigned own) const {
         unsigned levels = 0;
-        for (; own != 0; own &= own - 1) levels |= 1U << bits[static_cast<std::size_t>(std::countr_zero(own))];
+        for (; own != 0; own &= own - 1)
+            levels |= 1U << bits[static_cast<std::size_t>(std::countr_zero(own))];
         return levels;
     }
 };

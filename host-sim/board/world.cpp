@@ -28,8 +28,7 @@ store::SettingValues initial_settings(const WorldOptions& options) {
     set(store::Setting::motor_is_mac800, options.motor == registers::Model::mac800 ? 1 : 0);
     set(store::Setting::safe_communication, options.safe_communication ? 1 : 0);
     set(store::Setting::old_register_codes, options.old_register_codes ? 1 : 0);
-    if (options.midi)
-        set(store::Setting::motor_kind, registers::gateway::motor_kind_of(options.midi->model));
+    if (options.midi) set(store::Setting::motor_kind, registers::gateway::motor_kind_of(options.midi->model));
     return values;
 }
 
@@ -218,8 +217,7 @@ void World::wake() {
 Time World::next_poll() {
     const Time steadily = now_ + kPollPeriod;
     if (options_.polling == Polling::steadily) return steadily;
-    const base::Instant motors =
-        midi_ ? midi_->driver().next_poll(instant()) : driver_->next_poll(instant());
+    const base::Instant motors = midi_ ? midi_->driver().next_poll(instant()) : driver_->next_poll(instant());
     base::Instant due = std::min(gateway_->next_poll(instant(), motors), user_port_->next_poll(instant()));
     due = std::min(due, instant() + kWatchdogTime / 2);
     const Time at = std::max<Time>(now_, due.time_since_epoch());

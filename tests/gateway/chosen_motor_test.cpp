@@ -14,7 +14,7 @@ namespace {
 using motor::Order;
 using store::Setting;
 
-constexpr Order kHoming{.command = 0x70};     // 60h + 10h
+constexpr Order kHoming{.command = 0x70};  // 60h + 10h
 constexpr Order kPositionP1{.command = 0x40};
 
 store::SettingValues with(std::vector<std::pair<Setting, std::uint32_t>> settings) {
@@ -57,11 +57,12 @@ TEST(ChosenMotor, AsksTheDriveOfTheAddressThatIsSet) {
     ChosenMotor chosen(
         line, with({{Setting::motor_kind, 2}, {Setting::midi_address, 5}, {Setting::motor_baud, 38'400}}));
     chosen.motor().poll(base::Instant{});
-    EXPECT_EQ(std::string(line.sent.begin(), line.sent.end()), "\x02"
-                                                               "014"
-                                                               "0521"
-                                                               "0000000000"
-                                                               "A8\x03");
+    EXPECT_EQ(std::string(line.sent.begin(), line.sent.end()),
+              "\x02"
+              "014"
+              "0521"
+              "0000000000"
+              "A8\x03");
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ struct Shape {
 /// Flash in a small chip, flash beside a chip, and an EEPROM with pages; and flash with error correction.
 inline std::vector<Shape> shapes(std::uint32_t content_bytes) {
     const auto fit = [&](std::uint32_t erase, std::uint32_t page, std::uint32_t unit) {
-        const std::uint32_t slot = (content_bytes + 2 * std::max<std::uint32_t>(unit, 32U) + erase - 1) / erase * erase;
+        const std::uint32_t slot =
+            (content_bytes + 2 * std::max<std::uint32_t>(unit, 32U) + erase - 1) / erase * erase;
         return std::pair(ports::StorageGeometry{.size = erase * (2 * slot / erase + 3),
                                                 .erase_block = erase,
                                                 .program_page = page,

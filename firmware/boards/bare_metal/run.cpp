@@ -1,6 +1,6 @@
 #include "bare_metal/run.h"
 
-#include <memory>
+#include <new>
 #include <utility>
 
 #include "bare_metal/end.h"
@@ -57,14 +57,15 @@ void rest() {
     core::reset();
 }
 
-/// Memory of an object that is made when its turn comes; a local static would be asked each time whether it is.
+/// Memory of an object that is made when its turn comes; a local static would be asked each time whether it
+/// is.
 template <class T>
 union Later {
     constexpr Later() {}
     ~Later() {}  // NOLINT: never: the firmware does not end
     template <class... Arguments>
     T& make(Arguments&&... arguments) {
-        return *std::construct_at(&object, std::forward<Arguments>(arguments)...);
+        return *::new (&object) T(std::forward<Arguments>(arguments)...);
     }
     T object;
 };
@@ -86,9 +87,9 @@ void run(const Parts& parts) {
     begin_watchdog(bites_after);
 
     motor::Motor& drive = motor_memory.make(parts.motor_line, settings.values()).motor();
-    gateway::Gateway& sequence = sequence_memory.make(
-        gateway::Gateway::Ports{parts.inputs, parts.outputs, parts.watchdog, drive},
-        gateway::settings_of(settings.values()), start_cause(parts.for_service));
+    gateway::Gateway& sequence =
+        sequence_memory.make(gateway::Gateway::Ports{parts.inputs, parts.outputs, parts.watchdog, drive},
+                             gateway::settings_of(settings.values()), start_cause(parts.for_service));
     settings.attach(sequence);
     note_crash(sequence);
     gateway::TableKeeper& tables =

@@ -74,7 +74,8 @@ std::string Axis::open(const std::string& state_directory, base::Instant now) {
 /// Which motor there is stands in the configuration, whatever was stored.
 void Axis::start_settings() {
     settings_->start(config_.settings);
-    for (const store::Setting setting : kOfTheMotor) settings_->impose(setting, config_.settings.get(setting));
+    for (const store::Setting setting : kOfTheMotor)
+        settings_->impose(setting, config_.settings.get(setting));
 }
 
 std::string Axis::open_store(const std::string& folder) {
@@ -215,7 +216,8 @@ void Axis::note_readable(std::uint32_t mark) {
 void Axis::look_at_inputs() {
     std::uint32_t edges = std::exchange(edges_, 0);
     if (edges == 0) return inputs_->look();
-    for (; edges != 0; edges &= edges - 1) inputs_->look_at(static_cast<std::size_t>(std::countr_zero(edges)));
+    for (; edges != 0; edges &= edges - 1)
+        inputs_->look_at(static_cast<std::size_t>(std::countr_zero(edges)));
 }
 
 /// While the motor's line was read a moment ago, as it is when nothing is under way.
@@ -294,7 +296,8 @@ void Axis::watch_pins(base::Instant now) {
 base::Instant Axis::next(base::Instant now) {
     if (failed_) return base::kNever;
     if (own_registers_->reset_asked()) return now + kBetweenLooks;
-    base::Instant next = std::min(gateway_->next_poll(now, motor_.next_poll(now)), user_port_->next_poll(now));
+    base::Instant next =
+        std::min(gateway_->next_poll(now, motor_.next_poll(now)), user_port_->next_poll(now));
     next = std::min({next, rests_until_, tell_silence_at_, motor_.next_look()});
     if (mactalk_port_) next = std::min(next, mactalk_port_->next_look());
     if (user_uart_) next = std::min(next, user_uart_->next_look());

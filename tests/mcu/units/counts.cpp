@@ -230,13 +230,13 @@ std::uint32_t flags_of_uart0() {
 /// meanwhile: counted is a call that found the buffer full and nothing more.
 void wait_until_full() {
     constexpr std::uint32_t kFlagFull = 0x40;
-    for (int i = 0; i < 50 && (flags_of_uart0() & kFlagFull) == 0; ++i) {
+    for (int i = 0; i < 400 && (flags_of_uart0() & kFlagFull) == 0; ++i) {
         for (int wait = 0; wait < 100'000; ++wait) asm volatile("nop");
     }
 }
 
 std::uint32_t count_full_buffer(chip::Uart& line) {
-    constexpr int kMostTries = 2'000;
+    constexpr int kMostTries = 500;
     constexpr std::size_t kFull = 16;
     for (int i = 0; i < kMostTries; ++i) {
         wait_until_full();

@@ -202,8 +202,8 @@ class Gateway {
     bool stop_ordered_to_hold_ = false;
     bool resumes_ = false;  ///< the next scan is the first after having been held
     bool in_scan_ = false;
-    bool rests_ = false;                 ///< nothing could change at the last look
-    sequencer::InputImage image_ = 0;    ///< of the last scan
+    bool rests_ = false;               ///< nothing could change at the last look
+    sequencer::InputImage image_ = 0;  ///< of the last scan
     std::optional<std::uint8_t> written_;
     std::optional<sequencer::Key> quiet_key_;  ///< a scan with this key would do nothing
     Observer* observer_ = nullptr;

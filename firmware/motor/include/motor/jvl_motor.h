@@ -26,8 +26,8 @@ class JvlMotor final : public Motor {
 
     void poll(base::Instant now) override;
     void begin_orders(base::Instant now) override;
-    /// When to poll at the latest, asked after each poll() and each call that gives it something to do; `now` or
-    /// earlier: at once.
+    /// When to poll at the latest, asked after each poll() and each call that gives it something to do; `now`
+    /// or earlier: at once.
     base::Instant next_poll(base::Instant now) const;
     bool settled() const override;
     bool has_room() const override { return !orders_.full(); }

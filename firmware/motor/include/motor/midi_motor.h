@@ -47,8 +47,8 @@ class MidiMotor final : public Motor {
 
     void poll(base::Instant now) override;
     void begin_orders(base::Instant now) override { work(now); }
-    /// When to poll at the latest, asked after each poll() and each call that gives it something to do; `now` or
-    /// earlier: at once.
+    /// When to poll at the latest, asked after each poll() and each call that gives it something to do; `now`
+    /// or earlier: at once.
     base::Instant next_poll(base::Instant now) const;
     bool settled() const override;
     bool can_execute(const Order& order) const override { return lack_of(order) == Lack::none; }

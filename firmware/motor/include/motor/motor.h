@@ -63,12 +63,13 @@ constexpr bool delivers(Link link) {
 /// A drive as the gateway sees it. Nothing blocks; time is passed in.
 class Motor {
   public:
-    /// Moves bytes and time limits on. To be called at least once a millisecond; or whenever something arrives
-    /// on the line, and when the driver's own next_poll() is due, which a board that always polls does not have.
+    /// Moves bytes and time limits on. To be called at least once a millisecond; or whenever something
+    /// arrives on the line, and when the driver's own next_poll() is due, which a board that always polls
+    /// does not have.
     virtual void poll(base::Instant now) = 0;
 
-    /// Begins what send() and stop() have left to do, as far as the line is free, so that it need not wait for
-    /// the next poll(). Reads nothing.
+    /// Begins what send() and stop() have left to do, as far as the line is free, so that it need not wait
+    /// for the next poll(). Reads nothing.
     virtual void begin_orders(base::Instant now) = 0;
 
     /// Every order has been executed or given up and in_position() and error() are newer than the last of

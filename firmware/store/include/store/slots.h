@@ -131,7 +131,7 @@ class Slots {
     Layout layout_;
     std::array<Slot, 2> slots_{};
 
-    unsigned target_ = 0;   ///< the slot being written
+    unsigned target_ = 0;  ///< the slot being written
     std::uint32_t erased_ = 0;
     std::uint32_t received_ = 0;
     std::uint32_t crc_ = 0;

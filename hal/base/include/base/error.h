@@ -4,8 +4,8 @@
 
 namespace nplc::base {
 
-/// What can go wrong in the firmware. A partial message is a state of its decoder, never an error. 0 is none: a
-/// Result needs no other mark.
+/// What can go wrong in the firmware. A partial message is a state of its decoder, never an error. 0 is none:
+/// a Result needs no other mark.
 enum class Error : std::uint8_t {
     no_space = 1,    ///< the caller's storage or a queue is full
     table_no_end,    ///< sequence table without a term whose STATE is 3Fh

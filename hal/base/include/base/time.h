@@ -17,8 +17,8 @@ using Instant = std::chrono::time_point<Monotonic, Microseconds>;
 /// As a deadline: nothing is to be done until something arrives.
 inline constexpr Instant kNever = Instant::max();
 
-// Compared as the numbers that they are. Otherwise chrono's <=> is chosen, whose arguments and answer go through
-// memory: 20 bytes of a microcontroller's flash each time.
+// Compared as the numbers that they are. Otherwise chrono's <=> is chosen, whose arguments and answer go
+// through memory: 20 bytes of a microcontroller's flash each time.
 constexpr bool operator<(Instant a, Instant b) {
     return a.time_since_epoch().count() < b.time_since_epoch().count();
 }
