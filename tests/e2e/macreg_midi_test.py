@@ -11,6 +11,7 @@ import signal
 import socket
 import subprocess
 import sys
+import termios
 import threading
 import unittest
 
@@ -131,6 +132,18 @@ class Values(Case):
                                 capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 3)
         self.assertIn("no answer from address 9, asked 6 times", result.stderr)
+
+    def test_the_speed_may_stand_before_midi(self):
+        for speed, before, behind in ((termios.B38400, [], []), (termios.B19200, ["--baud", "19200"], []),
+                                      (termios.B9600, ["--baud", "19200"], ["--baud", "9600"])):
+            outside, inside = pty.openpty()
+            with subprocess.Popen([MACREG, "--port", os.ttyname(inside), *before, "midi", *behind, "status"],
+                                  stderr=subprocess.DEVNULL) as asking:
+                os.read(outside, 1)
+                self.assertEqual(termios.tcgetattr(outside)[5], speed, before + behind)
+                asking.kill()
+            os.close(inside)
+            os.close(outside)
 
     def test_raw_shows_both_ways(self):
         self.modules()

@@ -65,7 +65,9 @@ void add_line_options(arguments::App& app, Common& common, const std::string& of
     app.fallthrough();
     app.add_option("--port", common.port, fmt::format("Where {} is", of_whom))
         ->envname(port_variable(common));
-    app.add_option("--baud", common.baud, "Speed of the line")->capture_default_str();
+    app.add_option("--baud", common.baud, "Speed of the line")
+        ->capture_default_str()
+        ->each([&common](const std::string&) { common.has_baud = true; });
     app.add_option("--patience", common.patience_ms,
                    "Milliseconds beyond the line's time to wait for an answer")
         ->capture_default_str()

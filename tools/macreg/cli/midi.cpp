@@ -12,7 +12,6 @@ using midi_client::LineError;
 
 namespace {
 
-constexpr std::uint32_t kOthersBaud = 19'200;  ///< what --baud has unless said
 constexpr unsigned kAttempts = 6;
 constexpr std::string_view kCan = "can:";
 constexpr base::Microseconds kLook{100'000};
@@ -57,7 +56,7 @@ bool is_can(const MidiCommon& midi) {
 
 std::uint32_t midi_baud(const MidiCommon& midi) {
     if (midi.baud != 0) return midi.baud;
-    return midi.common.baud != kOthersBaud ? midi.common.baud : midi::reg::kFactoryBaud;
+    return midi.common.has_baud ? midi.common.baud : midi::reg::kFactoryBaud;
 }
 
 MidiSession::MidiSession(const MidiCommon& options, std::uint32_t baud, base::Microseconds patience)

@@ -91,15 +91,13 @@ std::vector<std::uint8_t> read_hex(const std::string& text, const std::string& n
     return bytes;
 }
 
-constexpr std::uint32_t kOthersBaud = 19'200;  ///< what --baud has unless said
-
 bool is_midi(const Options& options) {
     return options.protocol == "midi";
 }
 
 /// As `midi` has it: --baud if said, else the factory's.
 Common line_of_midi(Common common) {
-    if (common.baud == kOthersBaud) common.baud = registers::midi::kFactoryBaud;
+    if (!common.has_baud) common.baud = registers::midi::kFactoryBaud;
     return common;
 }
 

@@ -55,6 +55,7 @@ struct Common {
     std::string program;  ///< its name
     std::string port;
     std::uint32_t baud = 19'200;
+    bool has_baud = false;  ///< it was said
     unsigned address = 0;
     unsigned patience_ms = 150;
     unsigned attempts = 10;  ///< of each question
