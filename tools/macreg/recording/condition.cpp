@@ -9,7 +9,7 @@
 namespace nplc::macreg {
 namespace {
 
-using Relation = Condition::Relation;
+using Relation = Comparison::Relation;
 
 struct Sign {
     std::string_view text;
@@ -33,7 +33,7 @@ std::string_view trimmed(std::string_view text) {
 
 }  // namespace
 
-bool Condition::holds(std::int64_t value) const {
+bool Comparison::holds(std::int64_t value) const {
     switch (relation) {
         case Relation::less:
             return value < raw;
@@ -72,7 +72,7 @@ ConditionReading read_condition(std::string_view text, registers::Model model) {
     return {.condition = {named.reg, sign->relation, value.raw}};
 }
 
-std::string condition_words(const Condition& condition, registers::Model model) {
+std::string condition_words(const Comparison& condition, registers::Model model) {
     std::string_view sign;
     for (const Sign& one : kSigns) {
         if (sign.empty() && one.relation == condition.relation) sign = one.text;

@@ -9,7 +9,7 @@
 namespace nplc::macreg {
 
 /// A register compared with a value: `V_IST>100 rpm`, `P_IST <= -4096`, `ERR_STAT & IN_POS`.
-struct Condition {
+struct Comparison {
     enum class Relation : std::uint8_t { less, at_most, equal, unequal, at_least, more, any_bit };
 
     const registers::Register* reg = nullptr;
@@ -20,7 +20,7 @@ struct Condition {
 };
 
 struct ConditionReading {
-    Condition condition{};
+    Comparison condition{};
     std::string error{};  ///< one line; empty if it was understood
 };
 
@@ -28,6 +28,6 @@ struct ConditionReading {
 ConditionReading read_condition(std::string_view text, registers::Model model);
 
 /// "V_IST > 100 rpm"
-std::string condition_words(const Condition& condition, registers::Model model);
+std::string condition_words(const Comparison& condition, registers::Model model);
 
 }  // namespace nplc::macreg

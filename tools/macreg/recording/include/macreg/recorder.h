@@ -35,7 +35,7 @@ struct RecordOptions {
     std::string model_name{};   ///< for the recording; empty: the family's
     bool fast = false;          ///< current loop's rate instead of the position loop's
     std::size_t samples = 895;  ///< 1 to kMostSamples; polling takes any number, 0 is no end
-    std::optional<Condition> when{};
+    std::optional<Comparison> when{};
     base::Microseconds within{};  ///< for `when`; 0 is no end
     base::Microseconds lasts{};   ///< polling: 0 is no end
     /// Called as soon as the motor records: what is to be seen.
