@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <poll.h>
 #include <sys/epoll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -89,11 +90,13 @@ class SocketServer final : public ByteServer {
     }
 
     void accept_clients() {
-        for (;;) {
+        while (has_event(listener_, POLLIN)) {
+            const auto seat = std::find_if(clients_.begin(), clients_.end(), is_free);
+            const bool full = seat == clients_.end();
+            if (full && std::any_of(clients_.begin(), clients_.end(), hung_up)) return;  // its last words come first
             FileDescriptor next(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
             if (!next) return;
-            const auto seat = std::find_if(clients_.begin(), clients_.end(), is_free);
-            if (seat == clients_.end()) continue;  // turned away
+            if (full) continue;  // turned away
             const int on = 1;
             ::setsockopt(next.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
             watch(next.get());
@@ -102,10 +105,16 @@ class SocketServer final : public ByteServer {
         }
     }
 
-    /// A client that hung up makes room at once, even if nobody has read since.
+    static bool has_event(const FileDescriptor& descriptor, short events) {
+        pollfd state{.fd = descriptor.get(), .events = events, .revents = 0};
+        return ::poll(&state, 1, 0) == 1;
+    }
+    static bool hung_up(const FileDescriptor& client) { return has_event(client, POLLRDHUP); }
+
+    /// A client that hung up makes room at once, even if nobody has read since, but for what it still had to say.
     static bool is_free(const FileDescriptor& client) {
         char byte = 0;
-        return !client || ::recv(client.get(), &byte, 1, MSG_PEEK) == 0;
+        return !client || (hung_up(client) && ::recv(client.get(), &byte, 1, MSG_PEEK) <= 0);
     }
 
     FileDescriptor all_{::epoll_create1(EPOLL_CLOEXEC)};  ///< readable when one of the others is

@@ -114,9 +114,9 @@ class Tables(Case):
             file.write(bytes([0x3F, 0, 0, 0, 0, 0, 0, 0]))
         self.ctl("upload", big, port=noisy, patience=200)
         self.ctl("verify", big, "--bytes", port=noisy, patience=200)
+        proxy.close()
         self.ctl("verify", big)
         self.assertGreater(proxy.damaged, 0, "seed 7")
-        proxy.close()
 
 
 class Running(Case):
@@ -370,8 +370,8 @@ class Patience(Case):
         self.ctl("status", port=deaf, patience=100, exit_code=3)
         proxy.swallow = 30
         self.ctl("stop", port=deaf, patience=100)
-        self.assertEqual(self.ctl("status")["state"], "stopped")
         proxy.close()
+        self.assertEqual(self.ctl("status")["state"], "stopped")
 
 
 class Words(Case):

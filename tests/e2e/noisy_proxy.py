@@ -7,7 +7,7 @@ import threading
 
 class NoisyProxy:
     """A socket between a client and the gateway's socket that damages a share of the bytes, both ways, and breaks after
-    so many bytes."""
+    so many bytes. Like the gateway's, it serves one client at a time: the next one waits until the last has gone."""
 
     def __init__(self, path, target, share, seed, breaks_after=None):
         self.share = share
@@ -20,7 +20,8 @@ class NoisyProxy:
         self.listener.bind(path)
         self.listener.listen(1)
         self.target = target
-        threading.Thread(target=self.accept, daemon=True).start()
+        self.acceptor = threading.Thread(target=self.accept, daemon=True)
+        self.acceptor.start()
 
     def accept(self):
         while True:
@@ -29,10 +30,16 @@ class NoisyProxy:
             except OSError:
                 return
             gateway = socket.socket(socket.AF_UNIX)
-            self.ends += [client, gateway]
             gateway.connect(self.target)
-            for ends in ((client, gateway, True), (gateway, client, False)):
-                threading.Thread(target=self.pump, args=ends, daemon=True).start()
+            self.ends = [client, gateway]
+            pumps = [threading.Thread(target=self.pump, args=ends, daemon=True)
+                     for ends in ((client, gateway, True), (gateway, client, False))]
+            for pump in pumps:
+                pump.start()
+            for pump in pumps:
+                pump.join()
+            client.close()
+            gateway.close()
 
     def pump(self, source, sink, from_client):
         while True:
@@ -56,5 +63,11 @@ class NoisyProxy:
                 return
 
     def close(self):
-        for end in (*self.ends, self.listener):
-            end.close()
+        """The gateway's socket is free again when this is done."""
+        for end in (self.listener, *self.ends):
+            try:
+                end.shutdown(socket.SHUT_RDWR)
+            except OSError:
+                pass
+        self.acceptor.join()
+        self.listener.close()

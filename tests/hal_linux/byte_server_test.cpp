@@ -180,6 +180,31 @@ TEST_F(ByteServerTest, AClientThatHungUpMakesRoomAtOnce) {
     ::close(second);
 }
 
+TEST_F(ByteServerTest, TheNextClientWaitsForTheLastWordsOfOneThatHungUp) {
+    const auto server = open("unix:" + path("socket"));
+    const int first = connect_unix(path("socket"));
+    EXPECT_TRUE(server->has_client());
+    write_to(first, "last words");
+    ::close(first);
+    const int second = connect_unix(path("socket"));
+    write_to(second, "hello");
+    EXPECT_TRUE(server->has_client());
+    EXPECT_EQ(received(*server), "last words");
+    EXPECT_TRUE(server->has_client());
+    EXPECT_EQ(received(*server), "hello");
+    ::close(second);
+}
+
+TEST_F(ByteServerTest, AClientThatLeftItsAnswerUnreadMakesRoomToo) {
+    const auto server = open("unix:" + path("socket"));
+    const int first = connect_unix(path("socket"));
+    send_to(*server, "never read");
+    ::close(first);
+    const int second = connect_unix(path("socket"));
+    expect_exchange(*server, second);
+    ::close(second);
+}
+
 TEST_F(ByteServerTest, AStaleSocketIsReplacedALiveOneIsNot) {
     {
         const int dead = ::socket(AF_UNIX, SOCK_STREAM, 0);
