@@ -93,7 +93,8 @@ class SocketServer final : public ByteServer {
         while (has_event(listener_, POLLIN)) {
             const auto seat = std::find_if(clients_.begin(), clients_.end(), is_free);
             const bool full = seat == clients_.end();
-            if (full && std::any_of(clients_.begin(), clients_.end(), hung_up)) return;  // its last words come first
+            if (full && std::any_of(clients_.begin(), clients_.end(), hung_up))
+                return;  // its last words come first
             FileDescriptor next(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
             if (!next) return;
             if (full) continue;  // turned away
@@ -111,7 +112,8 @@ class SocketServer final : public ByteServer {
     }
     static bool hung_up(const FileDescriptor& client) { return has_event(client, POLLRDHUP); }
 
-    /// A client that hung up makes room at once, even if nobody has read since, but for what it still had to say.
+    /// A client that hung up makes room at once, even if nobody has read since, but for what it still had to
+    /// say.
     static bool is_free(const FileDescriptor& client) {
         char byte = 0;
         return !client || (hung_up(client) && ::recv(client.get(), &byte, 1, MSG_PEEK) <= 0);
