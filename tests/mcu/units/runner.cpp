@@ -14,6 +14,8 @@ Registered* first = nullptr;
 Registered** end = &first;
 unsigned checks = 0;
 unsigned failures = 0;
+unsigned failures_before_test = 0;
+std::string trace;
 
 struct Count {
     unsigned tests = 0;
@@ -28,14 +30,15 @@ Count run_suite(Registered& begin) {
     const unsigned failures_before = failures;
     for (Registered* test = &begin; test != nullptr; test = test->next) {
         if (test->make == nullptr || std::strcmp(test->suite, begin.suite) != 0) continue;
-        const unsigned failed_before = failures;
-        Test* made = test->make();
-        made->run_whole_test();
-        delete made;
+        for (std::size_t run = 0; Test* made = test->make(run); ++run) {
+            failures_before_test = failures;
+            made->run_whole_test();
+            delete made;
+            ++count.tests;
+            if (Test::HasFailure())
+                mcu_units::print((std::string("FAILED ") + test->suite + "." + test->name + "\n").c_str());
+        }
         test->make = nullptr;
-        ++count.tests;
-        if (failures != failed_before)
-            mcu_units::print((std::string("FAILED ") + test->suite + "." + test->name + "\n").c_str());
     }
     count.checks = checks - checks_before;
     count.failures = failures - failures_before;
@@ -44,18 +47,30 @@ Count run_suite(Registered& begin) {
 
 }  // namespace
 
-Registered::Registered(const char* suite_name, const char* test_name, Test* (*maker)())
+Registered::Registered(const char* suite_name, const char* test_name, Maker maker)
     : suite(suite_name), name(test_name), make(maker) {
     *end = this;
     end = &next;
+}
+
+bool Test::HasFailure() {
+    return failures != failures_before_test;
 }
 
 Check::Check(bool holds) : holds_(holds) {
     ++checks;
 }
 
+ScopedTrace::ScopedTrace(std::string text) : before_(trace) {
+    trace += text + ": ";
+}
+
+ScopedTrace::~ScopedTrace() {
+    trace = before_;
+}
+
 Message::Message(const char* file, int line, const char* condition, const Check& check) {
-    text_ << file << ":" << line << ": not so: " << condition;
+    text_ << trace << file << ":" << line << ": not so: " << condition;
     if (!check.values().empty()) text_ << " (" << check.values() << ")";
     text_ << " ";
 }
