@@ -1,7 +1,5 @@
 // Any bytes from a MIDI module's V24 line; what must hold stands in midi_driver_run.h.
 
-#include <deque>
-
 #include "midi_driver_run.h"
 #include "motor/midi_v24_link.h"
 
@@ -22,10 +20,7 @@ class Line final : public ports::SerialPort {
     }
     std::size_t read(std::span<ports::ReceivedByte> out) override {
         std::size_t count = 0;
-        while (count < out.size() && !received_.empty()) {
-            out[count++] = received_.front();
-            received_.pop_front();
-        }
+        while (count < out.size() && arrivals.take(out[count])) ++count;
         return count;
     }
     bool transmitter_idle() override { return true; }
@@ -40,22 +35,16 @@ class Line final : public ports::SerialPort {
     }
 
     void act(std::uint8_t what, std::uint8_t value) {
-        if (what == 0) coming_.push_back({value, false});
-        if (what == 1) coming_.push_back({value, value % 16 == 0});
+        if (what == 0) arrivals.say({value, false});
+        if (what == 1) arrivals.say({value, value % 16 == 0});
         if (what == 2) say({0x06, 0x13, static_cast<std::uint8_t>(value % 4 == 0 ? 0x17 : 0x1A)});
         if (what == 3) room_ = value % 3 == 0 ? value % 8U : kRoom;
-    }
-
-    bool deliver() {
-        if (coming_.empty()) return false;
-        received_.push_back(coming_.front());
-        coming_.pop_front();
-        return true;
     }
 
     void clear() { room_ = kRoom; }
 
     const motor::Motor* driver = nullptr;
+    fuzz::Arrivals<ports::ReceivedByte> arrivals;
 
   private:
     static constexpr std::size_t kRoom = 64;
@@ -69,13 +58,12 @@ class Line final : public ports::SerialPort {
     }
 
     void say(const auto& bytes) {
-        for (const std::uint8_t byte : bytes) coming_.push_back({byte, false});
+        for (const std::uint8_t byte : bytes) arrivals.say({byte, false});
     }
     void say(std::initializer_list<std::uint8_t> bytes) {
-        for (const std::uint8_t byte : bytes) coming_.push_back({byte, false});
+        for (const std::uint8_t byte : bytes) arrivals.say({byte, false});
     }
 
-    std::deque<ports::ReceivedByte> coming_, received_;
     std::size_t room_ = kRoom;
     v24::RequestDecoder requests_;
     v24::Request last_;

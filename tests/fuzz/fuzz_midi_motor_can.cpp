@@ -1,7 +1,5 @@
 // Any frames from a CAN bus, and any state of it; what must hold stands in midi_driver_run.h.
 
-#include <deque>
-
 #include "midi_driver_run.h"
 #include "motor/midi_can_link.h"
 
@@ -25,12 +23,7 @@ class Bus final : public ports::CanPort {
         fuzz::require(asks || motor::delivers(driver->link()));
         return true;
     }
-    bool read(ports::CanFrame& frame) override {
-        if (received_.empty()) return false;
-        frame = received_.front();
-        received_.pop_front();
-        return true;
-    }
+    bool read(ports::CanFrame& frame) override { return arrivals.take(frame); }
     bool filter(std::span<const ports::CanFilter>) override { return true; }
     ports::CanState state() override { return state_; }
     ports::CanFaults faults() override { return {}; }
@@ -54,16 +47,10 @@ class Bus final : public ports::CanPort {
         restarts_ = value % 7 != 0;
     }
 
-    bool deliver() {
-        if (coming_.empty()) return false;
-        received_.push_back(coming_.front());
-        coming_.pop_front();
-        return true;
-    }
-
     void clear() { takes_ = true; }
 
     const motor::Motor* driver = nullptr;
+    fuzz::Arrivals<ports::CanFrame> arrivals;
 
   private:
     static constexpr std::uint8_t kAddress = 5;
@@ -93,9 +80,8 @@ class Bus final : public ports::CanPort {
         return {.id = frame.id, .length = frame.size, .data = frame.data};
     }
     void say(const can::Answer& answer) { say(framed(answer)); }
-    void say(const ports::CanFrame& frame) { coming_.push_back(frame); }
+    void say(const ports::CanFrame& frame) { arrivals.say(frame); }
 
-    std::deque<ports::CanFrame> coming_, received_;
     ports::CanState state_ = ports::CanState::active;
     bool takes_ = true;
     bool restarts_ = true;

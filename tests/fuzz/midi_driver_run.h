@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <deque>
 
 #include "motor/midi_motor.h"
 
@@ -16,11 +17,35 @@ inline void require(bool holds) {
     if (!holds) std::abort();
 }
 
+/// Bytes or frames on their way to the link, one after the other.
+template <class Item>
+class Arrivals {
+  public:
+    void say(const Item& item) { coming_.push_back(item); }
+    /// One more is there for the link; false if no more is on its way.
+    bool deliver() {
+        if (coming_.empty()) return false;
+        there_.push_back(coming_.front());
+        coming_.pop_front();
+        return true;
+    }
+    /// False if none is there.
+    bool take(Item& item) {
+        if (there_.empty()) return false;
+        item = there_.front();
+        there_.pop_front();
+        return true;
+    }
+
+  private:
+    std::deque<Item> coming_, there_;
+};
+
 /// A Wire has the driver's link and says what the module does:
 ///   motor::MidiLink& link(); const motor::Motor* driver
 ///   void answer(std::uint32_t value): as a module would answer what was asked last
 ///   void act(std::uint8_t what, std::uint8_t value): any of its own kinds of trouble
-///   bool deliver(): one more byte or frame is there for the link; false if no more is on its way
+///   Arrivals arrivals: what it has said
 ///   void clear(): what is sent is taken from here on, if the wire is there at all
 ///   kGap: the time from one to the next
 template <class Wire>
@@ -104,7 +129,7 @@ class MidiDriverRun {
 
     void hear() {
         do poll(Wire::kGap);
-        while (wire_.deliver());
+        while (wire_.arrivals.deliver());
     }
 
     void poll(base::Microseconds step) {
