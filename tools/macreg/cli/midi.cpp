@@ -55,8 +55,7 @@ bool is_can(const MidiCommon& midi) {
 }
 
 std::uint32_t midi_baud(const MidiCommon& midi) {
-    if (midi.baud != 0) return midi.baud;
-    return midi.common.has_baud ? midi.common.baud : midi::reg::kFactoryBaud;
+    return midi.baud != 0 ? midi.baud : midi.common.baud_or(midi::reg::kFactoryBaud);
 }
 
 MidiSession::MidiSession(const MidiCommon& options, std::uint32_t baud, base::Microseconds patience)

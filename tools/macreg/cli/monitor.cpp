@@ -97,7 +97,7 @@ bool is_midi(const Options& options) {
 
 /// As `midi` has it: --baud if said, else the factory's.
 Common line_of_midi(Common common) {
-    if (!common.has_baud) common.baud = registers::midi::kFactoryBaud;
+    common.baud = common.baud_or(registers::midi::kFactoryBaud);
     return common;
 }
 

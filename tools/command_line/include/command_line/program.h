@@ -56,6 +56,7 @@ struct Common {
     std::string port;
     std::uint32_t baud = 19'200;
     bool has_baud = false;  ///< it was said
+    std::uint32_t baud_or(std::uint32_t usual) const { return has_baud ? baud : usual; }
     unsigned address = 0;
     unsigned patience_ms = 150;
     unsigned attempts = 10;  ///< of each question
