@@ -54,18 +54,18 @@ base::Instant DescriptorClient::now() const {
 
 namespace nplc::host {
 
-ByteClient::Opened ByteClient::open(const std::string& endpoint, std::uint32_t baud) {
+ByteClient::Opened ByteClient::open(const std::string& endpoint, std::uint32_t baud, Holding holding) {
     const auto after = [&](const char* kind) -> std::optional<std::string> {
         const std::string prefix = std::string(kind) + ":";
         if (!endpoint.starts_with(prefix)) return std::nullopt;
         return endpoint.substr(prefix.size());
     };
     if (const auto path = after("pty"); path && !path->empty())
-        return hal_linux::open_terminal_client(*path, endpoint, baud);
+        return hal_linux::open_terminal_client(*path, endpoint, baud, holding);
     if (const auto path = after("unix"); path && !path->empty()) return hal_linux::open_unix_client(*path);
     if (const auto where = after("tcp"); where && !where->empty()) return hal_linux::open_tcp_client(*where);
     if (endpoint.find('/') != std::string::npos && endpoint.find(':') > endpoint.find('/'))
-        return hal_linux::open_terminal_client(endpoint, endpoint, baud);
+        return hal_linux::open_terminal_client(endpoint, endpoint, baud, holding);
     return {nullptr, "'" + endpoint + "': write " + forms(), true};
 }
 

@@ -6,6 +6,8 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
 #include "feeding.h"
@@ -69,6 +71,16 @@ DeviceWatchdog::Opened DeviceWatchdog::open(const std::string& path, base::Micro
     armed->path_ = path;
     armed->feed();
     return {std::move(armed), {}};
+}
+
+bool DeviceWatchdog::any_has_reset_board() {
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator("/sys/class/watchdog", error)) {
+        int cause = 0;
+        if (std::ifstream(entry.path() / "bootstatus") >> cause && (cause & WDIOF_CARDRESET) != 0)
+            return true;
+    }
+    return false;
 }
 
 DeviceWatchdog::~DeviceWatchdog() {

@@ -11,6 +11,7 @@
 
 #include "file_descriptor.h"
 #include "storage_bounds.h"
+#include "whole_file.h"
 
 namespace nplc::hal_linux {
 namespace {
@@ -64,32 +65,24 @@ class DiskStorage final : public FileStorage {
     bool failed_ = false;
 };
 
-/// Written beside its place, then moved there.
-bool make_blank(const std::string& path, std::uint32_t size) {
-    const std::string temporary = path + "." + std::to_string(::getpid());
-    const FileDescriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
-    const std::vector<std::uint8_t> blank(size, 0xFF);
-    const bool written = file &&
-                         ::write(file.get(), blank.data(), blank.size()) == static_cast<ssize_t>(size) &&
-                         ::fsync(file.get()) == 0 && ::rename(temporary.c_str(), path.c_str()) == 0;
-    if (!written) {
-        const int reason = errno;
-        ::unlink(temporary.c_str());
-        errno = reason;
-        return false;
-    }
-    const std::string folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path().string() : ".";
-    const FileDescriptor parent(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    return parent && ::fsync(parent.get()) == 0;
+std::string cannot_be_made(const std::string& path, std::uint32_t size, int reason) {
+    std::string said = path + ": cannot be made: " + std::strerror(reason);
+    if (reason != ENOSPC && reason != EDQUOT) return said;
+    return said + "; it needs " + std::to_string(size) + " bytes in " +
+           fs::absolute(path).parent_path().string();
 }
 
 }  // namespace
 
 FileStorage::Opened FileStorage::open(const std::string& path, const ports::StorageGeometry& geometry) {
     std::error_code error;
-    if (!fs::exists(path, error) && !make_blank(path, geometry.size))
-        return {nullptr, path + ": cannot be made: " + std::strerror(errno)};
-    FileDescriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+    const fs::file_type type = fs::symlink_status(path, error).type();
+    if (type == fs::file_type::symlink)
+        return {nullptr, path + ": this is a link, which is not followed; name the file itself"};
+    if (type == fs::file_type::not_found &&
+        !make_whole_file(path, std::vector<std::uint8_t>(geometry.size, 0xFF)))
+        return {nullptr, cannot_be_made(path, geometry.size, errno)};
+    FileDescriptor file(::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     struct stat status {};
     if (!file || ::fstat(file.get(), &status) != 0)
         return {nullptr, path + ": cannot be opened: " + std::strerror(errno)};

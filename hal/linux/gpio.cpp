@@ -157,6 +157,7 @@ GpioBits::~GpioBits() = default;
 
 std::string GpioBits::take(const Wanted& wanted) {
     if (wanted.lines.size() > kMostLines) return "at most 8 lines can be had at once";
+    parts_.clear();
     std::vector<Part> parts;
     for (std::size_t bit = 0; bit < wanted.lines.size(); ++bit) {
         const auto& line = wanted.lines[bit];

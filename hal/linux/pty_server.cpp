@@ -11,6 +11,8 @@
 #include <filesystem>
 
 #include "file_descriptor.h"
+#include "name_lock.h"
+#include "reason.h"
 
 namespace nplc::hal_linux {
 namespace {
@@ -19,8 +21,12 @@ namespace fs = std::filesystem;
 
 class PtyServer final : public ByteServer {
   public:
-    PtyServer(FileDescriptor master, const std::string& path, std::string terminal)
-        : master_(std::move(master)), path_(path), terminal_(std::move(terminal)), name_("pty:" + path) {}
+    PtyServer(NameLock lock, FileDescriptor master, const std::string& path, std::string terminal)
+        : lock_(std::move(lock)),
+          master_(std::move(master)),
+          path_(path),
+          terminal_(std::move(terminal)),
+          name_("pty:" + path) {}
     ~PtyServer() override {
         // Whoever made another link of it since keeps that one.
         std::error_code error;
@@ -35,6 +41,8 @@ class PtyServer final : public ByteServer {
         return poll(&state, 1, 0) == 0 || (state.revents & POLLHUP) == 0;
     }
 
+    bool has_left(std::size_t /*seat*/) override { return !has_client(); }
+
     std::size_t read_seat(std::size_t /*seat*/, std::span<std::uint8_t> out) override {
         const ssize_t count = ::read(master_.get(), out.data(), out.size());
         return count > 0 ? static_cast<std::size_t>(count) : 0;
@@ -48,6 +56,7 @@ class PtyServer final : public ByteServer {
     int descriptor() const override { return master_.get(); }
 
   private:
+    NameLock lock_;
     FileDescriptor master_;
     fs::path path_;
     std::string terminal_;
@@ -64,29 +73,34 @@ bool prepare_terminal(const char* terminal) {
     return tcsetattr(slave.get(), TCSANOW, &mode) == 0;
 }
 
-std::string reason() {
-    return std::strerror(errno);
+/// A link to a pseudo-terminal is what a program that was killed leaves behind.
+std::string what_else_is_at(const std::string& path) {
+    std::error_code error;
+    if (!fs::exists(fs::symlink_status(path, error))) return {};
+    if (!fs::is_symlink(path, error)) return "there is a file of this name";
+    const std::string target = fs::read_symlink(path, error);
+    return target.starts_with("/dev/pts/") ? std::string() : "there is a link of this name, to " + target;
 }
 
 }  // namespace
 
-ByteServer::Opened open_pty_server(const std::string& path) {
-    std::error_code error;
-    const bool is_link = fs::is_symlink(path, error);
-    if (!is_link && fs::exists(fs::symlink_status(path, error)))
-        return {nullptr, "pty:" + path + ": there is a file of this name; name another, or remove it"};
+ByteServer::Opened open_pty_server(const std::string& path, bool at_once) {
+    const std::string name = "pty:" + path;
+    auto [lock, taken] = NameLock::take(name, path, at_once);
+    if (!taken.empty()) return {nullptr, taken};
+    if (const std::string foreign = what_else_is_at(path); !foreign.empty())
+        return {nullptr, name + ": " + foreign + "; name another path, or remove it"};
     FileDescriptor master(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
     if (!master || grantpt(master.get()) != 0 || unlockpt(master.get()) != 0)
-        return {nullptr, "pty:" + path + ": no pseudo-terminal to be had: " + reason()};
+        return {nullptr, name + ": no pseudo-terminal to be had: " + reason()};
     char terminal[64] = {};
     if (ptsname_r(master.get(), terminal, sizeof terminal) != 0 || !prepare_terminal(terminal))
-        return {nullptr, "pty:" + path + ": the pseudo-terminal cannot be set up: " + reason()};
-    // The new link takes the old one's place in one step.
-    const std::string temporary = path + "." + std::to_string(::getpid());
-    fs::create_symlink(terminal, temporary, error);
-    if (!error) fs::rename(temporary, path, error);
-    if (error) return {nullptr, "pty:" + path + ": the link cannot be made: " + error.message()};
-    return {std::make_unique<PtyServer>(std::move(master), path, terminal), {}};
+        return {nullptr, name + ": the pseudo-terminal cannot be set up: " + reason()};
+    std::error_code error;
+    fs::remove(path, error);  // of a program that was killed
+    if (!error) fs::create_symlink(terminal, path, error);
+    if (error) return {nullptr, name + ": the link cannot be made: " + error.message()};
+    return {std::make_unique<PtyServer>(std::move(lock), std::move(master), path, terminal), {}};
 }
 
 }  // namespace nplc::hal_linux

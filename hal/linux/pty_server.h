@@ -6,6 +6,6 @@
 
 namespace nplc::hal_linux {
 
-ByteServer::Opened open_pty_server(const std::string& path);
+ByteServer::Opened open_pty_server(const std::string& path, bool at_once);
 
 }  // namespace nplc::hal_linux

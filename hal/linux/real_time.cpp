@@ -6,12 +6,10 @@
 #include <cerrno>
 #include <cstring>
 
+#include "reason.h"
+
 namespace nplc::hal_linux {
 namespace {
-
-std::string reason() {
-    return std::strerror(errno);
-}
 
 std::string in_words(const std::vector<int>& cpus) {
     std::string text;

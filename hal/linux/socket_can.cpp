@@ -53,7 +53,7 @@ CanState state_of(std::uint8_t controller, CanState before) {
 }
 
 /// Half a per cent: what two ends may differ by.
-bool fits(std::uint32_t made, std::uint32_t wanted) {
+bool fits_bitrate(std::uint32_t made, std::uint32_t wanted) {
     return std::abs(std::int64_t{made} - std::int64_t{wanted}) * 200 <= std::int64_t{wanted};
 }
 
@@ -67,12 +67,11 @@ std::string set_up_words(const CanSettings& settings) {
 std::string misfit(const CanSettings& settings, const std::optional<CanLink>& link) {
     const std::string& name = settings.interface;
     if (!link)
-        return "there is no interface '" + name + "'; `ip -brief link show type can` lists those for CAN";
-    if (!link->is_can)
-        return name + " is not an interface for CAN; `ip -brief link show type can` lists those";
+        return "there is no interface '" + name + "'; `ip -o link | grep link/can` lists those for CAN";
+    if (!link->is_can) return name + " is not an interface for CAN; `ip -o link | grep link/can` lists those";
     if (!settings.bitrate || !link->bitrate) return {};
     if (*link->bitrate == 0) return name + " has no bit rate yet; as root: " + set_up_words(settings);
-    if (!fits(*link->bitrate, *settings.bitrate))
+    if (!fits_bitrate(*link->bitrate, *settings.bitrate))
         return name + " is set to " + std::to_string(*link->bitrate) + " bit/s, not to " +
                std::to_string(*settings.bitrate) + "; as root: " + set_up_words(settings);
     return {};
@@ -122,10 +121,12 @@ struct SocketCan::Inside {
     bool take_changes();
     void set_state(CanState state_now);
     void lose();
+    bool hears_changes();
 
     CanSettings settings;
     FileDescriptor both;  ///< epoll
     LinkChanges changes{};
+    bool hears = false;    ///< `changes` is among `both`
     FileDescriptor raw{};  ///< none while the interface is gone
     int index = 0;
     CanState state = CanState::down;
@@ -192,6 +193,11 @@ void SocketCan::Inside::lose() {
     set_state(CanState::down);
 }
 
+bool SocketCan::Inside::hears_changes() {
+    hears = hears || (both && watch(both.get(), changes.descriptor()));
+    return hears;
+}
+
 /// False if there were none. What counts is how it is now: an error frame may be younger than the change.
 bool SocketCan::Inside::take_changes() {
     if (!changes.take()) return false;
@@ -207,18 +213,20 @@ SocketCan::SocketCan(std::unique_ptr<Inside> inside) : inside_(std::move(inside)
 SocketCan::~SocketCan() = default;
 
 SocketCan::Opened SocketCan::open(const CanSettings& settings) {
-    auto inside = std::make_unique<Inside>(settings);
-    if (!inside->both || !watch(inside->both.get(), inside->changes.descriptor()))
-        return {nullptr, settings.interface + ": cannot be watched: " + std::strerror(errno)};
-    std::unique_ptr<SocketCan> can(new SocketCan(std::move(inside)));
+    std::unique_ptr<SocketCan> can = absent(settings);
     std::string error = can->reopen();
     if (!error.empty()) return {nullptr, std::move(error)};
     return {std::move(can), {}};
 }
 
+std::unique_ptr<SocketCan> SocketCan::absent(const CanSettings& settings) {
+    return std::unique_ptr<SocketCan>(new SocketCan(std::make_unique<Inside>(settings)));
+}
+
 std::string SocketCan::reopen() {
     Inside& own = *inside_;
     own.lose();
+    if (!own.hears_changes()) return own.settings.interface + ": cannot be watched: " + std::strerror(errno);
     std::optional<CanLink> link = can_link(own.settings.interface);
     if (std::string error = misfit(own.settings, link); !error.empty()) return error;
     FileDescriptor raw = open_raw(link->index, own.filters);

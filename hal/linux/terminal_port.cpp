@@ -13,22 +13,10 @@
 namespace nplc::hal_linux {
 namespace {
 
-/// "minicom (process 1234)"; empty if it is none that we may look into.
-std::string holder(dev_t device) {
-    return program_with(
-        [device](const struct stat& status) { return S_ISCHR(status.st_mode) && status.st_rdev == device; });
-}
-
-std::string held(const std::string& name, const std::string& path) {
-    struct stat status {};
-    const std::string who = ::stat(path.c_str(), &status) == 0 ? holder(status.st_rdev) : std::string();
-    return name + ": " + (who.empty() ? "another program" : who) + " holds this port; end it first";
-}
-
 std::string cannot_open(const std::string& name, const std::string& path, int reason) {
     switch (reason) {
         case EBUSY:
-            return held(name, path);
+            return held_by_another(name, path);
         case ENOENT:
             return name + ": there is no such port; is the device connected, or its program running?";
         case EACCES:
@@ -50,15 +38,33 @@ termios raw_mode(termios mode, speed_t speed) {
     return mode;
 }
 
-ExclusivePort open_exclusively(const std::string& path, const std::string& name) {
+std::string holder_of(const std::string& path) {
+    struct stat port {};
+    if (::stat(path.c_str(), &port) != 0) return {};
+    return program_with(
+        [&](const struct stat& status) { return S_ISCHR(status.st_mode) && status.st_rdev == port.st_rdev; });
+}
+
+std::string held_by_another(const std::string& name, const std::string& path) {
+    const std::string who = holder_of(path);
+    return name + ": " + (who.empty() ? "another program" : who) + " holds this port; end it first";
+}
+
+OpenedPort open_unheld(const std::string& path, const std::string& name) {
     FileDescriptor terminal(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
     if (!terminal) return {{}, cannot_open(name, path, errno)};
     termios mode{};
     if (::tcgetattr(terminal.get(), &mode) != 0) return {{}, name + ": this is not a serial line"};
-    if (::flock(terminal.get(), LOCK_EX | LOCK_NB) != 0) return {{}, held(name, path)};
-    if (::ioctl(terminal.get(), TIOCEXCL) != 0)
-        return {{}, name + ": cannot be set up: " + std::strerror(errno)};
     return {std::move(terminal), {}};
+}
+
+OpenedPort open_exclusively(const std::string& path, const std::string& name) {
+    OpenedPort port = open_unheld(path, name);
+    if (!port.descriptor) return port;
+    if (::flock(port.descriptor.get(), LOCK_EX | LOCK_NB) != 0) return {{}, held_by_another(name, path)};
+    if (::ioctl(port.descriptor.get(), TIOCEXCL) != 0)
+        return {{}, name + ": cannot be set up: " + std::strerror(errno)};
+    return port;
 }
 
 }  // namespace nplc::hal_linux

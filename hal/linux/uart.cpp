@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t kAtOnce = 256;
 
 /// Drivers round; a line takes a speed that is 2.5 % off, not more.
-bool fits(std::uint32_t made, std::uint32_t wanted) {
+bool fits_baud(std::uint32_t made, std::uint32_t wanted) {
     const std::int64_t off = std::int64_t{made} - std::int64_t{wanted};
     return std::abs(off) * 40 <= std::int64_t{wanted};
 }
@@ -48,7 +48,7 @@ bool set_rs485(int descriptor, const Rs485& wanted) {
 std::string set_up(int descriptor, const UartSettings& settings) {
     const std::string& path = settings.path;
     if (!set_mode(descriptor)) return path + ": cannot be set up: " + std::strerror(errno);
-    if (!set_any_baud(descriptor, settings.baud) || !fits(present_baud(descriptor), settings.baud))
+    if (!set_any_baud(descriptor, settings.baud) || !fits_baud(present_baud(descriptor), settings.baud))
         return path + ": this device cannot do " + std::to_string(settings.baud) + " baud";
     if (settings.rs485 && !set_rs485(descriptor, *settings.rs485))
         return path + ": the driver of this device cannot do RS-485 (" + std::strerror(errno) +
@@ -60,10 +60,14 @@ std::string set_up(int descriptor, const UartSettings& settings) {
 }  // namespace
 
 Uart::Opened Uart::open(const UartSettings& settings) {
-    std::unique_ptr<Uart> uart(new Uart(settings));
+    std::unique_ptr<Uart> uart = absent(settings);
     std::string error = uart->reopen();
     if (!error.empty()) return {nullptr, std::move(error)};
     return {std::move(uart), {}};
+}
+
+std::unique_ptr<Uart> Uart::absent(const UartSettings& settings) {
+    return std::unique_ptr<Uart>(new Uart(settings));
 }
 
 Uart::~Uart() {
@@ -72,7 +76,7 @@ Uart::~Uart() {
 
 std::string Uart::reopen() {
     lose();
-    ExclusivePort port = open_exclusively(settings_.path, settings_.path);
+    OpenedPort port = open_exclusively(settings_.path, settings_.path);
     if (!port.error.empty()) return port.error;
     if (std::string error = set_up(port.descriptor.get(), settings_); !error.empty()) return error;
     descriptor_ = port.descriptor.release();

@@ -12,8 +12,7 @@ set(CMAKE_AR arm-none-eabi-gcc-ar CACHE STRING "Archiver")
 set(CMAKE_RANLIB arm-none-eabi-gcc-ranlib CACHE STRING "Indexer of archives")
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 
-# One unit, optimised when it is linked. Functions that are called once stay by themselves all the same: it costs 1 %, and
-# sizes and stack can be told of each.
+# One unit, optimised when it is linked.
 set(CMAKE_CXX_FLAGS_INIT "-mcpu=${NPLC_CPU} -mthumb -ffunction-sections -fdata-sections -fno-exceptions -fno-rtti \
--fno-threadsafe-statics -fno-unwind-tables -fno-asynchronous-unwind-tables -flto -fno-inline-functions-called-once")
+-fno-threadsafe-statics -fno-unwind-tables -fno-asynchronous-unwind-tables -flto")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "--specs=nano.specs --specs=nosys.specs -Wl,--gc-sections -flto-partition=one")

@@ -31,7 +31,7 @@ base::Instant steady_now() {
 
 namespace nplc::host {
 
-ByteClient::Opened ByteClient::open(const std::string& endpoint, std::uint32_t baud) {
+ByteClient::Opened ByteClient::open(const std::string& endpoint, std::uint32_t baud, Holding /*holding*/) {
     if (const std::string port = hal_windows::com_port(endpoint); !port.empty())
         return hal_windows::open_com_client(port, baud);
     if (endpoint.starts_with("tcp:") && endpoint.size() > 4)

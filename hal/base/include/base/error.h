@@ -15,7 +15,7 @@ enum class Error : std::uint8_t {
     not_for_motor,   ///< sequence table with an order that the motor does not have
     not_stopped,     ///< only possible while the sequence is stopped
     no_table,        ///< nothing loaded
-    not_enabled,     ///< the enable input is off, or it is started for service
+    not_enabled,     ///< the enable input is off, it is started for service, or locked
     busy,            ///< not now: an operation is under way; ask again
     bad_geometry,    ///< sizes or addresses that do not fit the storage
     bad_offset,      ///< a piece that neither follows what came nor repeats it
@@ -24,6 +24,7 @@ enum class Error : std::uint8_t {
     storage_failed,  ///< what was written does not read back, or the storage said no
     damaged,         ///< stored bytes have changed
     bad_setting,     ///< no such setting, or not one of its values
+    cannot_go_on,    ///< nobody knows what the motor did before it was held
 };
 
 }  // namespace nplc::base

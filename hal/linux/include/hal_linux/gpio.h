@@ -45,7 +45,8 @@ class GpioBits {
         std::string consumer;                            ///< who has them, for `gpioinfo`
         std::optional<std::uint8_t> outputs{};           ///< the first levels of outputs; inputs without
     };
-    /// Empty when all were had; else one line that says which was not, and why. Then none is held.
+    /// Lets go what it held. Empty when all were had; else one line that says which was not, and why. Then
+    /// none is held.
     std::string take(const Wanted& wanted);
 
     /// A bit whose line is not wanted is 0. Nothing if a chip is gone.

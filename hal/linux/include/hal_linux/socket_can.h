@@ -26,6 +26,8 @@ class SocketCan final : public ports::CanPort {
         std::string error;  ///< one line, without a port
     };
     static Opened open(const CanSettings& settings);
+    /// One that is gone until `reopen`.
+    static std::unique_ptr<SocketCan> absent(const CanSettings& settings);
     ~SocketCan();
     SocketCan(const SocketCan&) = delete;
     SocketCan& operator=(const SocketCan&) = delete;

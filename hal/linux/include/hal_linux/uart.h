@@ -32,6 +32,8 @@ class Uart final : public ports::SerialPort {
         std::string error;  ///< one line, without a uart
     };
     static Opened open(const UartSettings& settings);
+    /// One that is gone until `reopen`.
+    static std::unique_ptr<Uart> absent(const UartSettings& settings);
     ~Uart();
     Uart(const Uart&) = delete;
     Uart& operator=(const Uart&) = delete;

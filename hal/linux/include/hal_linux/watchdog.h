@@ -64,6 +64,9 @@ class DeviceWatchdog final : public ports::Watchdog {
     base::Microseconds timeout() const { return timeout_; }
     /// The driver says that it reset the board before this start.
     bool has_reset_board() const { return has_reset_board_; }
+    /// The driver of any watchdog of this board says so in /sys; none is opened, and whoever feeds it may
+    /// have it.
+    static bool any_has_reset_board();
 
     void feed() override;
     /// The orderly end. Empty; or one line why it stays armed (nowayout).

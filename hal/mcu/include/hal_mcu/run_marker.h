@@ -5,10 +5,11 @@
 namespace nplc::hal_mcu {
 
 /// Says in memory that a reset does not clear that the firmware runs: whoever finds it set at the start knows
-/// that the run before was ended by a reset that nobody announced. After power-up the bytes are anything.
+/// that the run before was ended by a reset that nobody announced. After power-up the bytes are anything;
+/// a bit that has flipped hides nothing.
 class RunMarker {
   public:
-    bool is_set() const { return running_ == kRunning && check_ == ~kRunning; }
+    bool is_set() const { return running_ == kRunning || check_ == ~kRunning; }
     void set() {
         running_ = kRunning;
         check_ = ~kRunning;

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdio>
+#include <string>
+
+namespace nplc::host {
+
+struct FileContent {
+    std::string bytes;
+    std::string problem;  ///< why it cannot be read, without its name; empty when it was
+};
+
+/// The whole file. One of more than `most` bytes is refused without reading it; of a device, which may have
+/// no end, no more than 4 MiB are taken. A pipe is read until its writers have closed it; one without a
+/// writer is refused.
+FileContent read_file(const std::string& name, std::size_t most);
+
+/// A new file, open for writing. Null, and errno, if something of this name is there, be it a link.
+std::FILE* create_file(const std::string& name);
+
+}  // namespace nplc::host
