@@ -29,51 +29,52 @@ bool is_long_length(std::size_t length) {
     return length >= 4 && length <= kMaxLongWrite && length % 4 == 0;
 }
 
+constexpr std::size_t place_of(std::size_t index) {
+    return kSync + 2 * index;
+}
+
 /// Byte number `index` of the protected ones.
 std::uint8_t protected_byte(std::span<const std::uint8_t> bytes, std::size_t index) {
-    return bytes[kSync + 2 * index];
+    return bytes[place_of(index)];
 }
 
-bool has_protected_byte(std::span<const std::uint8_t> bytes, std::size_t index) {
-    return bytes.size() > kSync + 2 * index;
+/// The last byte is the protected one with this number.
+bool ends_with(std::span<const std::uint8_t> bytes, std::size_t index) {
+    return bytes.size() == place_of(index) + 1;
 }
 
-/// Repeats, inverses and end of a message with so many protected bytes.
+/// The last byte as repeat, inverse or end of a message with so many protected bytes; those before it are
+/// right.
 Progress framing(std::span<const std::uint8_t> bytes, std::size_t pairs) {
-    const std::size_t end = kSync + 2 * pairs;
-    for (std::size_t i = 1; i < bytes.size(); ++i) {
-        bool right = true;
-        if (i < kSync) {
-            right = bytes[i] == bytes[0];
-        } else if (i >= end) {
-            right = bytes[i] == kEnd;
-        } else if ((i - kSync) % 2 == 1) {
-            right = bytes[i] == base::inverse(bytes[i - 1]);
-        }
-        if (!right) return Progress::wrong;
+    const std::size_t end = place_of(pairs);
+    const std::size_t i = bytes.size() - 1;
+    bool right = true;
+    if (i < kSync) {
+        right = bytes[i] == bytes[0];
+    } else if (i >= end) {
+        right = bytes[i] == kEnd && i < end + kEnds;
+    } else if ((i - kSync) % 2 == 1) {
+        right = bytes[i] == base::inverse(bytes[i - 1]);
     }
+    if (!right) return Progress::wrong;
     return bytes.size() == end + kEnds ? Progress::whole : Progress::partial;
 }
 
+/// Of the last byte, where those before it are right.
 Progress request_progress(std::span<const std::uint8_t> bytes, std::uint8_t long_address) {
     if (bytes[0] < kFirstKind || bytes[0] > kLastKind) return Progress::wrong;
     const Kind kind = static_cast<Kind>(bytes[0]);
-    std::size_t pairs = has_register(kind) ? 2 : 1;
-    if (has_register(kind) && has_protected_byte(bytes, 1) && protected_byte(bytes, 1) == 0)
-        return Progress::wrong;
-    if (kind == Kind::write) {
-        pairs = kHeaderPairs;
-        if (has_protected_byte(bytes, 2)) {
-            const std::uint8_t length = protected_byte(bytes, 2);
-            const bool takes_long =
-                long_address != kMasterAddress && protected_byte(bytes, 0) == long_address;
-            if (!is_write_length(length) && !(takes_long && is_long_length(length))) return Progress::wrong;
-            pairs += length;
-        }
-    }
-    return framing(bytes, pairs);
+    if (!has_register(kind)) return framing(bytes, 1);
+    if (ends_with(bytes, 1) && bytes.back() == 0) return Progress::wrong;
+    if (kind != Kind::write) return framing(bytes, 2);
+    if (bytes.size() <= place_of(2)) return framing(bytes, kHeaderPairs);
+    const std::uint8_t length = protected_byte(bytes, 2);
+    const bool takes_long = long_address != kMasterAddress && protected_byte(bytes, 0) == long_address;
+    if (!is_write_length(length) && !(takes_long && is_long_length(length))) return Progress::wrong;
+    return framing(bytes, kHeaderPairs + length);
 }
 
+/// Of the last byte, where those before it are right.
 Progress reply_progress(std::span<const std::uint8_t> bytes, Answer answer, std::size_t data_bytes) {
     if (answer == Answer::accept) {
         if (bytes.back() != kAccept) return Progress::wrong;
@@ -81,11 +82,9 @@ Progress reply_progress(std::span<const std::uint8_t> bytes, Answer answer, std:
     }
     if (answer == Answer::none || bytes[0] != static_cast<std::uint8_t>(Kind::write)) return Progress::wrong;
     const std::size_t header = answer == Answer::registers ? kHeaderPairs : kHeaderPairs - 1;
-    if (has_protected_byte(bytes, 0) && protected_byte(bytes, 0) != kMasterAddress) return Progress::wrong;
-    if (answer == Answer::registers && has_protected_byte(bytes, 1) && protected_byte(bytes, 1) == 0)
-        return Progress::wrong;
-    if (has_protected_byte(bytes, header - 1) && protected_byte(bytes, header - 1) != data_bytes)
-        return Progress::wrong;
+    if (ends_with(bytes, 0) && bytes.back() != kMasterAddress) return Progress::wrong;
+    if (answer == Answer::registers && ends_with(bytes, 1) && bytes.back() == 0) return Progress::wrong;
+    if (ends_with(bytes, header - 1) && bytes.back() != data_bytes) return Progress::wrong;
     return framing(bytes, header + data_bytes);
 }
 
@@ -110,16 +109,27 @@ Reply reply_of(std::span<const std::uint8_t> bytes, Answer answer, std::size_t d
     return reply;
 }
 
-/// Takes bytes off the front until what is left may still become a message, or is one.
+/// Takes in the byte behind the `count` that are right so far. If it is wrong, bytes go off the front until
+/// what is left may still become a message, or is one.
 template <std::size_t N, class Count, class Judge>
-Progress settle(std::array<std::uint8_t, N>& bytes, Count& count, Judge judge) {
-    while (count > 0) {
-        const Progress progress = judge(std::span<const std::uint8_t>(bytes.data(), count));
-        if (progress != Progress::wrong) return progress;
-        std::copy(bytes.begin() + 1, bytes.begin() + count, bytes.begin());
-        --count;
+Progress take_in(std::array<std::uint8_t, N>& bytes, Count& count, std::uint8_t byte, Judge judge) {
+    std::size_t begin = 0;
+    std::size_t end = count + 1U;
+    std::size_t right = count;
+    bytes[count] = byte;
+    Progress progress = Progress::partial;
+    while (begin + right < end) {
+        progress = judge(std::span<const std::uint8_t>(&bytes[begin], right + 1));
+        if (progress == Progress::wrong) {
+            ++begin;
+            right = 0;
+        } else {
+            ++right;
+        }
     }
-    return Progress::wrong;
+    std::copy(bytes.begin() + begin, bytes.begin() + end, bytes.begin());
+    count = static_cast<Count>(right);
+    return progress;
 }
 
 template <std::size_t N>
@@ -204,13 +214,11 @@ EncodedReply encode_samples(std::span<const std::uint8_t> data) {
 }
 
 std::optional<Request> RequestDecoder::receive(std::uint8_t byte) {
-    bytes_[count_] = byte;
-    ++count_;
     data_size_ = 0;
     const auto judge = [this](std::span<const std::uint8_t> bytes) {
         return request_progress(bytes, long_address_);
     };
-    if (settle(bytes_, count_, judge) != Progress::whole) return std::nullopt;
+    if (take_in(bytes_, count_, byte, judge) != Progress::whole) return std::nullopt;
     const Request request = request_of({bytes_.data(), count_});
     data_size_ = request.length;
     for (std::size_t i = 0; i < data_size_; ++i) bytes_[i] = protected_byte(bytes_, kHeaderPairs + i);
@@ -243,12 +251,10 @@ void ReplyDecoder::expect(Answer answer, std::size_t data_bytes) {
 }
 
 std::optional<Reply> ReplyDecoder::receive(std::uint8_t byte) {
-    bytes_[count_] = byte;
-    ++count_;
     const auto judge = [this](std::span<const std::uint8_t> bytes) {
         return reply_progress(bytes, answer_, data_bytes_);
     };
-    if (settle(bytes_, count_, judge) != Progress::whole) return std::nullopt;
+    if (take_in(bytes_, count_, byte, judge) != Progress::whole) return std::nullopt;
     const Reply reply = reply_of({bytes_.data(), count_}, answer_, data_bytes_);
     count_ = 0;
     return reply;

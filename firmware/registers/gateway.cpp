@@ -18,8 +18,9 @@ constexpr std::array kMap{
     Row{STORED_BYTES, 1, "STORED_BYTES", kRead, "its length; 0 without one"},
     Row{STORED_MAX, 1, "STORED_MAX", kRead, "bytes that a table may have"},
     Row{STORE_FLAGS, 1, "STORE_FLAGS", kRead,
-        "bit 0: a table slot is damaged and the other one is in use; bit 1: stored settings were damaged and "
-        "initial ones are in use"},
+        "bit 0: the last stored table is damaged or gone, and an older one or none is in use; bit 1: the "
+        "same "
+        "of the settings, with older or initial ones"},
     Row{STATUS, 1, "STATUS", kRead, "see Status below"},
     Row{SAFE_REASON, 1, "SAFE_REASON", kRead, "why the outputs are safe, see Reasons below; 0: they are not"},
     Row{SAFE_SINCE, 1, "SAFE_SINCE", kRead, "UPTIME at which the reason came"},
@@ -142,7 +143,13 @@ std::string_view describe(Result result) {
         case Result::not_running:
             return "the sequence does not run";
         case Result::not_enabled:
-            return "the enable input is off (switch it on, then run), or the board was started for service";
+            return "the enable input is off (switch it on, then run), or the board was started for "
+                   "service, lacks something or has something damaged stored (see SAFE_REASON)";
+        case Result::too_late:
+            return "it waited longer than 1 s to be read, or a stop came before it, and was not carried out";
+        case Result::cannot_go_on:
+            return "the motor cannot take up again what it did before it was held (homing, gear, or what "
+                   "somebody else told it); stop, then run from the start";
         case Result::table_no_end:
             return "the table has no end term";
         case Result::table_ragged:

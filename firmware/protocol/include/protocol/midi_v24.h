@@ -80,9 +80,9 @@ class FrameReader {
     bool sum_is_right() const;
     bool all_digits() const;
 
-    std::array<std::uint8_t, kRequestFields + 2> bytes_{};
     std::uint8_t fields_;
     std::uint8_t count_ = 0;  ///< characters of the frame so far, Stx among them
+    std::array<std::uint8_t, kRequestFields + 2> bytes_{};
 };
 
 /// A module's receiving end. It reports each frame on the line, whatever its address: which are its own is
@@ -138,14 +138,14 @@ class AnswerDecoder {
     Answer control(std::uint8_t byte);
     void take_reply(FrameReader::State state);
 
-    FrameReader frame_{kReplyFields};
-    Request request_{};
     bool waiting_ = false;
     bool acknowledged_ = false;
     bool busy_ = false;  ///< Ack and Xoff came
     bool has_value_ = false;
     bool spoilt_ = false;
+    FrameReader frame_{kReplyFields};
     std::uint32_t value_ = 0;
+    Request request_{};
 };
 
 }  // namespace nplc::protocol::midi_v24

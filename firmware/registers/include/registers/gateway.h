@@ -130,6 +130,8 @@ enum class Result : std::uint8_t {
     nothing_stored = 16,
     not_running = 17,
     not_enabled = 18,
+    too_late = 19,
+    cannot_go_on = 20,
     table_no_end = 32,
     table_ragged = 33,
     bad_next_step = 34,
@@ -155,6 +157,7 @@ enum StatusBit : std::uint32_t {
     kEnabled = 1U << 15,
     kVirtualMotor = 1U << 16,
     kSingle = 1U << 17,
+    kCannotGoOn = 1U << 18,
 };
 
 enum class RunState : std::uint8_t { stopped = 0, waiting = 1, running = 2, holding = 3, held = 4 };
@@ -175,6 +178,7 @@ enum class Event : std::uint8_t {
     upload_given_up = 27,
     gave_up = 28,
     gave_up_at = 29,
+    motor_fault = 32,
 };
 
 enum class Access : std::uint8_t { read, read_write, write };
