@@ -1,5 +1,6 @@
 #include "motor/midi_can_link.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace nplc::motor {
@@ -9,37 +10,52 @@ namespace can = protocol::midi_can;
 using Kind = MidiOutcome::Kind;
 
 constexpr int kReadsPerPoll = 64;
+constexpr base::Microseconds kRestartPause{100'000};
 constexpr std::uint32_t kWholeId = 0x7FF;
+/// To a port that had no room: a frame of 8 bytes takes 0.9 ms at 125 kbit/s.
+constexpr base::Microseconds kOfferAgain{1'000};
 
 }  // namespace
 
-MidiCanLink::MidiCanLink(ports::CanPort& port, const Settings& settings) : port_(port), settings_(settings) {
-    const ports::CanFilter filters[]{{.id = unsigned{can::kFromModule} + settings.address, .mask = kWholeId},
-                                     {.id = unsigned{can::kBootUp} + settings.address, .mask = kWholeId}};
+MidiCanLink::MidiCanLink(ports::CanPort& port, const Settings& settings)
+    : port_(port), address_(settings.address) {
+    const unsigned address = address_;
+    // What is for all modules (600h) is answered by the one at address 1.
+    const std::uint32_t mask = address == 1 ? kWholeId & ~1U : kWholeId;
+    const ports::CanFilter filters[]{{.id = can::kFromModule + address, .mask = kWholeId},
+                                     {.id = can::kBootUp + address, .mask = kWholeId},
+                                     {.id = (can::kToModule + address) & mask, .mask = mask}};
     static_cast<void>(port_.filter(filters));  // without them more comes in, and is passed over
 }
 
 void MidiCanLink::begin(const MidiMessage& message, base::Instant now) {
     static_cast<void>(receive());  // of a message that is over
     request_ = {.kind = message.is_query ? can::Request::Kind::query : can::Request::Kind::command,
-                .address = settings_.address,
+                .address = address_,
                 .index = static_cast<std::uint16_t>(can::kIndices + message.number),
                 .sub_index = message.sub_index,
                 .data = message.data};
     busy_ = true;
-    written_ = !booted_ && write(can::encode(request_));  // who has booted is to be told of first
-    deadline_ = written_ ? now + settings_.longest_answer : now;
+    written_ = false;
+    deadline_ = now + kLongestAnswer;
     watch_bus(now);
+    transmit(now);
 }
 
 MidiOutcome MidiCanLink::poll(base::Instant now) {
     MidiOutcome outcome = receive();
+    watch_bus(now);
     if (!busy_) return {};
-    if (outcome.kind == Kind::none && now >= deadline_)
+    if (outcome.kind == Kind::none && !written_ && now < deadline_) transmit(now);
+    if (outcome.kind == Kind::none && (cut_ || now >= deadline_))
         outcome.kind = written_ ? Kind::unclear : Kind::not_taken;
     if (outcome.kind != Kind::none) busy_ = false;
-    watch_bus(now);
     return outcome;
+}
+
+base::Instant MidiCanLink::next_poll(base::Instant now) const {
+    if (!busy_) return base::kNever;
+    return written_ ? deadline_ : std::min(deadline_, now + kOfferAgain);
 }
 
 MidiOutcome MidiCanLink::receive() {
@@ -47,10 +63,10 @@ MidiOutcome MidiCanLink::receive() {
     ports::CanFrame frame;
     for (int i = 0; i < kReadsPerPoll && port_.read(frame); ++i) {
         if (frame.extended || frame.remote) continue;
-        const can::Answer answer =
-            can::decode_answer({static_cast<std::uint16_t>(frame.id), frame.length, frame.data});
-        if (answer.kind == can::Answer::Kind::booted)
-            booted_ = booted_ || answer.address == settings_.address;
+        const can::Frame heard{static_cast<std::uint16_t>(frame.id), frame.length, frame.data};
+        const can::Answer answer = can::decode_answer(heard);
+        count(heard, answer);
+        if (answer.kind == can::Answer::Kind::booted) booted_ = booted_ || answer.address == address_;
         if (!busy_ || !written_ || outcome.kind != Kind::none || !can::answers(answer, request_)) continue;
         switch (answer.kind) {
             case can::Answer::Kind::accepted:
@@ -67,14 +83,42 @@ MidiOutcome MidiCanLink::receive() {
     return outcome;
 }
 
-bool MidiCanLink::write(const can::Frame& frame) {
-    return port_.write({.id = frame.id, .length = frame.size, .data = frame.data});
+/// Another master's requests are answered too.
+void MidiCanLink::count(const can::Frame& frame, const can::Answer& answer) {
+    using Said = can::Answer::Kind;
+    const bool answers =
+        answer.kind == Said::accepted || answer.kind == Said::value || answer.kind == Said::refused;
+    if (answers && answer.address == address_) return answers_.answered();
+    const can::Request request = can::decode_request(frame);
+    const bool asks = request.kind == can::Request::Kind::command ||
+                      request.kind == can::Request::Kind::query || request.kind == can::Request::Kind::other;
+    const bool to_it = request.address == address_ || (request.address == can::kGeneral && address_ == 1);
+    if (asks && to_it) answers_.asked_by_other();
+}
+
+/// Who has booted is to be told of first.
+void MidiCanLink::transmit(base::Instant now) {
+    const can::Frame frame = can::encode(request_);
+    if (booted_ || cut_) {
+        deadline_ = now;
+    } else if (port_.write({.id = frame.id, .length = frame.size, .data = frame.data})) {
+        written_ = true;
+        answers_.asked();
+        deadline_ = now + kLongestAnswer;
+    }
 }
 
 void MidiCanLink::watch_bus(base::Instant now) {
-    if (port_.state() != ports::CanState::bus_off || now < may_restart_) return;
+    const ports::CanState state = port_.state();
+    cut_ = state == ports::CanState::down || state == ports::CanState::bus_off;
+    if (state != ports::CanState::bus_off || now < may_restart_) return;
     static_cast<void>(port_.restart());
-    may_restart_ = now + settings_.restart_pause;
+    may_restart_ = now + kRestartPause;
+}
+
+MidiTrouble MidiCanLink::trouble() const {
+    if (cut_) return MidiTrouble::no_bus;
+    return answers_.several() ? MidiTrouble::several : MidiTrouble::none;
 }
 
 bool MidiCanLink::take_boot() {

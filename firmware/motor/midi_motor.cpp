@@ -10,11 +10,15 @@ namespace midi = registers::midi;
 using Kind = MidiOutcome::Kind;
 
 constexpr base::Microseconds kRetry{20'000};
+/// Between two messages while nobody answers.
+constexpr base::Microseconds kProbe{100'000};
 constexpr std::uint8_t kMostRefusals = 50;  ///< of a command that waits for standstill
 /// With a motion that nobody knows of; then it is ended.
 constexpr base::Microseconds kPatience{1'000'000};
 /// 000 §VI 00h: two seconds, and a little.
 constexpr base::Microseconds kDeaf{2'100'000};
+/// While answers cannot be read.
+constexpr std::uint8_t kBlindStops = 3;
 /// Beyond the ramp's own time.
 constexpr base::Microseconds kStopLate{500'000};
 
@@ -29,12 +33,13 @@ constexpr base::Microseconds ramp_time(std::uint8_t ramp, std::uint16_t period) 
 
 }  // namespace
 
-MidiMotor::MidiMotor(MidiLink& link, const Settings& settings) : link_(link), settings_(settings) {}
+MidiMotor::MidiMotor(MidiLink& link, const Settings& settings) : link_(link), model_(settings.model) {}
 
 void MidiMotor::poll(base::Instant now) {
     const MidiOutcome outcome = link_.poll(now);
     if (outcome.kind != Kind::none) on_outcome(outcome, now);
     if (link_.take_boot()) on_boot(now);
+    look_for_trouble(now);
     work(now);
 }
 
@@ -59,14 +64,17 @@ void MidiMotor::work(base::Instant now) {
     const Message message = next_message(now);
     if (!message) return;
     message_ = *message;
+    asked_at_ = static_cast<std::uint32_t>(now.time_since_epoch().count());
     link_.begin(message_, now);
 }
 
 MidiMotor::Message MidiMotor::next_message(base::Instant now) {
     if (phase_ == Phase::down) {
         if (now < next_query_) return {};
-        next_query_ = now + settings_.probe;
-        return query(midi::GET_STATUS);
+        next_query_ = now + kProbe;
+        if (blind_stops_ == 0) return query(midi::GET_STATUS);
+        --blind_stops_;
+        return MidiMessage{.number = midi::EMERGENCY_STOP};
     }
     if (phase_ != Phase::up) {
         if (phase_ == Phase::resetting && now >= deaf_until_) phase_ = Phase::status;
@@ -112,7 +120,7 @@ MidiMotor::Message MidiMotor::start_up_query() const {
 MidiMotor::Message MidiMotor::next_query(base::Instant now) {
     if (!doubtful_ && now < next_query_) return {};
     turn_ = static_cast<std::uint8_t>(turn_ == 2 ? 0 : turn_ + 1);
-    if (turn_ == 2 && needs_position()) return query(midi::GET_POSITION);
+    if (turn_ == 2 && (moves() || needs_position())) return query(midi::GET_POSITION);
     if (turn_ == 2) turn_ = 0;
     return query(turn_ == 0 ? midi::GET_STATUS : midi::GET_MEASURES);
 }
@@ -129,24 +137,50 @@ void MidiMotor::on_boot(base::Instant now) {
     }
 }
 
-void MidiMotor::lose_link(MidiFault why, base::Instant now) {
+/// Both drives obey the stop, and where answers come damaged the requests may be understood.
+void MidiMotor::look_for_trouble(base::Instant now) {
+    const MidiTrouble trouble = link_.trouble();
+    if (trouble == MidiTrouble::none) return;
+    const bool down = phase_ == Phase::down;
+    if (trouble == MidiTrouble::no_bus) return down ? void() : lose_link(MidiFault::link_lost, now);
+    if (down && fault_ == MidiFault::several) return;
+    was_up_ = true;  // told of at a start too, and before what is not acknowledged yet
+    fault_ = MidiFault::none;
+    lose_link(MidiFault::several, now);
+}
+
+void MidiMotor::drop_orders() {
     counters_.discarded += static_cast<std::uint32_t>(orders_.size()) + (order_open_ ? 1U : 0U);
     orders_.clear();
+    order_open_ = false;
+    link_.withdraw();
+}
+
+void MidiMotor::lose_link(MidiFault why, base::Instant now) {
+    drop_orders();
     if (was_up_) {
         raise(why);
         link_error_ = true;
         ++counters_.link_losses;
     }
     if (is_open(access_state_)) end_access(AccessState::failed);
-    was_up_ = order_open_ = resetting_ = reset_wanted_ = resync_ = doubtful_ = goal_holds_ = false;
+    was_up_ = resetting_ = reset_wanted_ = resync_ = doubtful_ = goal_holds_ = false;
     phase_ = Phase::down;
     failures_ = repeats_ = refusals_ = 0;
-    next_query_ = now + settings_.probe;
+    next_query_ = now + kProbe;
     ignore_ = link_.busy();
+    if (why == MidiFault::link_lost || why == MidiFault::restarted) return;
+    blind_stops_ = kBlindStops;
+    next_query_ = now;
 }
 
 void MidiMotor::on_outcome(const MidiOutcome& outcome, base::Instant now) {
     if (std::exchange(ignore_, false)) return;
+    // A probe: its answer counts as soon as only one module gives it.
+    if (phase_ == Phase::down) {
+        probe_ = outcome;
+        if (outcome.kind != Kind::value || link_.trouble() != MidiTrouble::none) return;
+    }
     switch (outcome.kind) {
         case Kind::none:
             return;
@@ -157,35 +191,31 @@ void MidiMotor::on_outcome(const MidiOutcome& outcome, base::Instant now) {
             failures_ = 0;
             return on_value(outcome.value, now);
         case Kind::refused:
-            return on_refused(now);
+            if (!message_.is_query || phase_ == Phase::imax) return on_refused(now);
+            [[fallthrough]];
         case Kind::not_taken:
-            return on_not_taken(now);
         case Kind::unclear:
-            return on_unclear(now);
+            if (++failures_ >= kMostRepeats)
+                return lose_link(outcome.damaged ? MidiFault::unreadable : MidiFault::link_lost, now);
+            if (outcome.kind != Kind::not_taken) return on_unclear(now);
+            ++counters_.resent;
     }
-}
-
-void MidiMotor::on_not_taken(base::Instant now) {
-    if (phase_ == Phase::down) return;
-    if (++failures_ >= settings_.most_repeats) return lose_link(MidiFault::link_lost, now);
-    ++counters_.resent;
 }
 
 /// Parameters and stops may be sent again. A motion is asked after; a change of a run's speed and a new
 /// origin in mid-motion leave no trace that could be.
 void MidiMotor::on_unclear(base::Instant now) {
-    if (phase_ == Phase::down) return;
-    if (++failures_ >= settings_.most_repeats) return lose_link(MidiFault::link_lost, now);
     resync_ = phase_ == Phase::up;
     if (message_.is_query) return;
     const bool in_run = message_.number == midi::RUN && motion_ == Motion::running;
     const bool moved_origin = message_.number == midi::ZERO_POSITION && motion_ != Motion::at_rest;
-    if (in_run || moved_origin || ++repeats_ > settings_.most_repeats) {
+    if (in_run || moved_origin || ++repeats_ > kMostRepeats) {
         forget_parameter();
         raise(MidiFault::unclear);
         stop_wanted_ = true;
     } else if (message_.number == midi::ZERO_POSITION) {
         zero_unclear_ = true;
+        watched_ = false;
     } else if (message_.number == midi::RESET) {
         begin_reset(now);
     } else if (message_.number == midi::GO_TO || message_.number == midi::RUN) {
@@ -204,7 +234,6 @@ void MidiMotor::on_refused(base::Instant now) {
         phase_ = Phase::speeds;  // 80h stays
         return;
     }
-    if (message_.is_query) return on_unclear(now);
     failures_ = 0;
     status_is_new_ = false;
     switch (message_.number) {
@@ -254,6 +283,7 @@ void MidiMotor::on_accepted(base::Instant now) {
         case midi::ZERO_POSITION:
             zero_wanted_ = goal_holds_ = arrived_ = false;
             position_at_ = {};
+            watched_ = false;
             return;
         case midi::TORQUE:
             torque_ = static_cast<std::uint8_t>(data);
@@ -289,7 +319,7 @@ void MidiMotor::on_accepted(base::Instant now) {
 void MidiMotor::begin_motion(Motion motion, base::Instant now) {
     motion_ = motion;
     refusals_ = 0;
-    doubtful_ = arrived_ = at_speed_ = goal_holds_ = false;
+    doubtful_ = watched_ = arrived_ = at_speed_ = goal_holds_ = false;
     next_query_ = now;
 }
 
@@ -311,8 +341,7 @@ void MidiMotor::begin_reset(base::Instant now) {
     deaf_until_ = now + kDeaf;
     counters_.orders += order_open_ ? 1U : 0U;
     order_open_ = false;
-    counters_.discarded += static_cast<std::uint32_t>(orders_.size());
-    orders_.clear();
+    drop_orders();
     if (is_open(access_state_)) end_access(AccessState::failed);
 }
 
@@ -321,9 +350,8 @@ void MidiMotor::send(const Order& order) {
 }
 
 void MidiMotor::stop() {
-    counters_.discarded += static_cast<std::uint32_t>(orders_.size()) + (order_open_ ? 1U : 0U);
-    orders_.clear();
-    order_open_ = reset_wanted_ = zero_wanted_ = zero_unclear_ = false;
+    drop_orders();
+    reset_wanted_ = zero_wanted_ = zero_unclear_ = false;
     base_ = refusals_ = 0;
     registers_.set_word(registers::MODE_REG, 0);
     if (access_state_ == AccessState::waiting) end_access(AccessState::failed);

@@ -21,9 +21,8 @@ constexpr MidiMessage command(midi::Command number, std::uint32_t data = 0) {
 }  // namespace
 
 MidiMotor::Lack MidiMotor::lack_of(const Order& order) const {
-    return order.is_register_write
-               ? midi::lack_of_write(settings_.model, order.reg, order.longword, order.value)
-               : midi::lack_of_command(order.command);
+    return order.is_register_write ? midi::lack_of_write(model_, order.reg, order.longword, order.value)
+                                   : midi::lack_of_command(order.command);
 }
 
 /// The first reason counts. The drive is led to a stop.
@@ -125,7 +124,7 @@ std::int32_t MidiMotor::v_soll() const {
 }
 
 std::optional<std::int32_t> MidiMotor::target() const {
-    return midi::increments_of_counts(settings_.model, registers_.position(P_SOLL));
+    return midi::increments_of_counts(model_, registers_.position(P_SOLL));
 }
 
 /// What can be sent at once to lead the drive to what the registers say; nothing while that has to wait for
@@ -141,12 +140,13 @@ MidiMotor::Message MidiMotor::next_command(base::Instant now) {
         if (torque && *torque != torque_) return command(midi::TORQUE, *torque);
     }
     if (registers_.is_set(INPOSWIN)) {
-        const auto tolerance = midi::tolerance_of_window(settings_.model, registers_.word(INPOSWIN));
+        const auto tolerance = midi::tolerance_of_window(model_, registers_.word(INPOSWIN));
         if (tolerance && *tolerance != tolerance_) return command(midi::TOLERANCE, *tolerance);
     }
     if (mode() == 0) return moves() || is_stray() ? stop_first() : Message{};
     if (refusals_ != 0 && now < retry_at_) return {};
     if (motion_ == Motion::unknown && seen_moving_) return stop_first();
+    if (now < alone_at_) return {};
     return mode() == 1 ? next_for_run() : next_for_move();
 }
 
@@ -157,7 +157,7 @@ MidiMotor::Message MidiMotor::stop_first() {
 bool MidiMotor::ramp_fits(std::uint16_t period, std::uint8_t& ramp) {
     ramp = ramp_;
     if (!registers_.is_set(A_SOLL)) return true;
-    const auto needed = midi::ramp_of_a_soll(settings_.model, registers_.word(A_SOLL), period);
+    const auto needed = midi::ramp_of_a_soll(model_, registers_.word(A_SOLL), period);
     if (needed) {
         ramp = *needed;
         return true;
@@ -170,7 +170,7 @@ bool MidiMotor::ramp_fits(std::uint16_t period, std::uint8_t& ramp) {
 MidiMotor::Message MidiMotor::next_for_run() {
     const std::int32_t speed = v_soll();
     if (speed == 0) return moves() ? stop_first() : Message{};
-    const auto period = midi::period_of_v_soll(settings_.model, static_cast<std::int16_t>(speed));
+    const auto period = midi::period_of_v_soll(model_, static_cast<std::int16_t>(speed));
     if (!period) {
         raise(MidiFault::bad_value, Lack::too_slow);
         return {};
@@ -199,7 +199,7 @@ MidiMotor::Message MidiMotor::next_for_move() {
     if ((goal_holds_ && *goal == goal_) || motion_ != Motion::at_rest) return {};
     std::uint16_t period = period_;
     if (has_speed) {
-        const auto wanted = midi::period_of_v_soll(settings_.model, static_cast<std::int16_t>(v_soll()));
+        const auto wanted = midi::period_of_v_soll(model_, static_cast<std::int16_t>(v_soll()));
         if (!wanted) {
             raise(MidiFault::bad_value, Lack::too_slow);
             return {};
@@ -242,8 +242,21 @@ std::string_view text_of(MidiFault fault) {
             return "it is not known whether the MIDI drive took a command: it was told to stop; check the "
                    "line, and "
                    "the position";
+        case MidiFault::jumped:
+            return "the MIDI drive's position jumped in mid-motion: look for another master that has set its "
+                   "origin (0Bh), and let the sequence find the origin again";
         case MidiFault::bad_value:
             return "an order is not for a MIDI drive";
+        case MidiFault::unreadable:
+            return "each answer of the MIDI drive came damaged: look for noise on the line, for another baud "
+                   "rate, and for a second drive at its address; leave one connected, give it an address of "
+                   "its own, then send \"reset error\" (01h)";
+        case MidiFault::several:
+            return "more than one MIDI drive answers to this address, and what moves one moves both: they "
+                   "were "
+                   "told to stop; switch off all but one, give that one another address (`macreg midi "
+                   "address "
+                   "set`), then send \"reset error\" (01h)";
     }
     return {};
 }

@@ -8,8 +8,13 @@ namespace {
 
 namespace midi = registers::midi;
 
+/// Between two queries while something moves, and while nothing does.
+constexpr base::Microseconds kPace{5'000};
+constexpr base::Microseconds kRestPace{20'000};
 constexpr base::Microseconds kSurely{20'000};
 constexpr base::Microseconds kSwing{1'000'000};
+/// Its longest answer, and time for the proof.
+constexpr base::Microseconds kOthersShow{200'000};
 constexpr base::Microseconds kLongestStep{500'000};
 constexpr std::int32_t kStandby = 5;     ///< increments by which a shaft at rest may swing (003 §VII 02h)
 constexpr std::int32_t kSample = 1'920;  ///< us, of a MAC50-141
@@ -37,7 +42,7 @@ void MidiMotor::on_value(std::uint32_t value, base::Instant now) {
     resync_ = false;
     keep(value, now);
     if (phase_ == Phase::up) {
-        next_query_ = now + (motion_ == Motion::at_rest ? settings_.rest_pace : settings_.pace);
+        next_query_ = now + (motion_ == Motion::at_rest ? kRestPace : kPace);
         return;
     }
     phase_ = phase_ == Phase::down ? Phase::imax : static_cast<Phase>(static_cast<int>(phase_) + 1);
@@ -46,6 +51,7 @@ void MidiMotor::on_value(std::uint32_t value, base::Instant now) {
     resetting_ = arrived_ = measured_ = steady_begun_ = seen_moving_ = false;
     motion_ = Motion::unknown;  // perhaps the run from before: its period stays
     next_query_ = now;
+    alone_at_ = now + kOthersShow;
 }
 
 void MidiMotor::keep(std::uint32_t value, base::Instant now) {
@@ -55,6 +61,8 @@ void MidiMotor::keep(std::uint32_t value, base::Instant now) {
             return on_status();
         case midi::GET_MEASURES:
             not_busy_ = (value & midi::kNotBusy) != 0;
+            referenced_ =
+                static_cast<std::uint8_t>(unsigned{referenced_} << 1 | (value / midi::kReferenceInput & 1));
             return on_measures(now);
         case midi::GET_POSITION:
             position_before_ = position_;
@@ -122,13 +130,13 @@ void MidiMotor::on_position(base::Instant now) {
         if (position_ == 0) zero_wanted_ = goal_holds_ = false;
     }
     if (base_ != 0) {
-        const auto now_at =
-            static_cast<std::uint32_t>(midi::counts_of_increments(settings_.model, position_));
+        const auto now_at = static_cast<std::uint32_t>(midi::counts_of_increments(model_, position_));
         const auto by = static_cast<std::uint32_t>(registers_.position(registers::P1 + 2U * (base_ - 1U)));
         registers_.set_position(registers::P_SOLL, static_cast<std::int32_t>(now_at + by));
         base_ = 0;
     }
     if (access_state_ == AccessState::under_way && !access_.is_write) finish_access();
+    if (!is_explained(now)) return raise(MidiFault::jumped);
     if (motion_ == Motion::going && measured_ && not_busy_ && goal_holds_ && is_within(tolerance_)) {
         motion_ = Motion::at_rest;
         arrived_ = true;
@@ -196,7 +204,7 @@ void MidiMotor::give_up(MidiFault why) {
 
 void MidiMotor::not_taken_after_all() {
     doubtful_ = false;
-    if (repeats_ > settings_.most_repeats) return give_up(MidiFault::unclear);
+    if (repeats_ > kMostRepeats) return give_up(MidiFault::unclear);
     ++counters_.resent;
 }
 
@@ -251,7 +259,7 @@ void MidiMotor::drop_access() {
 }
 
 std::uint16_t MidiMotor::read_word(unsigned number) const {
-    const auto counts = static_cast<std::uint32_t>(midi::counts_of_increments(settings_.model, position_));
+    const auto counts = static_cast<std::uint32_t>(midi::counts_of_increments(model_, position_));
     switch (number) {
         case registers::P_IST:
             return static_cast<std::uint16_t>(counts);
@@ -263,7 +271,7 @@ std::uint16_t MidiMotor::read_word(unsigned number) const {
             return static_cast<std::uint16_t>(error_bits());
         case registers::V_SOLL:
             if (!registers_.is_set(number))
-                return static_cast<std::uint16_t>(midi::v_soll_of_period(settings_.model, period_));
+                return static_cast<std::uint16_t>(midi::v_soll_of_period(model_, period_));
             break;
         default:
             break;
@@ -277,7 +285,7 @@ std::int32_t MidiMotor::speed() const {
     const auto moved = static_cast<std::int32_t>(static_cast<std::uint32_t>(position_) -
                                                  static_cast<std::uint32_t>(position_before_));
     const std::int32_t counts =
-        std::clamp(midi::counts_of_increments(settings_.model, moved), -kMostCounts, kMostCounts);
+        std::clamp(midi::counts_of_increments(model_, moved), -kMostCounts, kMostCounts);
     const std::int32_t a_sample = counts * kSample / static_cast<std::int32_t>(position_step_.count());
     return std::clamp<std::int32_t>(a_sample, INT16_MIN, INT16_MAX);
 }

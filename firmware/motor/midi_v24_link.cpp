@@ -9,6 +9,7 @@ namespace v24 = protocol::midi_v24;
 using Kind = MidiOutcome::Kind;
 
 constexpr int kReadsPerPoll = 64;
+constexpr base::Microseconds kQuiet{5'000};
 /// Ack, Xoff, a reply, Xon.
 constexpr int kAnswerCharacters = 3 + v24::kAround + v24::kReplyFields;
 
@@ -37,16 +38,17 @@ Kind kind_of(v24::Answer::Kind kind) {
 }  // namespace
 
 MidiV24Link::MidiV24Link(ports::SerialPort& port, const Settings& settings)
-    : port_(port), settings_(settings), character_(character_time(settings.baud)) {}
+    : port_(port), address_(settings.address), character_(character_time(settings.baud)) {}
 
 void MidiV24Link::begin(const MidiMessage& message, base::Instant now) {
     const unsigned index = message.is_query ? v24::kFirstQuery + message.number : message.number;
-    request_ = {.address = settings_.address,
-                .index = static_cast<std::uint8_t>(index),
-                .sub_index = message.sub_index,
-                .data = message.data};
-    bytes_ = v24::encode(request_);
-    deadline_ = now + settings_.longest_answer;
+    const v24::Request request{.address = address_,
+                               .index = static_cast<std::uint8_t>(index),
+                               .sub_index = message.sub_index,
+                               .data = message.data};
+    bytes_ = v24::encode(request);
+    decoder_.expect(request);
+    deadline_ = now + kLongestAnswer;
     state_ = State::waiting_for_quiet;
     static_cast<void>(poll(now));
 }
@@ -56,14 +58,12 @@ MidiOutcome MidiV24Link::poll(base::Instant now) {
     if (outcome.kind != Kind::none || state_ == State::idle) return outcome;
     if (state_ == State::waiting_for_quiet) {
         // A line that never falls silent carries no request: it has not been taken.
-        if (noisy_ && now - heard_ < settings_.quiet)
-            return now < deadline_ ? MidiOutcome{} : finish(Kind::not_taken);
-        noisy_ = spoilt_ = false;
+        if (noisy_ && now - heard_ < kQuiet) return now < deadline_ ? MidiOutcome{} : finish(Kind::not_taken);
+        noisy_ = spoilt_ = heard_any_ = false;
+        answers_.asked();
         sent_ = 0;
         state_ = State::under_way;
-        decoder_.expect(request_);
-        deadline_ = now + (static_cast<int>(bytes_.size()) + kAnswerCharacters) * character_ +
-                    settings_.longest_answer;
+        deadline_ = now + (static_cast<int>(bytes_.size()) + kAnswerCharacters) * character_ + kLongestAnswer;
     }
     if (now >= deadline_) {
         noisy_ = true;
@@ -86,6 +86,8 @@ MidiOutcome MidiV24Link::receive(base::Instant now) {
         const std::size_t count = port_.read(bytes);
         for (const auto& byte : std::span(bytes).first(count)) {
             heard_ = now;
+            heard_any_ = true;
+            note_answer(byte);
             if (state_ != State::under_way || outcome.kind != Kind::none) {
                 noisy_ = true;
                 continue;
@@ -101,17 +103,26 @@ MidiOutcome MidiV24Link::receive(base::Instant now) {
     return outcome;
 }
 
+void MidiV24Link::withdraw() {
+    if (state_ == State::waiting_for_quiet || sent_ == 0) state_ = State::idle;
+}
+
+/// Either character begins an answer, and no reply holds one.
+void MidiV24Link::note_answer(const ports::ReceivedByte& byte) {
+    if (!byte.framing_error && (byte.value == v24::kAck || byte.value == v24::kNack)) answers_.answered();
+}
+
 MidiOutcome MidiV24Link::finish(Kind kind, std::uint32_t value) {
     state_ = State::idle;
     decoder_.abandon();
     noisy_ = noisy_ || kind == Kind::unclear;
-    return {kind, value};
+    return {kind, value, kind == Kind::unclear && heard_any_};
 }
 
 base::Instant MidiV24Link::next_poll(base::Instant now) const {
     if (state_ == State::idle) return base::kNever;
     base::Instant next = deadline_;
-    if (state_ == State::waiting_for_quiet) next = std::min(next, heard_ + settings_.quiet);
+    if (state_ == State::waiting_for_quiet) next = std::min(next, heard_ + kQuiet);
     if (state_ == State::under_way && sent_ < bytes_.size()) next = std::min(next, now + character_);
     return next;
 }

@@ -4,40 +4,44 @@
 
 #include "motor/midi_link.h"
 #include "ports/can.h"
+#include "protocol/answer_count.h"
 #include "protocol/midi_can.h"
 
 namespace nplc::motor {
 
-/// A MIDI module on a CAN bus (003 §V). A controller that is off the bus is restarted, once in
-/// `restart_pause`.
+/// A MIDI module on a CAN bus (003 §V). A frame that the port has no room for is offered again until an
+/// answer would be due. A controller that is off the bus is restarted, once in 100 ms.
 class MidiCanLink final : public MidiLink {
   public:
     struct Settings {
-        std::uint8_t address = 1;                    ///< 1..127
-        base::Microseconds longest_answer{100'000};  ///< R: in no manual
-        base::Microseconds restart_pause{100'000};
+        std::uint8_t address = 1;  ///< 1..127
     };
 
-    /// Sets the port's filters to the module's answers and boot-up.
+    /// Sets the port's filters to the module's answers and boot-up, and to what other masters ask it.
     MidiCanLink(ports::CanPort& port, const Settings& settings);
 
     void begin(const MidiMessage& message, base::Instant now) override;
     MidiOutcome poll(base::Instant now) override;
-    base::Instant next_poll(base::Instant) const override { return busy_ ? deadline_ : base::kNever; }
+    base::Instant next_poll(base::Instant now) const override;
     bool busy() const override { return busy_; }
     bool take_boot() override;
+    MidiTrouble trouble() const override;
+    void withdraw() override { busy_ = busy_ && written_; }
 
   private:
     MidiOutcome receive();
-    bool write(const protocol::midi_can::Frame& frame);
+    void count(const protocol::midi_can::Frame& frame, const protocol::midi_can::Answer& answer);
+    void transmit(base::Instant now);
     void watch_bus(base::Instant now);
 
     ports::CanPort& port_;
-    Settings settings_;
+    std::uint8_t address_;
     protocol::midi_can::Request request_;
     bool busy_ = false;
     bool written_ = false;
     bool booted_ = false;
+    bool cut_ = false;  ///< the port is down or off the bus, as last seen
+    protocol::AnswerCount answers_;
     base::Instant deadline_{};
     base::Instant may_restart_{};
 };

@@ -6,6 +6,9 @@
 
 namespace nplc::motor {
 
+/// From a request's last character, or its frame, on. R: in no manual.
+inline constexpr base::Microseconds kLongestAnswer{100'000};
+
 /// One command or query to a MIDI module; numbers as in registers/midi.h.
 struct MidiMessage {
     bool is_query = false;
@@ -27,6 +30,14 @@ struct MidiOutcome {
     };
     Kind kind = Kind::none;
     std::uint32_t value = 0;
+    bool damaged = false;  ///< `unclear`, and something was heard
+};
+
+/// What keeps a line from being used, whatever messages are under way.
+enum class MidiTrouble : std::uint8_t {
+    none,
+    no_bus,   ///< the CAN controller is down or off the bus
+    several,  ///< more than one module answers to the address; until two requests have been answered once
 };
 
 /// One message at a time to one module. Nothing is sent twice here: whether a repeat is harmless is for the
@@ -41,6 +52,9 @@ class MidiLink {
     virtual bool busy() const = 0;
     /// The module has said that it started anew; once for each time. Only on CAN.
     virtual bool take_boot() = 0;
+    virtual MidiTrouble trouble() const = 0;
+    /// Drops a message of which nothing has left yet, without an outcome.
+    virtual void withdraw() = 0;
 
   protected:
     ~MidiLink() = default;

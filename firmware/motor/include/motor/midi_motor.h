@@ -24,6 +24,9 @@ enum class MidiFault : std::uint8_t {
     refused,      ///< the drive did not take a command
     unclear,      ///< nobody knows whether the drive took a command; it was told to stop
     bad_value,    ///< an order that only showed at run time that the drive cannot do it: see lack()
+    unreadable,   ///< answers came, and each was damaged
+    several,      ///< more than one drive answers to the address
+    jumped,       ///< the position changed in motion as that does not explain
 };
 
 /// What it is and what to do. Without a full stop.
@@ -37,10 +40,6 @@ class MidiMotor final : public Motor {
     using Model = registers::midi::Model;
     struct Settings {
         Model model = Model::mac34_1;
-        base::Microseconds pace{5'000};        ///< between two queries while something moves
-        base::Microseconds rest_pace{20'000};  ///< and while nothing does
-        base::Microseconds probe{100'000};     ///< between two queries while nobody answers
-        std::uint8_t most_repeats = 3;  ///< of one command; and failures in a row until the link is down
     };
 
     MidiMotor(MidiLink& link, const Settings& settings);
@@ -61,6 +60,7 @@ class MidiMotor final : public Motor {
     void drop_access() override;
     bool in_position() const override;
     bool error() const override;
+    std::uint8_t fault_number() const override { return static_cast<std::uint8_t>(fault_); }
     Link link() const override;
     Counters counters() const override { return counters_; }
     bool longwords_only() const override { return false; }
@@ -73,6 +73,8 @@ class MidiMotor final : public Motor {
     Lack lack() const { return lack_; }                        ///< of a `bad_value`
     std::uint32_t drive_status() const { return status_; }     ///< GET_STATUS, as last heard
     std::int32_t drive_position() const { return position_; }  ///< increments, as last heard
+    /// How the last message ended while the link was down.
+    const MidiOutcome& probe() const { return probe_; }
 
   private:
     enum class Phase : std::uint8_t { down, status, imax, speeds, settings, position, up, resetting };
@@ -84,9 +86,13 @@ class MidiMotor final : public Motor {
         stopping,
     };
     using Message = std::optional<MidiMessage>;
+    /// Of one command; and failures in a row until the link is down.
+    static constexpr std::uint8_t kMostRepeats = 3;
 
     // midi_motor.cpp: the link and its messages
     void lose_link(MidiFault why, base::Instant now);
+    void drop_orders();
+    void look_for_trouble(base::Instant now);
     void work(base::Instant now);
     Message next_message(base::Instant now);
     Message start_up_query() const;
@@ -95,7 +101,6 @@ class MidiMotor final : public Motor {
     void end_access(AccessState state);
     void on_boot(base::Instant now);
     void on_outcome(const MidiOutcome& outcome, base::Instant now);
-    void on_not_taken(base::Instant now);
     void on_unclear(base::Instant now);
     void on_refused(base::Instant now);
     void on_refused_motion(base::Instant now);
@@ -104,6 +109,9 @@ class MidiMotor final : public Motor {
     void begin_stop(base::Instant now);
     void begin_reset(base::Instant now);
     void forget_parameter();
+
+    // midi_explained.cpp: does the motion explain a position?
+    bool is_explained(base::Instant now);
 
     // midi_replies.cpp: what the module tells
     void on_value(std::uint32_t value, base::Instant now);
@@ -150,70 +158,77 @@ class MidiMotor final : public Motor {
 
     MidiLink& link_;
     MidiMessage message_;  ///< under way while link_.busy()
+
+    // What is used most stands in front, where a Cortex-M's short instructions reach it.
     Phase phase_ = Phase::down;
     Motion motion_ = Motion::unknown;
-    MidiFault fault_ = MidiFault::none;
-    Lack lack_ = Lack::none;
+    bool goal_holds_ = false;  ///< the module's position loop has it
+    bool doubtful_ = false;    ///< nobody knows yet whether the motion's command was taken
+    bool measured_ = false;    ///< not_busy_ is newer than the motion's command
+    bool arrived_ = false;
+    bool steady_begun_ = false;
+    bool seen_moving_ = false;   ///< although nobody here knows why
     std::uint8_t failures_ = 0;  ///< in a row
     std::uint8_t repeats_ = 0;   ///< of the command that is to be sent
     std::uint8_t refusals_ = 0;
-    std::uint8_t turn_ = 0;  ///< of the queries
+    AccessState access_state_ = AccessState::none;
+    bool stop_wanted_ = false;
+    bool stop_hard_ = false;   ///< EMERGENCY_STOP instead of STOP
+    bool order_open_ = false;  ///< an order was begun whose commands are not all through
+    MidiFault fault_ = MidiFault::none;
 
+    Model model_;
+    Lack lack_ = Lack::none;
+    std::uint8_t turn_ = 0;         ///< of the queries
+    std::uint8_t blind_stops_ = 0;  ///< to be sent while the link is down
     bool link_error_ = false;
     bool was_up_ = false;
-    bool resetting_ = false;   ///< RESET was sent and the module is not back yet
-    bool ignore_ = false;      ///< the message under way is from before the link was lost
-    bool order_open_ = false;  ///< an order was begun whose commands are not all through
-    bool stop_wanted_ = false;
-    bool stop_hard_ = false;  ///< EMERGENCY_STOP instead of STOP
+    bool resetting_ = false;  ///< RESET was sent and the module is not back yet
+    bool ignore_ = false;     ///< the message under way is from before the link was lost
     bool reset_wanted_ = false;
     bool zero_wanted_ = false;
     bool zero_unclear_ = false;   ///< the next position tells
-    std::uint8_t base_ = 0;       ///< 7 or 8: P_SOLL becomes the next position plus P7 or P8
     bool relative_ = false;       ///< RELPOSPSOLL
     bool resync_ = false;         ///< a query must be answered before anything else is sent
     bool status_is_new_ = false;  ///< since the last command
+    bool left_ = false;
+    bool not_busy_ = false;
+    bool at_speed_ = false;
+    bool watched_ = false;         ///< position_ is of this motion, at a speed that is known
+    std::uint8_t referenced_ = 0;  ///< the reference input in the last eight measures, the latest in bit 0
+    bool access_error_ = false;    ///< ERROR was there before the write
+    std::uint8_t base_ = 0;        ///< 7 or 8: P_SOLL becomes the next position plus P7 or P8
 
     // of the module
     std::uint8_t imax_ = registers::midi::kMostTorque;
-    std::uint16_t period_ = 0;
     std::uint8_t unstall_ = 0;
     std::uint8_t ramp_ = 0;
     std::uint8_t torque_ = 0;
     std::uint8_t tolerance_ = 0;
+    std::uint16_t period_ = 0;
+    std::uint16_t run_period_ = 0;
     std::uint32_t status_ = 0;
     std::int32_t position_ = 0;
-    base::Instant position_at_{};
     std::int32_t position_before_ = 0;
-    base::Microseconds position_step_{};  ///< between the two; 0: not known
-
-    // of the motion
+    std::uint32_t asked_at_ = 0;           ///< us, modulo 2^32: the message under way
+    std::uint32_t position_asked_at_ = 0;  ///< and the last position
     std::int32_t goal_ = 0;
-    bool goal_holds_ = false;  ///< the module's position loop has it
-    std::uint16_t run_period_ = 0;
-    bool left_ = false;
-    bool doubtful_ = false;  ///< nobody knows yet whether it was taken
-    bool measured_ = false;  ///< not_busy_ is newer than the motion's command
-    bool not_busy_ = false;
-    bool arrived_ = false;
-    bool at_speed_ = false;
-    bool steady_begun_ = false;
-    bool seen_moving_ = false;  ///< although nobody here knows why
     std::int32_t steady_position_ = 0;
+
+    std::uint32_t access_value_ = 0;
+    MidiOutcome probe_;
+    Counters counters_;
+    base::Ring<Order, 8> orders_;
+    Access access_;
+    base::Instant position_at_{};
+    base::Microseconds position_step_{};  ///< between the two; 0: not known
     base::Instant steady_since_{};
     base::Instant ramp_end_{};  ///< of a run, or the latest end of a stop
     base::Instant next_query_{};
     base::Instant retry_at_{};
     base::Instant deaf_until_{};
-
-    Access access_;
-    AccessState access_state_ = AccessState::none;
-    std::uint32_t access_value_ = 0;
-    bool access_error_ = false;  ///< ERROR was there before the write
-    Counters counters_;
-    Settings settings_;
+    base::Instant alone_at_{};  ///< another drive at the address would have shown by then
     MidiRegisters registers_;
-    base::Ring<Order, 8> orders_;
 };
 
 }  // namespace nplc::motor

@@ -4,20 +4,18 @@
 
 #include "motor/midi_link.h"
 #include "ports/serial.h"
+#include "protocol/answer_count.h"
 #include "protocol/midi_v24.h"
 
 namespace nplc::motor {
 
 /// A MIDI module on a serial line (000 §II to §IV). An answer that is damaged, or comes too late, makes the
-/// line fall silent for `quiet` before the next request, so that it is not taken for the answer to that one.
+/// line fall silent for 5 ms before the next request, so that it is not taken for the answer to that one.
 class MidiV24Link final : public MidiLink {
   public:
     struct Settings {
         std::uint8_t address = 0;     ///< 00h..7Fh
         std::uint32_t baud = 38'400;  ///< 9600, 19200 or 38400
-        base::Microseconds longest_answer{
-            100'000};  ///< from the request's last character on (R: in no manual)
-        base::Microseconds quiet{5'000};
     };
 
     MidiV24Link(ports::SerialPort& port, const Settings& settings);
@@ -27,6 +25,10 @@ class MidiV24Link final : public MidiLink {
     base::Instant next_poll(base::Instant now) const override;
     bool busy() const override { return state_ != State::idle; }
     bool take_boot() override { return false; }
+    void withdraw() override;
+    MidiTrouble trouble() const override {
+        return answers_.several() ? MidiTrouble::several : MidiTrouble::none;
+    }
 
   private:
     enum class State : std::uint8_t { idle, waiting_for_quiet, under_way };
@@ -34,18 +36,20 @@ class MidiV24Link final : public MidiLink {
     MidiOutcome receive(base::Instant now);
     MidiOutcome finish(MidiOutcome::Kind kind, std::uint32_t value = 0);
     void transmit();
+    void note_answer(const ports::ReceivedByte& byte);
 
     ports::SerialPort& port_;
+    std::uint8_t address_;
     std::uint8_t sent_ = 0;
     State state_ = State::idle;
-    bool noisy_ = false;   ///< something unexpected was heard, or may still come
-    bool spoilt_ = false;  ///< a framing error since the request
+    bool noisy_ = false;      ///< something unexpected was heard, or may still come
+    bool spoilt_ = false;     ///< a framing error since the request
+    bool heard_any_ = false;  ///< since the request
+    protocol::AnswerCount answers_;
+    protocol::midi_v24::AnswerDecoder decoder_;
     base::Instant heard_{};
     base::Instant deadline_{};
-    Settings settings_;
     base::Microseconds character_;
-    protocol::midi_v24::AnswerDecoder decoder_;
-    protocol::midi_v24::Request request_;
     protocol::midi_v24::RequestBytes bytes_{};
 };
 

@@ -39,13 +39,14 @@ constexpr bool is_open(AccessState state) {
     return state == AccessState::waiting || state == AccessState::under_way;
 }
 
+/// In the order of the user's registers from LINK_LOSSES on.
 struct Counters {
+    std::uint32_t link_losses = 0;
+    std::uint32_t resent = 0;     ///< messages sent again
     std::uint32_t orders = 0;     ///< executed
     std::uint32_t discarded = 0;  ///< not delivered because the link was not up
-    std::uint32_t link_losses = 0;
-    std::uint32_t accesses = 0;  ///< done
+    std::uint32_t accesses = 0;   ///< done
     std::uint32_t access_fails = 0;
-    std::uint32_t resent = 0;  ///< messages sent again
 };
 
 enum class Link : std::uint8_t {
@@ -103,6 +104,9 @@ class Motor {
 
     /// The drive's own error, or a link that went down and is not acknowledged yet.
     virtual bool error() const = 0;
+
+    /// Why it has an error, where the driver itself found it (REGISTERS.md, event 32); 0: for no such reason.
+    virtual std::uint8_t fault_number() const { return 0; }
 
     virtual Link link() const = 0;
 
