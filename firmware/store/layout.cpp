@@ -54,7 +54,7 @@ bool Layout::is_possible() const {
            divides(g.erase_block, g.size) && g.program_unit <= kLargestUnit &&
            divides(g.erase_block, area_.slot_bytes) && area_.begin % g.erase_block == 0 &&
            area_.begin <= g.size && (g.size - area_.begin) / 2 >= area_.slot_bytes &&
-           area_.slot_bytes > whole_units(kHeaderBytes) + whole_units(kMarkBytes);
+           superseded(0) > content(0);
 }
 
 std::uint32_t Layout::whole_units(std::size_t bytes) const {

@@ -98,7 +98,10 @@ const SettingInfo* find_setting(std::uint8_t id) {
 bool is_standard_rate(std::uint32_t baud) {
     constexpr std::array<std::uint32_t, 11> kRates{1'200,  2'400,   4'800,   9'600,   19'200, 38'400,
                                                    57'600, 115'200, 230'400, 460'800, 921'600};
-    return std::find(kRates.begin(), kRates.end(), baud) != kRates.end();
+    for (const std::uint32_t rate : kRates) {
+        if (rate == baud) return true;
+    }
+    return false;
 }
 
 bool is_setting(std::uint8_t id) {

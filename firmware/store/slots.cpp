@@ -8,7 +8,10 @@ namespace nplc::store {
 namespace {
 
 bool is_blank(std::span<const std::uint8_t> bytes) {
-    return std::all_of(bytes.begin(), bytes.end(), [](std::uint8_t byte) { return byte == 0xFF; });
+    for (const std::uint8_t byte : bytes) {
+        if (byte != 0xFF) return false;
+    }
+    return true;
 }
 
 }  // namespace
@@ -29,19 +32,22 @@ base::Status Slots::mount() {
 base::Status Slots::examine(Slot& slot, unsigned number) {
     std::array<std::uint8_t, kHeaderBytes> header;
     std::array<std::uint8_t, kMarkBytes> mark;
+    std::array<std::uint8_t, 1> superseded;
     slot = {};
     if (const auto status = storage_.read(layout_.header(number), header); !status) return status;
     if (const auto status = storage_.read(layout_.mark(number), mark); !status) return status;
-    const auto decoded = decode(header);
-    slot.header_known =
-        decoded.ok() && decoded.value().kind == kind_ && decoded.value().length <= layout_.capacity();
-    if (slot.header_known) slot.header = decoded.value();
+    if (const auto status = storage_.read(layout_.superseded(number), superseded); !status) return status;
+    slot.superseded = !is_blank(superseded);
     if (is_blank(mark)) {
         slot.state = is_blank(header) ? SlotState::empty : SlotState::unfinished;
         return {};
     }
     slot.state = SlotState::damaged;
-    if (!slot.header_known || mark != mark_for(header)) return {};
+    const auto decoded = decode(header);
+    slot.header_known = decoded.ok() && decoded.value().kind == kind_ &&
+                        decoded.value().length <= layout_.capacity() && mark == mark_for(header);
+    if (!slot.header_known) return {};
+    slot.header = decoded.value();
     const auto crc = crc_of(number, slot.header.length);
     if (!crc) return crc.error();
     if (crc.value() == slot.header.crc) slot.state = SlotState::good;
@@ -61,18 +67,21 @@ base::Result<std::uint32_t> Slots::crc_of(unsigned slot, std::uint32_t length) {
     return crc;
 }
 
-/// The later of the good slots. What is damaged without a sequence to be read may have been later.
+/// The later of the good slots. Whether a damaged one without its mark was ever finished, the good one knows.
 void Slots::choose() {
     current_.reset();
     for (unsigned i = 0; i < slots_.size(); ++i) {
         if (slots_[i].state != SlotState::good) continue;
         if (!current_ || is_later(slots_[i].header.sequence, slots_[*current_].header.sequence)) current_ = i;
     }
-    fallback_ = std::any_of(slots_.begin(), slots_.end(), [this](const Slot& slot) {
-        if (slot.state != SlotState::damaged) return false;
-        return !current_ || !slot.header_known ||
-               is_later(slot.header.sequence, slots_[*current_].header.sequence);
-    });
+    fallback_ = false;
+    for (unsigned i = 0; i < slots_.size(); ++i) {
+        const Slot& slot = slots_[i];
+        if (slot.superseded) fallback_ |= !current_ || i == *current_;
+        if (slot.state != SlotState::damaged) continue;
+        fallback_ |= !current_ ||
+                     (slot.header_known && is_later(slot.header.sequence, slots_[*current_].header.sequence));
+    }
 }
 
 base::Status Slots::read(std::uint32_t offset, std::span<std::uint8_t> out) {

@@ -8,6 +8,7 @@ namespace nplc::store {
 base::Status Slots::begin() {
     if (!layout_.is_possible()) return base::Error::bad_geometry;
     phase_ = Phase::erasing;
+    closing_ = Closing::programming;
     waiting_ = false;
     target_ = current_ ? 1U - *current_ : 0U;
     slots_[target_] = {};
@@ -59,7 +60,6 @@ base::Status Slots::finish(std::uint32_t length, std::uint32_t crc) {
         return base::Error::wrong_check;
     }
     phase_ = Phase::closing;
-    closing_ = Closing::programming;
     return {};
 }
 
@@ -68,10 +68,13 @@ void Slots::poll() {
     if (wait_for_storage()) return;
     switch (phase_) {
         case Phase::erasing:
-            return erase_next();
+            if (!is_erased()) return erase_next();
+            phase_ = Phase::receiving;
+            return;
         case Phase::receiving:
             if (flushed() && fill_.used == kBuffer) flush_fill();
-            return program_next();
+            if (!flushed()) program_next(layout_.content(target_));
+            return;
         case Phase::closing:
             return close_next();
         default:
@@ -109,12 +112,7 @@ void Slots::started(const base::Status& status) {
 }
 
 void Slots::erase_next() {
-    const std::uint32_t address = layout_.header(target_) + erased_;
-    if (address == layout_.end(target_)) {
-        phase_ = Phase::receiving;
-        return;
-    }
-    started(storage_.erase(address));
+    started(storage_.erase(layout_.header(target_) + erased_));
     if (waiting_) erased_ += layout_.erase_block();
 }
 
@@ -129,9 +127,9 @@ void Slots::flush_fill() {
     fill_.used = 0;
 }
 
-void Slots::program_next() {
-    if (flushed()) return;
-    const std::uint32_t address = layout_.content(target_) + flush_.begin + flushed_;
+/// `begin`: of what flush_.begin counts from.
+void Slots::program_next(std::uint32_t begin) {
+    const std::uint32_t address = begin + flush_.begin + flushed_;
     const std::uint32_t count = layout_.one_programming(address, flush_.used - flushed_);
     started(storage_.program(address, std::span(flush_.bytes).subspan(flushed_, count)));
     if (waiting_) in_hand_ = count;
@@ -141,7 +139,7 @@ void Slots::close_next() {
     switch (closing_) {
         case Closing::programming:
             if (flushed() && fill_.used > 0) flush_fill();
-            if (!flushed()) return program_next();
+            if (!flushed()) return program_next(layout_.content(target_));
             checked_ = checked_crc_ = 0;
             content_.begin();
             closing_ = Closing::checking;
@@ -159,6 +157,10 @@ void Slots::close_next() {
         case Closing::mark_back:
             if (reads_back(kMarkBytes)) set_current();
             return;
+        case Closing::clearing:
+            return clear_other();
+        case Closing::superseding:
+            return flushed() ? end() : program_record(closing_);
     }
 }
 
@@ -199,10 +201,7 @@ void Slots::program_record(Closing next) {
         closing_ = next;
         return;
     }
-    const std::uint32_t at = flush_.begin + flushed_;
-    const std::uint32_t count = layout_.one_programming(at, flush_.used - flushed_);
-    started(storage_.program(at, std::span(flush_.bytes).subspan(flushed_, count)));
-    if (waiting_) in_hand_ = count;
+    program_next(0);
 }
 
 bool Slots::reads_back(std::size_t bytes) {
@@ -214,17 +213,48 @@ bool Slots::reads_back(std::size_t bytes) {
     return same;
 }
 
+/// The note in the other slot needs an erased unit; one of a good slot was erased with it.
 void Slots::set_current() {
     current_ = target_;
     slots_[target_] = {.state = SlotState::good, .header_known = true, .header = header_};
+    target_ = 1U - target_;
+    erased_ = layout_.slot_bytes();
+    const SlotState other = slots_[target_].state;
+    if (other == SlotState::empty) erased_ -= layout_.erase_block();
+    if (other == SlotState::unfinished || other == SlotState::damaged) erased_ = 0;
+    if (other != SlotState::good) slots_[target_] = {};
+    closing_ = Closing::clearing;
+}
+
+void Slots::clear_other() {
+    constexpr std::array<std::uint8_t, 1> kSuperseded{0};
+    if (!is_erased()) return erase_next();
+    if (slots_[target_].superseded) return end();
+    prepare_record(kSuperseded, layout_.superseded(target_), Closing::superseding);
+}
+
+void Slots::end() {
+    slots_[target_].superseded = true;
     choose();
     phase_ = Phase::done;
 }
 
+/// Once the new content is the current one it stays so, whatever becomes of the other slot.
 void Slots::fail(base::Error error) {
+    waiting_ = false;
+    if (closing_ >= Closing::clearing) return end();
     error_ = error;
     phase_ = Phase::failed;
-    waiting_ = false;
+}
+
+base::Status note_loss(ports::Storage& storage, const Area& area) {
+    const std::array<std::uint8_t, kLargestUnit> note{};
+    const ports::StorageGeometry geometry = storage.geometry();
+    const std::uint32_t address = Layout(geometry, area).superseded(0);
+    const auto begun = storage.program(address, std::span(note).first(geometry.program_unit));
+    if (!begun) return begun;
+    while (storage.state() == ports::StorageState::busy) continue;
+    return storage.state() == ports::StorageState::ready ? base::Status{} : base::Error::storage_failed;
 }
 
 }  // namespace nplc::store

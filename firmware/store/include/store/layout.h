@@ -8,7 +8,8 @@
 #include "base/result.h"
 #include "ports/storage.h"
 
-/// How a slot lies in the storage: header, mark and content, each from a program unit's start.
+/// How a slot lies in the storage: header, mark and content, each from a program unit's start, and in its
+/// last unit a byte that is no longer FFh once another slot has taken its place.
 namespace nplc::store {
 
 enum class Kind : std::uint8_t { table = 1, settings = 2 };
@@ -51,8 +52,10 @@ class Layout {
     std::uint32_t header(unsigned slot) const { return area_.begin + slot * area_.slot_bytes; }
     std::uint32_t mark(unsigned slot) const { return header(slot) + whole_units(kHeaderBytes); }
     std::uint32_t content(unsigned slot) const { return mark(slot) + whole_units(kMarkBytes); }
+    std::uint32_t superseded(unsigned slot) const { return end(slot) - geometry_.program_unit; }
     std::uint32_t end(unsigned slot) const { return header(slot) + area_.slot_bytes; }
-    std::uint32_t capacity() const { return end(0) - content(0); }
+    std::uint32_t capacity() const { return superseded(0) - content(0); }
+    std::uint32_t slot_bytes() const { return area_.slot_bytes; }
 
     std::uint32_t whole_units(std::size_t bytes) const;
     /// How much of `bytes` from `address` on one programming may hold.

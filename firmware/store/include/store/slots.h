@@ -34,7 +34,8 @@ enum class Phase : std::uint8_t {
 
 /// Two slots of which one is current. New content goes to the other one, is read back and checked there, and
 /// becomes the current one by a last programming of a mark. If power fails at any moment, the old or the new
-/// content is current after mount(), never a mixture, and never none once there was one.
+/// content is current after mount(), never a mixture, and never none once there was one. The slot whose place
+/// was taken keeps a note of that, so that it cannot pass for the latest when the other one is lost.
 ///
 /// Writing: begin(), write() pieces in order while `receiving`, finish(), and poll() all the time until
 /// `done` or `failed`. Each call does at most one operation of the storage or one read of
@@ -54,7 +55,7 @@ class Slots {
     bool has_current() const { return current_.has_value(); }
     /// Of the current content; zeros without one.
     Header current() const { return current_ ? slots_[*current_].header : Header{}; }
-    /// A slot is damaged and was, or may have been, later than the current one. It is cleared by the next
+    /// There was content later than the current one, and it is damaged or gone. It is cleared by the next
     /// writing that is done.
     bool is_fallback() const { return fallback_; }
     SlotState state(unsigned slot) const { return slots_[slot & 1U].state; }
@@ -89,7 +90,8 @@ class Slots {
 
     struct Slot {
         SlotState state = SlotState::empty;
-        bool header_known = false;
+        bool header_known = false;  ///< and its mark is there
+        bool superseded = false;
         Header header{};
     };
     struct Buffer {
@@ -97,7 +99,17 @@ class Slots {
         std::uint32_t begin = 0;  ///< offset in the content of its first byte; of a record its address
         std::uint32_t used = 0;
     };
-    enum class Closing : std::uint8_t { programming, checking, header, header_back, mark, mark_back };
+    /// From `clearing` on it is the current content, and the other slot is told so.
+    enum class Closing : std::uint8_t {
+        programming,
+        checking,
+        header,
+        header_back,
+        mark,
+        mark_back,
+        clearing,
+        superseding,
+    };
 
     base::Status examine(Slot& slot, unsigned number);
     base::Result<std::uint32_t> crc_of(unsigned slot, std::uint32_t length);
@@ -106,7 +118,8 @@ class Slots {
     bool wait_for_storage();
     void started(const base::Status& status);
     void erase_next();
-    void program_next();
+    bool is_erased() const { return erased_ == layout_.slot_bytes(); }
+    void program_next(std::uint32_t begin);
     bool flushed() const { return flush_.used == flushed_; }
     void flush_fill();
     bool repeats(std::uint32_t offset, std::span<const std::uint8_t> bytes) const;
@@ -117,6 +130,8 @@ class Slots {
     void program_record(Closing next);
     bool reads_back(std::size_t bytes);
     void set_current();
+    void clear_other();
+    void end();
     void fail(base::Error error);
 
     ports::Storage& storage_;
@@ -131,7 +146,7 @@ class Slots {
     Layout layout_;
     std::array<Slot, 2> slots_{};
 
-    unsigned target_ = 0;  ///< the slot being written
+    unsigned target_ = 0;  ///< the slot being written, then the other one
     std::uint32_t erased_ = 0;
     std::uint32_t received_ = 0;
     std::uint32_t crc_ = 0;
@@ -143,5 +158,9 @@ class Slots {
     Buffer fill_;
     Buffer flush_;
 };
+
+/// For an erased storage in the place of one that is gone: mount() finds no content and says that there was
+/// some. Errors as of Storage::program, storage_failed.
+base::Status note_loss(ports::Storage& storage, const Area& area);
 
 }  // namespace nplc::store
