@@ -37,11 +37,25 @@ Gateway::Gateway(const Ports& ports, const Settings& settings, StartCause cause)
       debouncer_(settings.debounce),
       quick_debouncer_(quick(settings.debounce)) {
     show_outputs();
-    if (cause == StartCause::watchdog) {
-        safe_reason_ = SafeReason::watchdog;
-        log_.add({0, static_cast<std::uint8_t>(safe_reason_), 0, 0});
-        ports_.motor.stop();
-    }
+    if (cause == StartCause::watchdog) block_start(SafeReason::watchdog);
+}
+
+void Gateway::block_start(SafeReason reason) {
+    starting_up_ = false;
+    safe_reason_ = locked_by_ == SafeReason::none ? reason : locked_by_;
+    note(static_cast<Event>(safe_reason_));
+    ports_.motor.stop();
+}
+
+void Gateway::lock(SafeReason reason) {
+    locked_by_ = reason;
+    block_start(reason);
+}
+
+void Gateway::unlock(SafeReason reason) {
+    if (locked_by_ != reason) return;
+    locked_by_ = SafeReason::none;
+    safe_reason_ = SafeReason::not_started;
 }
 
 Gateway::LoadResult Gateway::load(std::span<const std::uint8_t> bytes, base::Instant now) {
@@ -82,17 +96,14 @@ void Gateway::read_inputs(base::Instant now) {
     quick_debouncer_.update(levels, now);
 }
 
-void Gateway::poll(base::Instant now) {
-    ports_.motor.poll(now);
-    poll_inputs(now);
-}
-
-void Gateway::poll_inputs(base::Instant now) {
+/// By itself, so that its stack is not the board's loop's.
+[[gnu::noinline]] void Gateway::poll(base::Instant now) {
     if (may_rest_until_ && rests_ && scan_ended_) scan_ended_ = std::min(now, *may_rest_until_);
     may_rest_until_.reset();
     uptime_.advance(now);
     read_inputs(now);
     expire_forces(now);
+    note_motors_fault();
     serve_sequence(now);
     show_outputs();
     ports_.motor.begin_orders(now);
@@ -120,8 +131,15 @@ void Gateway::serve_sequence(base::Instant now) {
     }
 }
 
+void Gateway::note_motors_fault() {
+    const std::uint8_t fault = ports_.motor.fault_number();
+    if (fault == motors_fault_) return;
+    motors_fault_ = fault;
+    if (fault != 0) note(Event::motor_fault, fault);
+}
+
 bool Gateway::enabled() const {
-    return !in_service_ && input_enables();
+    return !in_service_ && locked_by_ == SafeReason::none && input_enables();
 }
 
 bool Gateway::input_enables() const {
@@ -142,6 +160,7 @@ void Gateway::start_when_ready(base::Instant now) {
     }
     if (!ports_.motor.settled()) return;
     run_state_ = RunState::running;
+    mode_ = settings_.on_start == OnStart::stop ? 0 : kUnknownMode;
     stop_after_loss_ = false;
     in_scan_ = false;
     progress_ = ticked_ = now;
@@ -157,6 +176,7 @@ void Gateway::watch_link(base::Instant now) {
     if (link != motor::Link::up) set_safe_reason(SafeReason::link_down, now);
     if (!motor::delivers(link)) {
         stop_after_loss_ = true;
+        mode_ = 0;
         return;
     }
     if (stop_after_loss_) {
@@ -171,6 +191,7 @@ void Gateway::watch_link(base::Instant now) {
 
 void Gateway::set_safe_reason(SafeReason reason, base::Instant now) {
     uptime_.advance(now);
+    if (locked_by_ != SafeReason::none) reason = locked_by_;
     if (safe_reason_ != reason) {
         safe_since_ = now;
         safe_since_uptime_ = uptime_.milliseconds();
@@ -213,6 +234,7 @@ bool Gateway::begin_scan(base::Instant now) {
     }
     progress_ = now;
     image_ = present_image();
+    if ((image_ & sequencer::kError) != 0) mode_ = 0;  // it has stopped by itself
     if (quiet_key_ == engine_.key(image_)) {
         note_scan_end(now);
         rests_ = true;
@@ -239,6 +261,7 @@ bool Gateway::send_orders(base::Instant now) {
         if (!held_) return true;
         if (!ports_.motor.has_room()) return false;
         ports_.motor.send(to_motor(*held_));
+        follow_mode(*held_);
         ports_.motor.begin_orders(now);
         if (observer_ != nullptr) observer_->ordered(now, *held_);
         held_.reset();

@@ -194,7 +194,8 @@ std::uint32_t OwnRegisters::status() const {
            bit(!gateway_.table().empty(), kTable) | bit(tables_.uploads(), kUpload) |
            bit(has_stored && !tables_.stored_is_active(), kStoredDiffers) |
            bit(settings_.differ(), kSettingsDiffer) | bit(gateway_.enabled(), kEnabled) |
-           bit(gateway_.settings().virtual_motor, kVirtualMotor) | bit(gateway_.has_single(), kSingle);
+           bit(gateway_.settings().virtual_motor, kVirtualMotor) | bit(gateway_.has_single(), kSingle) |
+           bit(gateway_.run_state() == RunState::held && !gateway_.can_go_on(), kCannotGoOn);
 }
 
 void OwnRegisters::take_fired() {

@@ -77,7 +77,7 @@ motor::JvlMotor::Settings driver_settings_of(const store::SettingValues& values)
 void SettingsKeeper::start(const store::SettingValues& initial) {
     values_ = initial;
     const auto mounted = store_.mount();
-    damaged_ = !mounted;
+    damaged_ = !mounted || store_.slots().is_fallback();
     if (mounted && store_.slots().has_current()) values_ = mounted.value();
     stored_ = at_start_ = values_;
 }
@@ -89,7 +89,9 @@ void SettingsKeeper::impose(Setting setting, std::uint32_t value) {
 
 void SettingsKeeper::attach(Gateway& gateway) {
     gateway_ = &gateway;
-    if (damaged_) gateway.note(Event::store_damaged);
+    if (!damaged_) return;
+    gateway.note(Event::store_damaged);
+    gateway.lock(SafeReason::bad_settings);
 }
 
 Result SettingsKeeper::set(std::uint8_t id, std::uint32_t value) {
@@ -114,6 +116,7 @@ Progress SettingsKeeper::poll_keeping() {
     if (store_.phase() != store::Phase::done) return std::nullopt;
     stored_ = saving_;
     damaged_ = false;
+    gateway_->unlock(SafeReason::bad_settings);
     gateway_->note(Event::settings_kept);
     return Outcome{};
 }

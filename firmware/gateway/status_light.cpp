@@ -15,6 +15,11 @@ bool is_fault(SafeReason reason) {
         case SafeReason::bad_table:
         case SafeReason::watchdog:
         case SafeReason::enable_lost:
+        case SafeReason::no_lines:
+        case SafeReason::no_store:
+        case SafeReason::no_port:
+        case SafeReason::bad_settings:
+        case SafeReason::bad_run_mark:
             return true;
     }
     return true;

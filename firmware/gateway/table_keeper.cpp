@@ -8,19 +8,20 @@ namespace nplc::gateway {
 
 using store::Phase;
 
-base::Status TableKeeper::mount() {
-    const base::Status status = slots_.mount();
-    if (!status || slots_.is_fallback()) gateway_.note(Event::store_damaged);
-    return status;
+void TableKeeper::mount() {
+    is_readable_ = slots_.mount().ok();
+    if (!is_readable_ || slots_.is_fallback()) gateway_.note(Event::store_damaged);
 }
 
 /// A store that held a table and has none that is whole is a bad table, not a new board.
-void TableKeeper::start(base::Instant now) {
+Outcome TableKeeper::start(base::Instant now) {
+    Outcome outcome = Result::nothing_stored;
     if (slots_.has_current() || slots_.is_fallback()) {
-        static_cast<void>(load_stored(now));
-        if (slots_.is_fallback()) gateway_.distrust_table(now);
+        outcome = load_stored(now);
+        if (slots_.is_fallback()) gateway_.block_start(SafeReason::bad_table);
     }
     gateway_.end_start_up();
+    return outcome;
 }
 
 Gateway::LoadResult TableKeeper::use(std::span<const std::uint8_t> table, base::Instant now) {

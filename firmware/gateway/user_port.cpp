@@ -20,10 +20,15 @@ constexpr base::Microseconds kLook{1'000};
 constexpr std::uint32_t kMayWrite = 1;
 constexpr std::uint32_t kMaySendAll = 2;
 
+bool only_reads(Kind kind) {
+    return kind == Kind::read || kind == Kind::read_block || kind == Kind::read_samples;
+}
+
 }  // namespace
 
-void UserPort::poll(base::Instant now) {
-    own_.poll();
+/// By itself, so that its stack is not the board's loop's.
+[[gnu::noinline]] void UserPort::poll(base::Instant now) {
+    if (line_ == nullptr) return;
     decoder_.take_long_writes(static_cast<std::uint8_t>(settings_.at_start(store::Setting::gateway_address)));
     receive(now);
     go_on(now);
@@ -31,7 +36,7 @@ void UserPort::poll(base::Instant now) {
 }
 
 base::Instant UserPort::next_poll(base::Instant now) {
-    base::Instant next = own_.next_poll(now);
+    base::Instant next = base::kNever;
     if (sent_ < out_.size) next = std::min(next, now + kLook);
     switch (serving_) {
         case Serving::nothing:
@@ -48,7 +53,7 @@ base::Instant UserPort::next_poll(base::Instant now) {
 void UserPort::receive(base::Instant now) {
     std::array<ports::ReceivedByte, 16> bytes;
     for (int i = 0; i < kReadsPerPoll; ++i) {
-        const std::size_t count = line_.read(bytes);
+        const std::size_t count = line_->read(bytes);
         for (const auto& byte : std::span(bytes).first(count)) {
             if (byte.framing_error) {
                 decoder_.abandon();
@@ -102,6 +107,7 @@ void UserPort::begin_own(const Request& request, base::Instant now) {
 
 void UserPort::begin_motor(const Request& request, base::Instant now) {
     if (!motor_allows(request)) return refuse();
+    if (!only_reads(request.kind)) gateway_.forget_mode();
     if (!MotorBridge::carries(request.kind)) return pass_on(request, now);
     bridge_.begin(request, now);
     serving_ = Serving::motor;
@@ -109,8 +115,7 @@ void UserPort::begin_motor(const Request& request, base::Instant now) {
 
 /// A MAC800 takes longwords only. Reads are always allowed.
 bool UserPort::motor_allows(const Request& request) const {
-    if (request.kind == Kind::read || request.kind == Kind::read_block || request.kind == Kind::read_samples)
-        return true;
+    if (only_reads(request.kind)) return true;
     if (request.kind == Kind::write && gateway_.motor().longwords_only() && request.length != 4) return false;
     if (gateway_.run_state() == RunState::stopped) return true;
     const std::uint32_t needed = request.kind == Kind::write ? kMayWrite : kMaySendAll;
@@ -191,7 +196,7 @@ void UserPort::answer(const mactalk::EncodedReply& reply) {
 }
 
 void UserPort::transmit() {
-    if (sent_ < out_.size) sent_ += line_.write(out_.view().subspan(sent_));
+    if (sent_ < out_.size) sent_ += line_->write(out_.view().subspan(sent_));
 }
 
 }  // namespace nplc::gateway

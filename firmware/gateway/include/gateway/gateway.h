@@ -76,15 +76,22 @@ class Gateway {
 
     /// The start-up is over: no table starts by itself any more.
     void end_start_up() { starting_up_ = false; }
-    /// The table just loaded may be another one than the last that was stored: bad_table until run().
-    void distrust_table(base::Instant now) { enter_safe_state(SafeReason::bad_table, now); }
+    /// In the start-up: nothing starts by itself, and `reason` is shown until run().
+    void block_start(SafeReason reason);
+    /// The same, and until unlock() run() is refused with not_enabled and no other reason is shown.
+    void lock(SafeReason reason);
+    void unlock(SafeReason reason);
+
+    /// The board cannot do without what it lost: the safe state, and not enabled until the next start.
+    void withdraw(SafeReason reason, base::Instant now);
 
     /// Has the motor the order of this term, if it has one?
     bool motor_takes(sequencer::TermView term) const;
 
-    /// From the beginning, or on from where it is held; without hold if has_single(). Errors: no_table;
-    /// not_stopped when it runs already; not_enabled: from the beginning only with the enable input on, so
-    /// that closing a guard starts nothing.
+    /// From the beginning, or on from where it is held, the motor in the mode that it was stopped in; without
+    /// hold if has_single(). Errors: no_table; not_stopped when it runs already; not_enabled: from the
+    /// beginning only with the enable input on, so that closing a guard starts nothing, and not while locked;
+    /// cannot_go_on.
     base::Status run();
     /// One scan, or scans until the step changes, from where it is held or from the beginning; then it is
     /// held. Errors as run().
@@ -105,6 +112,11 @@ class Gateway {
     void set_breakpoints(std::uint64_t steps) { breakpoints_ = steps; }
     std::uint64_t breakpoints() const { return breakpoints_; }
     bool at_breakpoint() const { return run_state_ == RunState::held && broke_; }
+    /// What the motor did before it was held can be taken up again: a move to P_SOLL, the speed V_SOLL, or
+    /// nothing. Else run() and the like answer cannot_go_on.
+    bool can_go_on() const { return settings_.virtual_motor || mode_ != kUnknownMode; }
+    /// Somebody else has told the motor something.
+    void forget_mode() { mode_ = kUnknownMode; }
 
     void force_inputs(const Forced& forced, base::Instant now);
     void force_outputs(const Forced& forced, base::Instant now);
@@ -116,10 +128,8 @@ class Gateway {
     base::Status change(const Settings& settings);
     const Settings& settings() const { return settings_; }
 
-    /// To be called at least once a millisecond.
+    /// To be called at least once a millisecond, after the motor's own poll.
     void poll(base::Instant now);
-    /// The same without the motor's own poll: for the moment when nothing but an input has changed.
-    void poll_inputs(base::Instant now);
     /// Or, instead: whenever something arrives (a byte from the motor, a change of an input) and at the
     /// latest then. Asked after each poll() and whatever was done since; `now` or earlier: at once. The
     /// watchdog may want it sooner. What it sleeps so is no scan time, and scans() counts only those that
@@ -159,16 +169,21 @@ class Gateway {
     void note(Event event, std::uint16_t detail = 0);
 
   private:
+    static constexpr std::uint8_t kUnknownMode = 0xFF;
+
     enum class HoldAfter : std::uint8_t { never, scan, step, at_once };
 
     bool input_enables() const;
     base::Status run_until(HoldAfter hold_after);
     void begin_hold(bool breakpoint, base::Instant now);
     void hold_when_settled(base::Instant now);
+    void follow_mode(const sequencer::MotorOrder& order);
+    void take_up_mode();
     void hold_if_due(bool entered_step, base::Instant now);
     bool breaks_at(std::uint8_t step) const { return ((breakpoints_ >> step) & 1U) != 0; }
     void read_inputs(base::Instant now);
     void serve_sequence(base::Instant now);
+    void note_motors_fault();
     void expire_forces(base::Instant now);
     void show_outputs();
     void note_scan_end(base::Instant now);
@@ -193,6 +208,7 @@ class Gateway {
     Ports ports_;
     RunState run_state_ = RunState::stopped;
     SafeReason safe_reason_ = SafeReason::not_started;
+    SafeReason locked_by_ = SafeReason::none;
     bool in_service_;               ///< StartCause::service
     bool starting_up_;              ///< the first table may start by itself
     bool stop_ordered_ = false;     ///< since run()
@@ -200,7 +216,10 @@ class Gateway {
     HoldAfter hold_after_ = HoldAfter::never;
     bool broke_ = false;  ///< held, or about to be, by a breakpoint
     bool stop_ordered_to_hold_ = false;
-    bool resumes_ = false;  ///< the next scan is the first after having been held
+    /// The motor's MODE_REG, as far as it can be told: 0, 1 (velocity), 2 (position) or kUnknownMode.
+    std::uint8_t mode_ = kUnknownMode;
+    bool resumes_ = false;           ///< the next scan is the first after having been held
+    std::uint8_t motors_fault_ = 0;  ///< as noted
     bool in_scan_ = false;
     bool rests_ = false;               ///< nothing could change at the last look
     sequencer::InputImage image_ = 0;  ///< of the last scan

@@ -19,8 +19,11 @@ struct PortCounters {
 /// The gateway's own registers (REGISTERS.md): what a number reads, and what a write does.
 class OwnRegisters {
   public:
-    OwnRegisters(Gateway& gateway, TableKeeper& tables, SettingsKeeper& settings)
-        : gateway_(gateway), tables_(tables), settings_(settings) {}
+    /// Whose faults LINE_FAULTS shows, in its order; null: none.
+    using Lines = std::array<const ports::SerialPort*, registers::gateway::kLines>;
+
+    OwnRegisters(Gateway& gateway, TableKeeper& tables, SettingsKeeper& settings, const Lines& lines)
+        : gateway_(gateway), tables_(tables), settings_(settings), lines_(lines) {}
 
     /// 4 bytes of one register, or 64 of sixteen. Reading FIRED_SCAN, and a block from TABLE_DATA, have
     /// effects.
@@ -34,9 +37,6 @@ class OwnRegisters {
     void drop_write();
 
     PortCounters& port() { return port_; }
-    /// Whose faults LINE_FAULTS shows, in its order; null: none.
-    using Lines = std::array<const ports::SerialPort*, registers::gateway::kLines>;
-    void show_faults_of(const Lines& lines) { lines_ = lines; }
     /// A user has asked for a reset.
     bool reset_asked() const { return reset_asked_; }
     void poll();
@@ -71,7 +71,7 @@ class OwnRegisters {
     TableKeeper& tables_;
     SettingsKeeper& settings_;
     PortCounters port_;
-    Lines lines_{};
+    Lines lines_;
     bool reset_asked_ = false;
 
     std::uint8_t written_ = 0;

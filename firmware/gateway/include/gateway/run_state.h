@@ -26,6 +26,11 @@ enum class SafeReason : std::uint8_t {
     watchdog = 6,
     enable_lost = 7,
     safe_command = 8,
+    bad_settings = 9,   ///< the stored ones are damaged: nothing runs until settings are kept
+    bad_run_mark = 10,  ///< what says that the sequence runs is damaged, missing, or cannot be written
+    no_lines = 11,      ///< 11 to 13: the board lacks what the axis needs and tries to have it again
+    no_store = 12,
+    no_port = 13,  ///< the user's
 };
 
 }  // namespace nplc::gateway

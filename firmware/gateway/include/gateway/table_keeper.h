@@ -22,12 +22,15 @@ class TableKeeper final : private store::TermCheck {
           standstill_(motor),
           slots_(storage, area, store::Kind::table, check_) {}
 
-    /// For the start-up: looks at the store. Error as Slots::mount.
-    base::Status mount();
+    /// For the start-up: looks at the store.
+    void mount();
+    /// It could be looked at: else nobody knows whether there is a table.
+    bool is_readable() const { return is_readable_; }
     /// Then: the stored table, if there is one, becomes the active one. It needs no question to the motor,
-    /// since run() stops it before the first scan. One that stands in for a damaged one does not start by
-    /// itself: the gateway is stopped with bad_table until run().
-    void start(base::Instant now);
+    /// since run() stops it before the first scan. nothing_stored: there is none, and none is active. One
+    /// that stands in for a damaged one does not start by itself: the gateway is stopped with bad_table until
+    /// run().
+    Outcome start(base::Instant now);
     /// Or: `table` becomes the active one.
     Gateway::LoadResult use(std::span<const std::uint8_t> table, base::Instant now);
 
@@ -68,6 +71,7 @@ class TableKeeper final : private store::TermCheck {
 
     Gateway& gateway_;
     store::Phase last_phase_ = store::Phase::idle;
+    bool is_readable_ = false;
     std::span<std::uint8_t> memory_;
     std::span<const std::uint8_t> active_;
     std::uint32_t active_crc_ = 0;

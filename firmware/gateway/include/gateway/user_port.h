@@ -15,8 +15,9 @@ namespace nplc::gateway {
 /// answer to the one before. Refused messages get no answer.
 class UserPort {
   public:
-    /// `motor_line`: the motor's own MacTalk port if it is wired, for what FlexMAC cannot carry; or null.
-    UserPort(ports::SerialPort& line, ports::SerialPort* motor_line, Gateway& gateway, motor::Motor& motor,
+    /// `line`: null where nobody is served. `motor_line`: the motor's own MacTalk port if it is wired, for
+    /// what FlexMAC cannot carry; or null.
+    UserPort(ports::SerialPort* line, ports::SerialPort* motor_line, Gateway& gateway, motor::Motor& motor,
              OwnRegisters& own, SettingsKeeper& settings)
         : line_(line),
           motor_line_(motor_line),
@@ -25,10 +26,9 @@ class UserPort {
           settings_(settings),
           bridge_(motor) {}
 
-    /// After Gateway::poll.
+    /// After Gateway::poll and OwnRegisters::poll.
     void poll(base::Instant now);
-    /// When both must be polled at the latest, for the person's sake, if nothing arrives on either line and
-    /// Gateway::next_poll asks for nothing.
+    /// When it must be polled at the latest if nothing arrives on either line.
     base::Instant next_poll(base::Instant now);
 
   private:
@@ -51,7 +51,7 @@ class UserPort {
     void transmit();
     void transmit_to_motor();
 
-    ports::SerialPort& line_;
+    ports::SerialPort* line_;
     ports::SerialPort* motor_line_;
     Gateway& gateway_;
     OwnRegisters& own_;
