@@ -5,9 +5,7 @@
 
 #include "bare_metal/end.h"
 #include "gateway/chosen_motor.h"
-#include "gateway/gateway.h"
-#include "gateway/own_registers.h"
-#include "gateway/user_port.h"
+#include "gateway/controller.h"
 #include "hal_mcu/cortex_m/core.h"
 
 namespace nplc::bare_metal {
@@ -52,7 +50,7 @@ void rest() {
 [[noreturn]] void restart(const Parts& parts) {
     constexpr base::Milliseconds kLongestAnswer{20};
     const base::Instant asked = parts.clock.now();
-    while (!parts.user_line.transmitter_idle() && parts.clock.now() - asked < kLongestAnswer) rest();
+    while (!parts.user_line->transmitter_idle() && parts.clock.now() - asked < kLongestAnswer) rest();
     run_marker().clear();
     core::reset();
 }
@@ -71,43 +69,49 @@ union Later {
 };
 
 Later<gateway::SettingsKeeper> settings_memory;
+Later<gateway::Controller> controller_memory;
 Later<gateway::ChosenMotor> motor_memory;
-Later<gateway::Gateway> sequence_memory;
-Later<gateway::TableKeeper> tables_memory;
-Later<gateway::OwnRegisters> registers_memory;
-Later<gateway::UserPort> user_port_memory;
+
+// Apart from the loop, these need no stack while it runs.
+
+[[gnu::noinline]] gateway::SettingsKeeper& read_settings(const Parts& parts) {
+    gateway::SettingsKeeper& settings = settings_memory.make(parts.storage, parts.settings_area);
+    settings.start({});
+    return settings;
+}
+
+[[gnu::noinline]] gateway::Controller& start(const Parts& parts, gateway::SettingsKeeper& settings) {
+    motor::Motor& drive = motor_memory.make(parts.motor_line, settings.values()).motor();
+    const gateway::Controller::Ports ports{
+        .inputs = parts.inputs,
+        .outputs = parts.outputs,
+        .watchdog = parts.watchdog,
+        .motor = drive,
+        .storage = parts.storage,
+        .user_line = parts.user_line,
+        .motor_mactalk_line = parts.motor_mactalk_line,
+        .shown_lines = {parts.user_line, &parts.motor_line, parts.motor_mactalk_line}};
+    gateway::Controller& controller = controller_memory.make(ports, parts.table_area, parts.table, settings,
+                                                             start_cause(parts.for_service));
+    note_crash(controller.sequence());
+    controller.tables().start(parts.clock.now());
+    return controller;
+}
 
 }  // namespace
 
 void run(const Parts& parts) {
-    gateway::SettingsKeeper& settings = settings_memory.make(parts.storage, parts.settings_area);
-    settings.start({});
+    gateway::SettingsKeeper& settings = read_settings(parts);
     begin_lines(settings.get(store::Setting::user_baud), settings.get(store::Setting::motor_baud));
     base::Milliseconds bites_after = kStartUp;
     begin_watchdog(bites_after);
-
-    motor::Motor& drive = motor_memory.make(parts.motor_line, settings.values()).motor();
-    gateway::Gateway& sequence =
-        sequence_memory.make(gateway::Gateway::Ports{parts.inputs, parts.outputs, parts.watchdog, drive},
-                             gateway::settings_of(settings.values()), start_cause(parts.for_service));
-    settings.attach(sequence);
-    note_crash(sequence);
-    gateway::TableKeeper& tables =
-        tables_memory.make(sequence, drive, parts.storage, parts.table_area, parts.table);
-    gateway::OwnRegisters& registers = registers_memory.make(sequence, tables, settings);
-    gateway::UserPort& user_port = user_port_memory.make(parts.user_line, parts.motor_mactalk_line, sequence,
-                                                         drive, registers, settings);
-    registers.show_faults_of({&parts.user_line, &parts.motor_line, parts.motor_mactalk_line});
-    static_cast<void>(tables.mount());
-    tables.start(parts.clock.now());
+    gateway::Controller& controller = start(parts, settings);
 
     for (;;) {
-        const base::Instant now = parts.clock.now();
-        sequence.poll(now);
-        user_port.poll(now);
-        keep_safe_outputs(sequence.settings().safe_outputs);
+        controller.poll(parts.clock.now());
+        keep_safe_outputs(controller.sequence().settings().safe_outputs);
         if (watchdog_time(settings) != bites_after) set_watchdog_time(bites_after = watchdog_time(settings));
-        if (registers.reset_asked()) restart(parts);
+        if (controller.reset_asked()) restart(parts);
         rest();
     }
 }

@@ -3,22 +3,31 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "config.h"
-#include "gateway/gateway.h"
-#include "gateway/own_registers.h"
-#include "gateway/user_port.h"
+#include "gateway/controller.h"
 #include "hal_linux/background_storage.h"
 #include "hal_linux/event_loop.h"
 #include "hal_linux/file_storage.h"
 #include "hal_linux/gpio.h"
+#include "hal_linux/run_marker.h"
 #include "journal.h"
 #include "kept_uart.h"
 #include "motor_part.h"
+#include "no_ports.h"
+#include "stored.h"
+#include "timely_port.h"
 #include "user_server.h"
 
 namespace nplc::boards {
+
+/// What is known of the board's own start.
+struct BoardStart {
+    bool by_watchdog = false;      ///< one of its watchdogs says that it has reset the board
+    bool power_cut_waits = false;  ///< a run that a restart of the board has cut off waits for a person
+};
 
 /// One sequencer of this process: its pins, its motor's line, its user's port, its store, and the firmware
 /// that they make a gateway of.
@@ -30,8 +39,10 @@ class Axis {
     Axis(const Axis&) = delete;
     Axis& operator=(const Axis&) = delete;
 
-    /// Outputs first, at their safe levels. Empty, or one line; then nothing is held.
-    std::string open(const std::string& state_directory, base::Instant now);
+    /// Has what it can, outputs first. What it cannot do without and cannot have is told, keeps it in its
+    /// safe state, is shown at its port, and is tried again; what it then has makes a start as after a
+    /// power-up.
+    void open(const std::string& state_directory, const BoardStart& board, base::Instant now);
     /// kMarks marks, `mark` the first of them.
     void watch(hal_linux::EventLoop& loop, std::uint32_t mark);
     static constexpr std::uint32_t kMarks = 8;  ///< serial lines, the user's server, six of input lines
@@ -46,8 +57,9 @@ class Axis {
     void begin_end(base::Instant now);
     bool has_stopped() const;
     bool motor_answers() const { return motor_.has_driver() && motor::delivers(motor_.driver().link()); }
-    /// From now on an end that is not orderly is a crash; a start that failed before is none.
-    void note_running();
+    /// From now on an end that is not orderly is a crash; a start that failed before is none. What cannot be
+    /// marked does not run.
+    void note_running(base::Instant now);
     /// The end was orderly: the next start is none after a crash.
     void note_orderly_end();
 
@@ -58,56 +70,81 @@ class Axis {
     std::string state_in_words() const;
 
   private:
-    std::string open_store(const std::string& folder);
-    void start_settings();
-    std::string open_lines();
-    std::string open_ports();
-    std::string load_table(base::Instant now);
-    gateway::StartCause cause_of_start() const;
-    std::string start(gateway::StartCause cause, base::Instant now);
+    /// What it cannot do without, and why it has it not; empty: it has.
+    struct Lacks {
+        std::string store{};
+        std::string lines{};
+        std::string port{};
+    };
+    bool is_complete() const { return lacks_.store.empty() && lacks_.lines.empty() && lacks_.port.empty(); }
+    gateway::SafeReason worst_lack() const;
+    void lack(std::string& what, const std::string& why);
+
+    // axis_start.cpp
+    void begin(base::Instant now);
+    void try_again(base::Instant now);
+    ports::Storage& storage();
+    void get_store(base::Instant now);
+    bool look_at_marker(const std::string& path);
+    std::string replace_lost_store(const std::string& path);
+    void get_lines();
+    void open_motor();
+    void get_users_port();
+    void get_user_uart();
+    std::string open_user_uart();
+    void load_table(base::Instant now);
+    bool is_after_crash();
+    void start(base::Instant now);
+
+    // axis.cpp
     void tell(LogLevel level, const std::string& text);
     void tell_news(base::Instant now);
     void tell_stored_settings();
+    void watch_all();
     void watch_ports();
     void look_at_inputs();
     bool is_edge_alone(base::Instant now) const;
-    void run_sequence(base::Instant now);
+    void look_at_user(base::Instant now);
+    void poll_controller(base::Instant now);
     void rest_or_watch(base::Instant now);
-    bool stores() { return storage_->state() == ports::StorageState::busy; }
+    bool stores() { return storage().state() == ports::StorageState::busy; }
     void reset(base::Instant now);
     void note_lost_pins();
     void watch_pins(base::Instant now);
     std::uint32_t setting(store::Setting which) const { return settings_->at_start(which); }
-    hal_linux::UartSettings uart_settings(const std::string& path, std::uint32_t baud) const;
 
     const AxisConfig& config_;
     Journal& journal_;
     ports::Watchdog& watchdog_;
     std::string folder_;
+    Lacks lacks_;
+    std::set<std::string> told_lacks_;
+    base::Instant try_at_ = base::kNever;
+    std::optional<gateway::StartCause> cause_;  ///< of the next start; nothing: not known without the store
+    bool is_running_ = false;                   ///< note_running()
+    BoardStart board_{};
+    std::optional<hal_linux::RunMarker> marker_;
+    bool marker_is_bad_ = false;  ///< as the start found it
+    bool is_marked_ = true;
 
     std::unique_ptr<hal_linux::FileStorage> file_;
     std::optional<hal_linux::BackgroundStorage> storage_;
+    NoStorage no_storage_{kMemory};
     hal_linux::GpioBits input_bits_;
     hal_linux::GpioBits output_bits_;
+    bool has_inputs_ = false;
+    bool has_outputs_ = false;
     std::optional<hal_linux::GpioInputs> inputs_;
     std::optional<hal_linux::GpioOutputs> outputs_;
     MotorPart motor_;
     std::optional<KeptUart> mactalk_port_;
     std::optional<KeptUart> user_uart_;
+    std::optional<TimelyPort> user_line_;  ///< on user_uart_
     std::optional<UserServer> user_server_;
 
-    std::optional<gateway::SettingsKeeper> settings_;
-    std::optional<gateway::Gateway> gateway_;
     std::array<std::uint8_t, (sequencer::kMaxTerms + 1) * sequencer::kTermBytes> table_memory_{};
-    std::optional<gateway::TableKeeper> tables_;
-    std::optional<gateway::OwnRegisters> own_registers_;
-    std::optional<gateway::UserPort> user_port_;
-    /// The user's line where there is none.
-    struct NoLine final : ports::SerialPort {
-        std::size_t write(std::span<const std::uint8_t> bytes) override { return bytes.size(); }
-        std::size_t read(std::span<ports::ReceivedByte>) override { return 0; }
-        bool transmitter_idle() override { return true; }
-    } no_line_;
+    std::optional<gateway::SettingsKeeper> settings_;
+    std::optional<gateway::Controller> controller_;
 
     hal_linux::EventLoop* loop_ = nullptr;
     std::uint32_t mark_ = 0;
@@ -120,7 +157,6 @@ class Axis {
     std::uint32_t told_events_ = 0;
     motor::Link told_link_ = motor::Link::down;
     bool told_pins_lost_ = false;
-    bool failed_ = false;  ///< a port could not be had again after a reset: nothing works any more
 };
 
 }  // namespace nplc::boards

@@ -27,6 +27,11 @@ bool is_name(const std::string& name) {
     });
 }
 
+/// Of a file's permissions, without the bits above them.
+bool is_mode(const std::string& text) {
+    return text.size() == 4 && text[0] == '0' && text.find_first_not_of("01234567") == std::string::npos;
+}
+
 class Reader {
   public:
     ReadConfig read(std::string_view text) {
@@ -61,6 +66,8 @@ class Reader {
         config.watchdog_device = placed(service, "watchdog_device");
         if (const auto seconds = service.number("watchdog_seconds", 1, 600))
             config.watchdog_seconds = static_cast<int>(*seconds);
+        if (const auto waits = service.choice("after_power_cut", {"start", "wait"}))
+            config.power_cut_waits = *waits == 1;
         service.finish();
     }
 
@@ -109,12 +116,27 @@ class Reader {
         Section user(section.table("user"), path + ".user", findings_);
         axis.user_port = placed(user, "port");
         check_port(user, axis.user_port, true);
+        read_socket(user, axis);
         user.finish();
         read_lines(section, "inputs", "IN", axis.inputs, axis);
         read_lines(section, "outputs", "OUT", axis.outputs, axis);
         read_settings(section, axis);
         section.finish();
         result_.config.axes.push_back(std::move(axis));
+    }
+
+    void read_socket(Section& user, AxisConfig& axis) {
+        axis.socket_group = placed(user, "socket_group");
+        const auto mode = user.text("socket_mode");
+        if (mode && !is_mode(*mode))
+            user.complain("socket_mode", "is no mode; write four octal digits such as \"0660\"");
+        else if (mode)
+            axis.socket_mode = static_cast<unsigned>(std::stoul(*mode, nullptr, 8));
+        const bool is_socket = axis.user_port.text.starts_with("unix:");
+        for (const char* key : {"socket_mode", "socket_group"}) {
+            if (!is_socket && user.any(key) != nullptr)
+                user.complain(key, "is for a port unix:PATH; leave it out, or name such a port");
+        }
     }
 
     template <std::size_t count>

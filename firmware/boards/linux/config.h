@@ -24,7 +24,9 @@ struct AxisConfig {
     std::string name;
     Placed table;  ///< a file whose table runs while none is stored
     MotorConfig motor;
-    Placed user_port;  ///< a device, or an endpoint pty:, unix: or tcp:
+    Placed user_port;             ///< a device, or an endpoint pty:, unix: or tcp:
+    unsigned socket_mode = 0660;  ///< of a unix: endpoint
+    Placed socket_group;
     Lines<6> inputs;
     Lines<4> outputs;
     std::vector<Placed> gpio;         ///< every line that is named
@@ -38,6 +40,7 @@ struct Config {
     hal_linux::RealTime real_time;
     Placed watchdog_device;
     int watchdog_seconds = 10;
+    bool power_cut_waits = false;  ///< else the settings' autostart decides
     std::vector<AxisConfig> axes;
 };
 

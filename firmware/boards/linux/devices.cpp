@@ -11,7 +11,7 @@
 #include <map>
 
 #include "config.h"
-#include "table_file.h"
+#include "hal_linux/group.h"
 
 namespace nplc::boards {
 namespace {
@@ -72,14 +72,20 @@ void check_can(const Placed& can, std::vector<Mistake>& missing) {
     std::ifstream(path + "/type") >> type;
     if (!fs::exists(path, error))
         missing.push_back({can.line, can.key,
-                           fmt::format("there is no interface {}; set it up, or name another: `ip -brief "
-                                       "link show type can` lists them",
+                           fmt::format("there is no interface {}; set it up, or name another: `ip -o link | "
+                                       "grep link/can` lists them",
                                        can.text)});
     else if (type != ARPHRD_CAN)
         missing.push_back({can.line, can.key,
-                           fmt::format("{} is no interface for CAN; `ip -brief link show type can` lists "
+                           fmt::format("{} is no interface for CAN; `ip -o link | grep link/can` lists "
                                        "those",
                                        can.text)});
+}
+
+void check_group(const Placed& group, std::vector<Mistake>& missing) {
+    if (group.is_there() && !hal_linux::group_number(group.text))
+        missing.push_back(
+            {group.line, group.key, fmt::format("there is no group {}; name one of /etc/group", group.text)});
 }
 
 /// One line by two names is seen here only: the kernel knows which line a name is.
@@ -122,16 +128,12 @@ std::vector<Mistake> missing_devices(const Config& config) {
         for (const Placed& port : {axis.motor.port, axis.motor.mactalk_port, axis.user_port})
             check_serial(port, missing);
         check_can(axis.motor.can, missing);
+        check_group(axis.socket_group, missing);
         for (const Placed& line : axis.gpio) lines.check(line);
-        if (!axis.table.is_there()) continue;
-        if (const TableFile table = read_table(axis.table.text); !table.error.empty())
-            missing.push_back({axis.table.line, axis.table.key, table.error});
     }
     if (const Placed& device = config.watchdog_device; device.is_there() && !is_character_device(device.text))
         missing.push_back({device.line, device.key,
                            fmt::format("there is no {}; leave it out on a board without one", device.text)});
-    std::stable_sort(missing.begin(), missing.end(),
-                     [](const Mistake& a, const Mistake& b) { return a.line < b.line; });
     return missing;
 }
 

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace nplc::boards {
 namespace {
 
 using ports::CanState;
 
-constexpr base::Milliseconds kBetweenTries{250};
+constexpr base::Milliseconds kBetweenCanTries{250};
 
 /// Warning and passive still take part.
 CanState without_degrees(CanState state) {
@@ -16,14 +18,12 @@ CanState without_degrees(CanState state) {
 
 }  // namespace
 
-std::string KeptCan::open(const std::string& who, const hal_linux::CanSettings& settings) {
+void KeptCan::open(const std::string& who, const hal_linux::CanSettings& settings) {
     who_ = who;
     interface_ = settings.interface;
-    can_.reset();
+    can_ = hal_linux::SocketCan::absent(settings);
     retry_at_ = base::kNever;
-    hal_linux::SocketCan::Opened opened = hal_linux::SocketCan::open(settings);
-    can_ = std::move(opened.can);
-    return opened.error;
+    problem_ = can_->reopen();
 }
 
 void KeptCan::look(Journal& journal, base::Instant now) {
@@ -34,8 +34,11 @@ void KeptCan::look(Journal& journal, base::Instant now) {
         return;
     }
     if (retry_at_ != base::kNever && now < retry_at_) return;
-    retry_at_ = now + kBetweenTries;
-    if (can_->reopen().empty()) tell_state(journal);
+    retry_at_ = now + kBetweenCanTries;
+    const std::string before = std::exchange(problem_, can_->reopen());
+    if (problem_.empty()) return tell_state(journal);
+    if (!before.empty() && before != problem_)
+        journal.write(LogLevel::error, fmt::format("{}: {}", who_, problem_));
 }
 
 void KeptCan::tell_problem(Journal& journal) {
@@ -49,9 +52,13 @@ void KeptCan::tell_problem(Journal& journal) {
 void KeptCan::tell_state(Journal& journal) {
     if (can_->gone() != told_gone_) {
         told_gone_ = can_->gone();
-        journal.write(told_gone_ ? LogLevel::error : LogLevel::notice,
-                      fmt::format("{}: {} {}", who_, interface_,
-                                  told_gone_ ? "is gone; plug the adapter in again" : "is back"));
+        if (!told_gone_)
+            journal.write(LogLevel::notice, fmt::format("{}: {} is back", who_, interface_));
+        else
+            journal.write(LogLevel::error,
+                          fmt::format("{}: {}", who_,
+                                      problem_.empty() ? interface_ + " is gone; plug the adapter in again"
+                                                       : problem_));
         told_ = CanState::down;
     }
     const CanState state = without_degrees(can_->state());

@@ -9,12 +9,12 @@
 
 namespace nplc::boards {
 
-/// A CAN interface that is looked for again when its adapter was pulled out. Says what happens to it; who
-/// uses it restarts it when it is off the bus.
+/// A CAN interface that is looked for again when its adapter was pulled out, or was not there at the start.
+/// Says what happens to it; who uses it restarts it when it is off the bus.
 class KeptCan {
   public:
-    /// Empty, or one line. An interface that is down may be opened.
-    std::string open(const std::string& who, const hal_linux::CanSettings& settings);
+    /// An interface that is down may be opened; one that cannot be is gone until look() finds it.
+    void open(const std::string& who, const hal_linux::CanSettings& settings);
     hal_linux::SocketCan& can() { return *can_; }
     void look(Journal& journal, base::Instant now);
     /// When look() is wanted at the latest.
@@ -26,6 +26,7 @@ class KeptCan {
 
     std::string who_;
     std::string interface_;
+    std::string problem_;  ///< why it could not be opened the last time; empty: it was
     std::unique_ptr<hal_linux::SocketCan> can_;
     bool told_gone_ = false;
     std::string told_problem_;

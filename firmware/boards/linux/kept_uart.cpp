@@ -1,9 +1,11 @@
 #include "kept_uart.h"
 
+#include <utility>
+
 namespace nplc::boards {
 namespace {
 
-constexpr base::Milliseconds kBetweenTries{250};
+constexpr base::Milliseconds kBetweenUartTries{250};
 
 }  // namespace
 
@@ -11,24 +13,32 @@ std::string KeptUart::open(const std::string& who, const hal_linux::UartSettings
     who_ = who;
     path_ = settings.path;
     uart_.reset();  // the port is held exclusively
+    uart_ = hal_linux::Uart::absent(settings);
     retry_at_ = base::kNever;
-    hal_linux::Uart::Opened opened = hal_linux::Uart::open(settings);
-    uart_ = std::move(opened.uart);
-    return opened.error;
+    problem_ = uart_->reopen();
+    return problem_;
 }
 
 bool KeptUart::look(Journal& journal, base::Instant now) {
     if (!uart_->gone()) return false;
     if (retry_at_ == base::kNever) {
-        journal.write(LogLevel::error, who_ + ": " + path_ + " is gone; plug the adapter in again");
+        tell(journal, problem_.empty() ? path_ + " is gone; plug the adapter in again" : problem_);
         retry_at_ = now;
     }
     if (now < retry_at_) return false;
-    retry_at_ = now + kBetweenTries;
-    if (!uart_->reopen().empty()) return false;
-    retry_at_ = base::kNever;
-    journal.write(LogLevel::notice, who_ + ": " + path_ + " is back");
-    return true;
+    retry_at_ = now + kBetweenUartTries;
+    const std::string before = std::exchange(problem_, uart_->reopen());
+    if (problem_.empty()) {
+        retry_at_ = base::kNever;
+        journal.write(LogLevel::notice, who_ + ": " + path_ + " is back");
+        return true;
+    }
+    if (!before.empty() && before != problem_) tell(journal, problem_);
+    return false;
+}
+
+void KeptUart::tell(Journal& journal, const std::string& problem) {
+    journal.write(LogLevel::error, who_ + ": " + problem);
 }
 
 }  // namespace nplc::boards

@@ -9,10 +9,10 @@
 
 namespace nplc::boards {
 
-/// A serial port that is looked for again when its adapter was pulled out.
+/// A serial port that is looked for again when its adapter was pulled out, or was not there at the start.
 class KeptUart {
   public:
-    /// Empty, or one line.
+    /// Empty, or one line: then it is gone until look() finds it.
     std::string open(const std::string& who, const hal_linux::UartSettings& settings);
     hal_linux::Uart& uart() { return *uart_; }
     bool gone() const { return uart_->gone(); }
@@ -22,8 +22,11 @@ class KeptUart {
     base::Instant next_look() const { return retry_at_; }
 
   private:
+    void tell(Journal& journal, const std::string& problem);
+
     std::string who_;
     std::string path_;
+    std::string problem_;  ///< why it could not be opened the last time; empty: it was
     std::unique_ptr<hal_linux::Uart> uart_;
     base::Instant retry_at_ = base::kNever;
 };

@@ -1,17 +1,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cerrno>
+#include <algorithm>
 #include <cstdio>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 
 #include "arguments/arguments.h"
 #include "command_line/generated.h"
 #include "config.h"
 #include "exit_codes.h"
+#include "host/files.h"
 #include "service.h"
+#include "stored.h"
 #include "wiring.h"
 
 namespace {
@@ -28,10 +27,18 @@ constexpr const char* kFooter =
     "settings; the\n"
     "example that comes with the program documents all of it. A table is uploaded with `nanoctl --port PORT "
     "upload FILE`\n"
-    "and kept; whatever is wrong is said on standard error, in the journal with its level.\n"
-    "Exit codes: 0 ended in order, or the configuration is in order; 2 wrong usage, or mistakes in the\n"
-    "configuration; 3 a device, a port or the store could not be had.\n"
+    "and kept; whatever is wrong is said on standard error, in the journal with its level. An axis that "
+    "lacks\n"
+    "something, or whose table cannot run, is stopped with its outputs safe and its port open; the others go "
+    "on.\n"
+    "check-config looks at the devices too, and at the settings and tables that are stored.\n"
+    "Exit codes: 0 ended in order, or all is in order; 2 wrong usage, or mistakes in the configuration; 3 "
+    "the\n"
+    "watchdog could not be had, or check-config found what an axis cannot have or run.\n"
     "Example: nanoplc check-config /etc/nanoplc/nanoplc.toml && nanoplc --config /etc/nanoplc/nanoplc.toml";
+
+/// Far more than eight axes need.
+constexpr std::size_t kMostOfAConfig = std::size_t{1} << 20U;
 
 struct Options {
     std::string config = "/etc/nanoplc/nanoplc.toml";
@@ -54,14 +61,13 @@ void print(const std::string& file, const std::vector<Mistake>& mistakes) {
 }
 
 Loaded load(const std::string& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(stream), {}};
-    if (!stream.is_open() || stream.bad()) {
+    const host::FileContent content = host::read_file(file, kMostOfAConfig);
+    if (!content.problem.empty()) {
         fmt::print(stderr, "{}: cannot be read: {}; name a configuration with --config\n", file,
-                   std::strerror(errno));
+                   content.problem);
         return {};
     }
-    ReadConfig read = read_config(text);
+    ReadConfig read = read_config(content.bytes);
     print(file, read.findings.mistakes);
     return {std::move(read.config), std::move(read.findings.keys), read.findings.mistakes.empty()};
 }
@@ -69,23 +75,32 @@ Loaded load(const std::string& file) {
 int run_service(const std::string& file) {
     const Loaded loaded = load(file);
     if (!loaded.is_whole) return kWrong;
-    const auto missing = missing_devices(loaded.config);
-    print(file, missing);
-    if (!missing.empty()) return kNoDevice;
     Journal journal(loaded.config.log_level);
     return Service(loaded.config, journal).run();
 }
 
+/// What this machine lacks, and what is wrong with what is stored on it.
+StoredFindings look_around(const Config& config) {
+    StoredFindings found = look_at_stored(config);
+    std::vector<Mistake>& troubles = found.troubles;
+    const auto missing = missing_devices(config);
+    troubles.insert(troubles.end(), missing.begin(), missing.end());
+    std::stable_sort(troubles.begin(), troubles.end(),
+                     [](const Mistake& a, const Mistake& b) { return a.line < b.line; });
+    return found;
+}
+
 int check(const Options& options) {
     const Loaded loaded = load(options.file);
-    const auto missing = options.no_devices ? std::vector<Mistake>{} : missing_devices(loaded.config);
-    print(options.file, missing);
+    const StoredFindings found = options.no_devices ? StoredFindings{} : look_around(loaded.config);
+    print(options.file, found.troubles);
     if (!loaded.is_whole) return kWrong;
-    if (!missing.empty()) return kNoDevice;
+    if (!found.troubles.empty()) return kNoDevice;
     if (options.keys) {
         fmt::print("{}\n", fmt::join(loaded.keys, "\n"));
         return kDone;
     }
+    for (const std::string& note : found.notes) fmt::print("{}\n", note);
     const std::size_t axes = loaded.config.axes.size();
     fmt::print("{}: in order, {} {}\n", options.file, axes, axes == 1 ? "axis" : "axes");
     return kDone;
@@ -107,10 +122,11 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", std::string("nanoplc ") + NPLC_VERSION);
     app.footer(kFooter);
     app.add_option("--config", options.config, "The configuration")->capture_default_str()->type_name("FILE");
-    arguments::App& check_config =
-        *app.add_subcommand("check-config", "Name every mistake in a configuration, and end");
+    arguments::App& check_config = *app.add_subcommand(
+        "check-config", "Name every mistake in a configuration and in what is stored, and end");
     check_config.add_option("file", options.file, "The configuration")->required();
-    check_config.add_flag("--no-devices", options.no_devices, "Of another machine: look for no device");
+    check_config.add_flag("--no-devices", options.no_devices,
+                          "Of another machine: look for no device and no store");
     check_config.add_flag("--keys", options.keys, "Print every key that may stand in it");
     app.add_subcommand("wiring", "Print what is to be joined to what")
         ->add_option("file", options.file, "The configuration")

@@ -12,14 +12,15 @@ constexpr std::uint32_t kWarnings = registers::midi::kUnderVoltage | registers::
 
 }  // namespace
 
-std::string MotorPart::open(const std::string& who, const MotorConfig& config, std::uint32_t jvl_baud) {
+void MotorPart::open(const std::string& who, const MotorConfig& config, std::uint32_t jvl_baud) {
     config_ = config;
     if (config.is_on_can()) {
-        if (can_) return {};
-        return can_.emplace().open(who, {.interface = config.can.text, .bitrate = config.bitrate});
+        if (!can_) can_.emplace().open(who, {.interface = config.can.text, .bitrate = config.bitrate});
+        return;
     }
     const std::uint32_t baud = config.midi ? config.v24_baud : jvl_baud;
-    return uart_.emplace().open(who, {.path = config.port.text, .baud = baud, .rs485 = config.rs485});
+    static_cast<void>(
+        uart_.emplace().open(who, {.path = config.port.text, .baud = baud, .rs485 = config.rs485}));
 }
 
 motor::Motor& MotorPart::start(const store::SettingValues& values) {
@@ -43,6 +44,30 @@ motor::Motor& MotorPart::start_midi(registers::midi::Model model) {
         link = &v24_.emplace(uart_->uart(), motor::MidiV24Link::Settings{.address = config_.midi_address,
                                                                          .baud = config_.v24_baud});
     return midi_.emplace(*link, motor::MidiMotor::Settings{.model = model});
+}
+
+std::string MotorPart::silence_in_words() const {
+    const std::string line = config_.line_in_words();
+    if (midi_ && midi_->fault() == motor::MidiFault::several) return loss_in_words();
+    if (midi_ && midi_->probe().kind == motor::MidiOutcome::Kind::refused)
+        return fmt::format(
+            "something answers to {} and refuses to tell its status, which no MIDI drive does; is it another "
+            "kind of device?",
+            line);
+    if (midi_ && midi_->probe().damaged)
+        return fmt::format(
+            "what comes from {} cannot be read; is the speed right, is there noise, or do two drives have "
+            "this address?",
+            line);
+    return fmt::format("no motor has answered yet on {}; look at its supply, its line, and at [axis.motor]",
+                       line);
+}
+
+std::string MotorPart::loss_in_words() const {
+    using motor::MidiFault;
+    const bool told = midi_ && midi_->fault() != MidiFault::none && midi_->fault() != MidiFault::link_lost;
+    return fmt::format("{} on {}", told ? "no link to the motor" : "the motor does not answer",
+                       config_.line_in_words());
 }
 
 std::vector<Said> MotorPart::news() {

@@ -21,8 +21,8 @@ namespace nplc::boards {
 /// The motor of an axis: its line and its driver, whatever kind it is.
 class MotorPart {
   public:
-    /// Of a JVL motor the line has `jvl_baud`. Empty, or one line.
-    std::string open(const std::string& who, const MotorConfig& config, std::uint32_t jvl_baud);
+    /// Of a JVL motor the line has `jvl_baud`. One that cannot be had now is silent until look() finds it.
+    void open(const std::string& who, const MotorConfig& config, std::uint32_t jvl_baud);
     /// A new driver on the open line, as after a power-up.
     motor::Motor& start(const store::SettingValues& values);
     bool has_driver() const { return driver_ != nullptr; }
@@ -38,6 +38,9 @@ class MotorPart {
     /// After the driver's poll: says what has happened to the line. True if it has another descriptor.
     bool look(Journal& journal, base::Instant now);
     base::Instant next_look() const { return uart_ ? uart_->next_look() : can_->next_look(); }
+    /// Why the link has not come up, and that it was lost.
+    std::string silence_in_words() const;
+    std::string loss_in_words() const;
     /// What a MIDI drive says of its faults and warnings, once each.
     std::vector<Said> news();
     /// Status comes without pause and nothing waits for it: the line need not be watched for some

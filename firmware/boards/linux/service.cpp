@@ -76,14 +76,16 @@ std::string Service::open() {
     }
     watchdog_ = std::make_unique<CommonWatchdog>(std::move(targets));
     catch_fatal_signals();
+    const BoardStart board{
+        hal_linux::DeviceWatchdog::any_has_reset_board() || (device_ && device_->has_reset_board()),
+        config_.power_cut_waits};
     const base::Instant now = clock_.now();
     for (const AxisConfig& config : config_.axes) {
         axes_.push_back(std::make_unique<Axis>(config, journal_, watchdog_->add()));
         last_resort[axes_.size() - 1] = axes_.back().get();
-        if (std::string error = axes_.back()->open(config_.state_directory, now); !error.empty())
-            return config.name + ": " + error;
+        axes_.back()->open(config_.state_directory, board, now);
     }
-    for (const auto& axis : axes_) axis->note_running();
+    for (const auto& axis : axes_) axis->note_running(now);
     for (std::size_t i = 0; i < axes_.size(); ++i)
         axes_[i]->watch(*loop_, static_cast<std::uint32_t>(i) * Axis::kMarks);
     next_.assign(axes_.size(), base::Instant{});

@@ -1,11 +1,12 @@
 #include "user_server.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace nplc::boards {
 namespace {
 
-constexpr std::size_t kMostClients = 8;
+constexpr std::size_t kMostClients = 32;
 
 SharedLine::Time line_time(base::Instant now) {
     return now.time_since_epoch();
@@ -13,24 +14,22 @@ SharedLine::Time line_time(base::Instant now) {
 
 }  // namespace
 
-std::string UserServer::open(const std::string& endpoint) {
-    auto opened = hal_linux::ByteServer::open(endpoint, kMostClients);
+std::string UserServer::open(const std::string& endpoint, hal_linux::ByteServer::Settings settings) {
+    settings.seats = kMostClients;
+    auto opened = hal_linux::ByteServer::open(endpoint, settings);
     server_ = std::move(opened.server);
     if (server_) line_ = std::make_unique<SharedLine>(*server_);
     return opened.error;
 }
 
-void UserServer::take_in(base::Instant now, const SharedLine::Addresses& addresses) {
-    now_ = line_time(now);
+void UserServer::take_in(const SharedLine::Addresses& addresses) {
     const auto bytes = line_->to_line(now_, addresses);
     waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
 }
 
 base::Instant UserServer::next_turn(base::Instant now) const {
     if (!waiting_.empty()) return now;
-    const auto next = line_->next_turn(line_time(now));
-    if (!next) return base::kNever;
-    return base::Instant(std::chrono::ceil<base::Microseconds>(*next));
+    return base::Instant(std::chrono::ceil<base::Microseconds>(line_->next_turn(line_time(now))));
 }
 
 std::size_t UserServer::write(std::span<const std::uint8_t> bytes) {
@@ -39,6 +38,7 @@ std::size_t UserServer::write(std::span<const std::uint8_t> bytes) {
 }
 
 std::size_t UserServer::read(std::span<ports::ReceivedByte> out) {
+    if (look_for_) take_in(*std::exchange(look_for_, std::nullopt));
     const std::size_t count = std::min(out.size(), waiting_.size());
     for (std::size_t i = 0; i < count; ++i) {
         out[i] = {waiting_.front(), false};

@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/time.h"
@@ -11,17 +12,20 @@
 
 namespace nplc::boards {
 
-/// The user's port as a socket or a pseudo-terminal: for the gateway a serial line, for up to eight clients a
-/// line of their own.
+/// The user's port as a socket or a pseudo-terminal: for the gateway a serial line, for many clients a line
+/// of their own.
 class UserServer final : public ports::SerialPort {
   public:
-    /// Empty, or one line.
-    std::string open(const std::string& endpoint);
+    /// With seats of its own number. Empty, or one line.
+    std::string open(const std::string& endpoint, hal_linux::ByteServer::Settings settings);
     const std::string& name() const { return server_->name(); }
     int descriptor() const { return server_->descriptor(); }
 
-    /// Takes in what has come; before the user's port is polled.
-    void take_in(base::Instant now, const SharedLine::Addresses& addresses);
+    /// What has come by `now` is taken in by the next read().
+    void look(base::Instant now, const SharedLine::Addresses& addresses) {
+        now_ = now.time_since_epoch();
+        look_for_ = addresses;
+    }
     base::Instant next_turn(base::Instant now) const;
 
     std::size_t write(std::span<const std::uint8_t> bytes) override;
@@ -29,10 +33,13 @@ class UserServer final : public ports::SerialPort {
     bool transmitter_idle() override { return true; }
 
   private:
+    void take_in(const SharedLine::Addresses& addresses);
+
     std::unique_ptr<hal_linux::ByteServer> server_;
     std::unique_ptr<SharedLine> line_;
     std::deque<std::uint8_t> waiting_;
     SharedLine::Time now_{0};
+    std::optional<SharedLine::Addresses> look_for_;
 };
 
 }  // namespace nplc::boards

@@ -30,7 +30,8 @@ Said of_reason(SafeReason reason, unsigned step) {
                                 "`nanoctl run` when the motor is in order",
                                 step)};
         case SafeReason::bad_table:
-            return {LogLevel::error, "SAFE: no table that is whole; upload it again with `nanoctl upload`"};
+            return {LogLevel::error,
+                    "SAFE: no table that is whole and for this motor; upload one with `nanoctl upload`"};
         case SafeReason::watchdog:
             return {LogLevel::error,
                     "SAFE: the last run did not end in order (killed, crashed, or reset by a watchdog); the "
@@ -39,8 +40,25 @@ Said of_reason(SafeReason reason, unsigned step) {
             return {
                 LogLevel::warning,
                 fmt::format("SAFE: the enable input is off (step {}); start again with `nanoctl run`", step)};
+        case SafeReason::bad_settings:
+            return {
+                LogLevel::error,
+                "SAFE: the stored settings are damaged or gone; look at those in use with `nanoctl settings "
+                "list`, set and keep them, then `nanoctl run`"};
+        case SafeReason::bad_run_mark:
+            return {
+                LogLevel::error,
+                "SAFE: nobody knows whether the last run ended in order: the file `running` in the axis's "
+                "folder is damaged, missing, or cannot be written; look at the machine, then `nanoctl run`"};
         case SafeReason::safe_command:
             return {LogLevel::warning, fmt::format("SAFE: told to be, in step {}", step)};
+        case SafeReason::no_lines:
+            return {LogLevel::error, "SAFE: GPIO lines are missing; it cannot run without them"};
+        case SafeReason::no_store:
+            return {LogLevel::error, "SAFE: the store is missing; it does not run without its settings"};
+        case SafeReason::no_port:
+            return {LogLevel::error,
+                    "SAFE: the user's port is missing; it does not run where nobody can stop it"};
     }
     return {LogLevel::error, "SAFE: for an unknown reason"};
 }
@@ -49,13 +67,16 @@ Said of_reason(SafeReason reason, unsigned step) {
 
 Said in_words(const gateway::EventLog::Entry& entry) {
     if (entry.event < 16) return of_reason(static_cast<SafeReason>(entry.event), entry.step);
+    const char* const remark =
+        entry.detail == 1 ? "; the motor cannot take up again what it did: stop, then run from the start"
+                          : "";
     switch (static_cast<Event>(entry.event)) {
         case Event::started:
             return {LogLevel::notice, "the sequence runs"};
         case Event::held:
-            return {LogLevel::notice, fmt::format("held in step {}", entry.step)};
+            return {LogLevel::notice, fmt::format("held in step {}{}", entry.step, remark)};
         case Event::breakpoint:
-            return {LogLevel::notice, fmt::format("held by a breakpoint at step {}", entry.step)};
+            return {LogLevel::notice, fmt::format("held by a breakpoint at step {}{}", entry.step, remark)};
         case Event::forced:
             return {LogLevel::warning, "signals are forced over the user's port"};
         case Event::forces_ended:
@@ -81,6 +102,8 @@ Said in_words(const gateway::EventLog::Entry& entry) {
                     fmt::format("the firmware gave up before this start, cause {}", entry.detail)};
         case Event::gave_up_at:
             return {LogLevel::error, fmt::format("it gave up at code address {}", entry.detail)};
+        case Event::motor_fault:
+            return {LogLevel::debug, fmt::format("the driver's fault {}", entry.detail)};
         case Event::upload_given_up:
             return {LogLevel::warning, fmt::format("an upload was given up after {} bytes", entry.detail)};
     }

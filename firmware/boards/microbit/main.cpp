@@ -102,7 +102,7 @@ void run_firmware() {
                            .outputs = outputs,
                            .watchdog = watchdog,
                            .storage = flash,
-                           .user_line = serves_person ? uart : nobody,
+                           .user_line = serves_person ? &uart : nullptr,
                            .motor_line = serves_person ? nobody : uart,
                            .motor_mactalk_line = nullptr,
                            .table_area = kTableArea,

@@ -4,8 +4,12 @@
 #include <array>
 #include <utility>
 
+#include "base/bytes.h"
+#include "registers/gateway.h"
+
 namespace nplc::boards {
 
+namespace gw = registers::gateway;
 namespace mactalk = protocol::mactalk;
 
 namespace {
@@ -14,13 +18,27 @@ using Time = SharedLine::Time;
 
 /// Samples are 8 or 16 bytes: over once nothing more comes.
 constexpr Time kSilenceAfterSamples = std::chrono::milliseconds{20};
+/// A stop is answered at once or, like a hold of what does not run, never.
+constexpr Time kStopAnswer = std::chrono::milliseconds{50};
 /// At 19200 baud, the user's port's own speed.
 constexpr Time kCharacter = std::chrono::microseconds{521};
 constexpr std::size_t kMostWaiting = 16;  ///< of one client
-constexpr int kReadsPerLook = 16;
 
 bool is_for_somebody(std::uint8_t address, const SharedLine::Addresses& addresses) {
     return address == addresses.gateway || address == addresses.motor || address == mactalk::kEveryone;
+}
+
+bool is_hold(std::uint32_t command) {
+    return command == static_cast<std::uint32_t>(gw::Command::hold);
+}
+
+std::vector<std::uint8_t> bytes_of(const mactalk::Request& request, std::span<const std::uint8_t> data) {
+    if (request.length > 4) {
+        const auto encoded = mactalk::encode_long_write(request.address, request.reg, data);
+        return {encoded.view().begin(), encoded.view().end()};
+    }
+    const auto encoded = mactalk::encode(request);
+    return {encoded.view().begin(), encoded.view().end()};
 }
 
 }  // namespace
@@ -36,33 +54,40 @@ void SharedLine::welcome(Seat& seat, std::size_t number, std::uint64_t visit) {
     until_ = std::min(until_, sent_ + kBriefly);
 }
 
-void SharedLine::listen(std::size_t number, std::uint8_t gateway_address) {
+void SharedLine::listen(std::size_t number, Time now, std::uint8_t gateway_address) {
     std::array<std::uint8_t, 4096> bytes;
     Seat& seat = seats_[number];
-    if (const auto visit = server_.visit(number); visit != seat.visit) welcome(seat, number, visit);
-    seat.decoder.take_long_writes(gateway_address);
-    std::size_t count = bytes.size();
-    for (int i = 0; i < kReadsPerLook && count == bytes.size(); ++i) {
-        count = server_.read_seat(number, bytes);
-        for (const std::uint8_t byte : std::span(bytes).first(count)) take_byte(seat, byte);
+    if (const auto visit = server_.visit(number); visit != seat.visit) {
+        welcome(seat, number, visit);
+        seat.drained = looked_.value_or(now);
     }
+    seat.decoder.take_long_writes(gateway_address);
+    const std::size_t count = server_.read_seat(number, bytes);
+    for (const std::uint8_t byte : std::span(bytes).first(count)) take_byte(number, byte, gateway_address);
+    if (count < bytes.size()) seat.drained = now;
 }
 
-void SharedLine::take_byte(Seat& seat, std::uint8_t byte) {
-    mactalk::RequestDecoder& decoder = seat.decoder;
-    const auto request = decoder.receive(byte);
-    if (!request || seat.frames.size() == kMostWaiting) return;
-    Frame frame{request->kind, request->address, {}};
-    const bool is_long = request->kind == mactalk::Kind::write && request->length > 4;
-    const auto take = [&frame](auto&& encoded) {
-        frame.bytes.assign(encoded.view().begin(), encoded.view().end());
-    };
-    if (is_long) {
-        take(mactalk::encode_long_write(request->address, request->reg, decoder.data()));
-    } else {
-        take(mactalk::encode(*request));
-    }
-    seat.frames.push_back(std::move(frame));
+void SharedLine::take_byte(std::size_t number, std::uint8_t byte, std::uint8_t gateway_address) {
+    Seat& seat = seats_[number];
+    const auto request = seat.decoder.receive(byte);
+    if (!request) return;
+    server_.note_message(number);
+    Frame frame{*request, purpose_of(*request, gateway_address), seat.drained,
+                bytes_of(*request, seat.decoder.data())};
+    std::erase_if(seat.frames, [](const Frame& waiting) { return waiting.purpose == Purpose::reads; });
+    if (frame.purpose == Purpose::stops) return take_stop(number, std::move(frame));
+    if (seat.frames.size() < kMostWaiting) seat.frames.push_back(std::move(frame));
+}
+
+/// What its client sent before is over with it.
+void SharedLine::take_stop(std::size_t number, Frame frame) {
+    Seat& seat = seats_[number];
+    seat.frames.clear();
+    seat.refused.reset();
+    const bool waits_already = std::any_of(stops_.begin(), stops_.end(), [&](const Stop& stop) {
+        return stop.visit == seat.visit && stop.frame.request == frame.request;
+    });
+    if (!waits_already) stops_.push_back({number, seat.visit, std::move(frame)});
 }
 
 /// While an answer is to come only the same client may go on, and only once.
@@ -78,36 +103,94 @@ std::optional<std::size_t> SharedLine::next_seat() const {
     return std::nullopt;
 }
 
-std::vector<std::uint8_t> SharedLine::to_line(Time now, const Addresses& addresses) {
-    for (std::size_t number = 0; number < seats_.size(); ++number) listen(number, addresses.gateway);
-    if (asking_ && now >= until_) end_turn(samples_);
-    const auto next = next_seat();
-    if (!next) return {};
-    const Frame frame = std::move(seats_[*next].frames.front());
-    seats_[*next].frames.pop_front();
-    expect(*next, frame, now, addresses);
-    return frame.bytes;
+/// A hold may come to nothing and is then not answered: stop and safe go before it.
+std::optional<SharedLine::Stop> SharedLine::next_stop() {
+    if (stops_.empty() || (asking_ && asked_.purpose == Purpose::stops)) return std::nullopt;
+    auto next = std::find_if(stops_.begin(), stops_.end(),
+                             [](const Stop& stop) { return !is_hold(stop.frame.request.value); });
+    if (next == stops_.end()) next = stops_.begin();
+    Stop stop = std::move(*next);
+    stops_.erase(next);
+    return stop;
 }
 
-std::optional<Time> SharedLine::next_turn(Time now) const {
-    if (next_seat()) return now;
-    if (asking_) return until_;
-    return std::nullopt;
+std::vector<std::uint8_t> SharedLine::begin_stop(const Stop& stop, Time now, const Addresses& addresses) {
+    const auto refuse = [](Seat& seat, const Frame& frame) {
+        if (frame.purpose == Purpose::operates) seat.refused = frame.request.reg;
+        return frame.purpose == Purpose::operates;
+    };
+    if (asking_ && !asker_is_gone_) refuse(seats_[*asking_], asked_);
+    asking_.reset();
+    for (std::size_t i = 0; i < seats_.size(); ++i) {
+        Seat& seat = seats_[i];
+        if (i != stop.seat)
+            std::erase_if(seat.frames, [&](const Frame& frame) { return refuse(seat, frame); });
+    }
+    expect(stop.seat, stop.frame, now, addresses);
+    until_ = sent_ + kStopAnswer;
+    asker_is_gone_ = seats_[stop.seat].visit != stop.visit;
+    return stop.frame.bytes;
+}
+
+/// True: it is dealt with, and does not go onto the line.
+bool SharedLine::refuses(std::size_t number, const Frame& frame, Time now) {
+    Seat& seat = seats_[number];
+    const mactalk::Request& request = frame.request;
+    if (frame.purpose == Purpose::operates) {
+        seat.refused.reset();
+        const bool too_late = now - frame.since > kLongestUnread || server_.has_left(number);
+        if (too_late) seat.refused = request.reg;
+        return too_late;
+    }
+    if (!seat.refused || request.kind != mactalk::Kind::read || request.reg != gw::RESULT) return false;
+    std::array<std::uint8_t, mactalk::kReadBytes> result{};
+    base::store_u32(result.data(), static_cast<std::uint32_t>(gw::Result::too_late) |
+                                       (static_cast<std::uint32_t>(*seat.refused) << 8));
+    server_.write_seat(number, mactalk::encode_registers(gw::RESULT, result).view());
+    return true;
+}
+
+std::vector<std::uint8_t> SharedLine::to_line(Time now, const Addresses& addresses) {
+    static_cast<void>(server_.has_client());  // lets them in
+    for (std::size_t number = 0; number < seats_.size(); ++number) listen(number, now, addresses.gateway);
+    looked_ = now;
+    if (asking_ && now >= until_) end_turn(samples_);
+    if (const auto stop = next_stop()) return begin_stop(*stop, now, addresses);
+    while (const auto next = next_seat()) {
+        const Frame frame = std::move(seats_[*next].frames.front());
+        seats_[*next].frames.pop_front();
+        if (refuses(*next, frame, now)) continue;
+        expect(*next, frame, now, addresses);
+        return frame.bytes;
+    }
+    return {};
+}
+
+Time SharedLine::next_turn(Time now) const {
+    if (!looked_ || next_seat()) return now;
+    const bool waits = asking_ && asked_.purpose == Purpose::stops;
+    if (!waits && !stops_.empty()) return now;
+    const bool is_drained = std::all_of(seats_.begin(), seats_.end(),
+                                        [this](const Seat& seat) { return seat.drained == *looked_; });
+    if (!is_drained) return now;
+    const Time next_look = *looked_ + kBetweenLooks;
+    return asking_ ? std::min(next_look, until_) : next_look;
 }
 
 void SharedLine::expect(std::size_t number, const Frame& frame, Time now, const Addresses& addresses) {
-    const mactalk::Answer answer = mactalk::answer_to(frame.kind);
+    const mactalk::Answer answer = mactalk::answer_to(frame.request.kind);
     const bool again = asking_.has_value();
     if (again) end_turn(false);
     last_ = number;
     asker_is_gone_ = false;
-    if (answer == mactalk::Answer::none || !is_for_somebody(frame.address, addresses)) return;
+    if (answer == mactalk::Answer::none || !is_for_somebody(frame.request.address, addresses)) return;
     asking_ = number;
+    asked_ = {frame.request, frame.purpose, frame.since, {}};
     asked_again_ = again;
     sent_ = now + kCharacter * static_cast<int>(frame.bytes.size());
     until_ = seats_[number].unanswered ? sent_ + kBriefly : now + kLongestAnswer;
     samples_ = answer == mactalk::Answer::samples;
-    const bool is_block = frame.kind == mactalk::Kind::read_block;
+    const bool is_block = frame.request.kind == mactalk::Kind::read_block;
     const std::size_t bytes = is_block ? mactalk::kBlockBytes : mactalk::kReadBytes;
     answer_.expect(answer, answer == mactalk::Answer::registers ? bytes : 0);
 }

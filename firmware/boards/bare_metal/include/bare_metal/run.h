@@ -21,7 +21,7 @@ struct Parts {
     ports::DigitalOutputs& outputs;
     ports::Watchdog& watchdog;
     ports::Storage& storage;
-    ports::SerialPort& user_line;
+    ports::SerialPort* user_line;  ///< null: nobody is served
     ports::SerialPort& motor_line;
     ports::SerialPort* motor_mactalk_line;  ///< the motor's own MacTalk port; null: not wired
     const store::Area& table_area;

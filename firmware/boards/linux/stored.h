@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config.h"
+#include "gateway/settings_keeper.h"
+#include "gateway/table_keeper.h"
+#include "ports/storage.h"
+#include "store/layout.h"
+
+/// What is stored for an axis, which goes before its configuration.
+namespace nplc::boards {
+
+/// A store as flash pages of 2 KiB: two table slots of five, two settings slots of one.
+inline constexpr ports::StorageGeometry kMemory{
+    .size = 32 * 1024, .erase_block = 2048, .program_page = 256, .program_unit = 8};
+inline constexpr store::Area kTableArea{.begin = 0, .slot_bytes = 5 * 2048};
+inline constexpr store::Area kSettingsArea{.begin = 10 * 2048, .slot_bytes = 2048};
+std::string store_file(const std::string& folder);
+
+/// Which motor there is stands in the configuration, whatever was stored.
+void impose_motor(gateway::SettingsKeeper& settings, const AxisConfig& config);
+
+struct StoredSetting {
+    std::string_view name;
+    std::uint32_t stored;
+    std::uint32_t configured;
+};
+/// Those that are not as configured.
+std::vector<StoredSetting> stored_settings(const gateway::SettingsKeeper& settings, const AxisConfig& config);
+
+/// What became of the first table: the stored one, or the configured one while none is stored.
+struct LoadedTable {
+    std::string where_from{};  ///< one line
+    std::string fault{};       ///< why it cannot run, one line; empty: it can, or there is none
+    bool is_configured = false;
+};
+/// As an axis starts with it.
+LoadedTable load_first_table(gateway::TableKeeper& tables, const gateway::SettingsKeeper& settings,
+                             const AxisConfig& config, base::Instant now);
+
+struct StoredFindings {
+    std::vector<Mistake> troubles;   ///< with one the axis will not run as it is
+    std::vector<std::string> notes;  ///< settings that differ from the configuration, a line each
+};
+/// What the service would make of what is stored for its axes. Changes nothing.
+StoredFindings look_at_stored(const Config& config);
+
+}  // namespace nplc::boards

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+
+#include "protocol/mactalk.h"
+
+namespace nplc::boards {
+
+/// What a client's message to the gateway or to the motor behind it is for.
+enum class Purpose : std::uint8_t {
+    reads,
+    stops,     ///< writes the command stop, safe or hold
+    operates,  ///< everything else: it may start or move something
+};
+Purpose purpose_of(const protocol::mactalk::Request& request, std::uint8_t gateway_address);
+
+}  // namespace nplc::boards
