@@ -86,8 +86,7 @@ void MidiSide::spoil(const action::SpoilLine& faults) {
 }
 
 void MidiSide::load(int torque) {
-    const int steps = torque * options_.module.imax / kFullTorque;
-    drive_.module().set_load(static_cast<std::uint8_t>(steps < 0 ? 0 : steps > 255 ? 255 : steps));
+    drive_.module().set_load(torque * options_.module.imax / kFullTorque);
 }
 
 }  // namespace nplc::sim

@@ -53,14 +53,10 @@ World::World(std::vector<std::uint8_t> table, const WorldOptions& options)
 }
 
 void World::start_gateway(gateway::StartCause cause) {
-    const bool first = !gateway_;
+    const bool first = !controller_;
     const bool uploaded =
-        tables_ && tables_->upload_state() == static_cast<std::uint32_t>(store::Phase::done);
+        controller_ && tables().upload_state() == static_cast<std::uint32_t>(store::Phase::done);
     if (uploaded) table_.clear();
-    user_port_.reset();
-    own_registers_.reset();
-    tables_.reset();
-    gateway_.reset();
     on_their_way_.clear();
     followed_ = {};
     ports::Storage& storage = options_.storage != nullptr ? *options_.storage : flash_;
@@ -70,15 +66,17 @@ void World::start_gateway(gateway::StartCause cause) {
     const std::uint32_t user_baud = settings_->get(store::Setting::user_baud);
     user_line_.set_rates(user_baud, user_baud);
     start_driver();
-    const gateway::Gateway::Ports ports{board_, board_, board_, *motor_};
-    gateway_.emplace(ports, gateway::settings_of(settings_->values()), cause);
-    if (options_.polling != Polling::steadily) gateway_->pace(base::Microseconds(250));
-    settings_->attach(*gateway_);
-    gateway_->observe(this);
-    tables_.emplace(*gateway_, *motor_, storage, kTableArea, table_memory_);
-    own_registers_.emplace(*gateway_, *tables_, *settings_);
-    user_port_.emplace(user_line_.port(), options_.motor_mactalk_wired ? &mactalk_line_.port() : nullptr,
-                       *gateway_, *motor_, *own_registers_, *settings_);
+    const gateway::Controller::Ports ports{
+        .inputs = board_,
+        .outputs = board_,
+        .watchdog = board_,
+        .motor = *motor_,
+        .storage = storage,
+        .user_line = &user_line_.port(),
+        .motor_mactalk_line = options_.motor_mactalk_wired ? &mactalk_line_.port() : nullptr};
+    controller_.emplace(ports, kTableArea, table_memory_, *settings_, cause);
+    if (options_.polling != Polling::steadily) controller_->sequence().pace(base::Microseconds(250));
+    controller_->sequence().observe(this);
     start_table(first);
 }
 
@@ -91,13 +89,12 @@ void World::start_driver() {
 }
 
 void World::start_table(bool first) {
-    static_cast<void>(tables_->mount());
     if (!table_.empty()) {
-        const auto result = tables_->use(table_, instant());
+        const auto result = controller_->tables().use(table_, instant());
         if (first) load_result_ = result;
         return;
     }
-    tables_->start(instant());
+    controller_->tables().start(instant());
     load_result_.ok = true;
 }
 
@@ -218,16 +215,15 @@ Time World::next_poll() {
     const Time steadily = now_ + kPollPeriod;
     if (options_.polling == Polling::steadily) return steadily;
     const base::Instant motors = midi_ ? midi_->driver().next_poll(instant()) : driver_->next_poll(instant());
-    base::Instant due = std::min(gateway_->next_poll(instant(), motors), user_port_->next_poll(instant()));
-    due = std::min(due, instant() + kWatchdogTime / 2);
+    const base::Instant due =
+        std::min(controller_->next_poll(instant(), motors), instant() + kWatchdogTime / 2);
     const Time at = std::max<Time>(now_, due.time_since_epoch());
     return options_.polling == Polling::at_need ? at : std::min(at, steadily);
 }
 
 void World::poll_gateway() {
     ++polls_;
-    gateway_->poll(instant());
-    user_port_->poll(instant());
+    controller_->poll(instant());
     follow_orders();
     line_.service(now_);
     if (midi_) midi_->drive().service(now_);
@@ -235,12 +231,13 @@ void World::poll_gateway() {
     mactalk_line_.service(now_);
     next_poll_ = next_poll();
     if (board_.watchdog_bites(instant())) start_gateway(gateway::StartCause::watchdog);
-    if (own_registers_->reset_asked()) start_gateway(gateway::StartCause::power_up);
+    if (controller_->reset_asked()) start_gateway(gateway::StartCause::power_up);
 }
 
 /// The driver executes in the order given, and gives up all that waits behind the one under way, or all.
 void World::follow_orders() {
     const motor::Counters counters = motor_->counters();
+    if (counters.orders == followed_.orders && counters.discarded == followed_.discarded) return;
     for (; followed_.orders != counters.orders && !on_their_way_.empty(); ++followed_.orders) {
         on_their_way_.pop_front();
     }
@@ -251,7 +248,7 @@ void World::follow_orders() {
 }
 
 Snapshot World::take_snapshot() {
-    const sequencer::State& state = gateway_->state();
+    const sequencer::State& state = controller_->sequence().state();
     Snapshot snapshot{.time = now_,
                       .step = state.step,
                       .timer = state.timer,
@@ -265,7 +262,7 @@ Snapshot World::take_snapshot() {
                       .shaft = mac_.plant().counts(),
                       .torque = mac_.torque(),
                       .link_up = motor::delivers(motor_->link()),
-                      .running = gateway_->run_state() == gateway::RunState::running,
+                      .running = controller_->sequence().run_state() == gateway::RunState::running,
                       .orders = std::exchange(orders_, {})};
     if (midi_) midi_->fill(snapshot);
     return snapshot;

@@ -118,11 +118,11 @@ void World::gateway(action::Gateway what) {
     wake();
     switch (what) {
         case action::Gateway::stop:
-            gateway_->stop(instant());
+            controller_->sequence().stop(instant());
             follow_orders();
             return;
         case action::Gateway::run:
-            static_cast<void>(gateway_->run());
+            static_cast<void>(controller_->sequence().run());
             return;
         case action::Gateway::restart:
             start_gateway(gateway::StartCause::power_up);

@@ -1,12 +1,14 @@
 #include "sim/serial_line.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace nplc::sim {
 namespace {
 
 constexpr std::uint64_t kBitsPerCharacter = 10;
 constexpr std::uint64_t kSecond = 1'000'000'000;
+constexpr std::uint64_t kDraws = 6;  ///< of a character
 
 }  // namespace
 
@@ -22,6 +24,25 @@ std::uint8_t LineDirection::damage_mask() {
     return static_cast<std::uint8_t>(1 + (bits >> 16) % 255);
 }
 
+/// Always the same number of draws, so that one fault's share does not move another's victims.
+LineDirection::Luck LineDirection::draw_all() {
+    random_.discard(std::exchange(undrawn_, 0));
+    Luck luck{};
+    for (double* share : {&luck.drop, &luck.damage, &luck.framing, &luck.delay, &luck.wait}) *share = draw();
+    luck.mask = damage_mask();
+    return luck;
+}
+
+void LineDirection::set_faults(const LineFaults& faults) {
+    faults_ = faults;
+    has_faults_ = faults.drop > 0 || faults.damage > 0 || faults.framing > 0 || faults.delay > 0;
+}
+
+void LineDirection::reseed(std::uint64_t seed) {
+    random_.seed(seed);
+    undrawn_ = 0;
+}
+
 void LineDirection::clock_out(Time now) {
     if (now > busy_until_) {
         busy_until_ = now;
@@ -35,41 +56,35 @@ void LineDirection::clock_out(Time now) {
 void LineDirection::start(std::uint8_t byte, Time now) {
     clock_out(now);
     ++counters_.sent;
-    // Always the same number of draws, so that one fault's share does not move another's victims.
-    const double drop = draw();
-    const double damage = draw();
-    const double framing = draw();
-    const double delay = draw();
-    const double wait = draw();
-    const std::uint8_t mask = damage_mask();
+    Luck luck{.drop = 1, .damage = 1, .framing = 1, .delay = 1, .wait = 0, .mask = 0};
+    if (has_faults_ || rates_differ_)
+        luck = draw_all();
+    else
+        undrawn_ += kDraws;
     if (cut_) {
         ++counters_.cut;
         return;
     }
-    if (drop < faults_.drop) {
+    if (luck.drop < faults_.drop) {
         ++counters_.dropped;
         return;
     }
     ports::ReceivedByte received{byte, false};
-    if (rates_differ_ || framing < faults_.framing) {
+    if (rates_differ_ || luck.framing < faults_.framing) {
         ++counters_.framing;
-        received = {static_cast<std::uint8_t>(byte ^ mask), true};
-    } else if (damage < faults_.damage) {
+        received = {static_cast<std::uint8_t>(byte ^ luck.mask), true};
+    } else if (luck.damage < faults_.damage) {
         ++counters_.damaged;
-        received.value = static_cast<std::uint8_t>(byte ^ mask);
+        received.value = static_cast<std::uint8_t>(byte ^ luck.mask);
     }
     Time arrival = busy_until_;
-    if (delay < faults_.delay) {
+    if (luck.delay < faults_.delay) {
         ++counters_.delayed;
-        arrival += Time{static_cast<std::int64_t>(wait * static_cast<double>(faults_.longest_delay.count()))};
+        arrival +=
+            Time{static_cast<std::int64_t>(luck.wait * static_cast<double>(faults_.longest_delay.count()))};
     }
     last_arrival_ = std::max(last_arrival_, arrival);
     flying_.push_back({received, last_arrival_});
-}
-
-std::optional<Time> LineDirection::next_arrival() const {
-    if (flying_.empty()) return std::nullopt;
-    return flying_.front().arrival;
 }
 
 std::optional<ports::ReceivedByte> LineDirection::take(Time now) {
@@ -100,6 +115,7 @@ std::size_t VirtualSerialLine::Port::write(std::span<const std::uint8_t> bytes) 
 
 std::size_t VirtualSerialLine::Port::read(std::span<ports::ReceivedByte> out) {
     const std::size_t count = std::min(out.size(), received.size());
+    if (count == 0) return 0;
     const auto end = received.begin() + static_cast<std::ptrdiff_t>(count);
     std::copy(received.begin(), end, out.begin());
     received.erase(received.begin(), end);

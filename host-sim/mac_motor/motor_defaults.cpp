@@ -73,6 +73,17 @@ void write_current_loop(MotorMemory& memory) {
     memory.set(cell::DEGCMAX, 696);  // 85 degrees
 }
 
+/// 001 §3.2.153 to §3.2.158, 004: what tells motors apart. R: the manuals give no encoding, so these are
+/// numbers that no motor has: 140, 999140008 at address 8, 99, and "VIRT".
+void write_identity(MotorMemory& memory, std::uint8_t address) {
+    std::int32_t type = 0;
+    for (const char c : registers::name_of(memory.model()).substr(3)) type = 10 * type + (c - '0');
+    memory.set(cell::MOTOR_TYPE, type);
+    memory.set(cell::SERIAL_NUMBER, 999'000'000 + 1'000 * type + address);
+    memory.set(cell::HW_VERSION, 99);
+    memory.set(cell::CHKSUM, 0x56495254);
+}
+
 }  // namespace
 
 void write_defaults(MotorMemory& memory, std::uint8_t address) {
@@ -92,6 +103,7 @@ void write_defaults(MotorMemory& memory, std::uint8_t address) {
     memory.set(cell::V_HOME, -d.v_step);
     memory.set(cell::T_HOME, 300);
     memory.set(cell::MYADDR, address);
+    write_identity(memory, address);
     write_speed_regulator(memory);
     write_current_loop(memory);
     for (int n = 0; n < 8; ++n) memory.set(cell::V1[n], d.v_step * (n + 1));

@@ -18,12 +18,14 @@ constexpr Kinds kinds_of_numbers() {
     using namespace cell;
     Kinds kinds{};  // words
     for (const Row& row : std::initializer_list<Row>{
-             {P_SOLL},     {V_SOLL},    {P_FNC},      {P_IST},     {V_IST},     {GEARF1},    {FLWERR},
-             {FLWERRMAX},  {FNCERR},    {FNCERRMAX},  {MIN_P_IST}, {MAX_P_IST}, {P_HOME},    {V_HOME},
-             {T_HOME},     {P1, 8},     {V1, 8},      {KFF, 4},    {KVFX, 4},   {KVFY, 4},   {GEARB},
-             {KVB, 4},     {KIFX2},     {KIFX1},      {KIFY1},     {KIFY0},     {KIB1},      {KIB0},
-             {FNC_OUT},    {FF_OUT},    {VB_OUT},     {V_EXT},     {VF_OUT},    {ANINP},     {ANINP_OFFSET},
-             {PHASE_COMP}, {AMPLITUDE}, {IA_SOLL, 3}, {IA_IST, 3}, {V_ELDEG},   {UA_VAL, 3}, {P_NEW}}) {
+             {P_SOLL},        {V_SOLL},     {P_FNC},     {P_IST},     {V_IST},        {GEARF1},
+             {FLWERR},        {FLWERRMAX},  {FNCERR},    {FNCERRMAX}, {MIN_P_IST},    {MAX_P_IST},
+             {P_HOME},        {V_HOME},     {T_HOME},    {P1, 8},     {V1, 8},        {KFF, 4},
+             {KVFX, 4},       {KVFY, 4},    {GEARB},     {KVB, 4},    {KIFX2},        {KIFX1},
+             {KIFY1},         {KIFY0},      {KIB1},      {KIB0},      {FNC_OUT},      {FF_OUT},
+             {VB_OUT},        {V_EXT},      {VF_OUT},    {ANINP},     {ANINP_OFFSET}, {PHASE_COMP},
+             {AMPLITUDE},     {IA_SOLL, 3}, {IA_IST, 3}, {V_ELDEG},   {UA_VAL, 3},    {P_NEW},
+             {SERIAL_NUMBER}, {CHKSUM}}) {
         for (int n = 0; n < row.registers; ++n) kinds[row.first[n].small] = row.first.kind;
     }
     return kinds;

@@ -29,10 +29,13 @@ MidiModule::MidiModule(Model model, const MidiOptions& options)
 
 void MidiModule::advance(Time to) {
     const Ticks until = to.count() / kNanosecondsPerTick;
-    while (next_step_ && *next_step_ <= until) {
-        ticks_ = std::max(ticks_, *next_step_);
-        next_step_.reset();
-        step();
+    for (;;) {
+        const bool drags = next_drag_ && *next_drag_ <= until && !(next_step_ && *next_step_ < *next_drag_);
+        std::optional<Ticks>& next = drags ? next_drag_ : next_step_;
+        if (!next || *next > until) break;
+        ticks_ = std::max(ticks_, *next);
+        next.reset();
+        drags ? drag() : step();
     }
     ticks_ = std::max(ticks_, until);
 }

@@ -10,6 +10,13 @@ namespace midi = registers::midi;
 
 constexpr std::uint8_t kHardwareStops = 1;
 constexpr std::uint8_t kSoftwareStops = 8;
+/// A shaft that slips is moved on every 250 us.
+constexpr std::int64_t kDragSteps = 4'000;  ///< a second
+constexpr std::int64_t kDragStep = std::int64_t{midi::kTicksPerSecond} / kDragSteps;
+constexpr std::int64_t kFraction = 1 << 20;
+/// Revolutions a second^2 of the whole holding torque on the rotor alone: 6 Nm / 2.7e-4 kg m^2 / 2 pi, and 9
+/// Nm / 4.05e-4 kg m^2 of a MAC34-2 are the same (003 §III). R: of a MAC23 too.
+constexpr std::int64_t kFullAcceleration = 3'537;
 /// R: braking that the supply cannot take is cut for 5 ms.
 constexpr std::int64_t kRelease = std::int64_t{midi::kTicksPerSecond} / 200;
 
@@ -137,7 +144,31 @@ bool MidiModule::adjusts() const {
 }
 
 bool MidiModule::can_turn() const {
-    return powered_ && !held_ && torque() > load_;
+    return powered_ && !held_ && torque() > std::abs(load_);
+}
+
+void MidiModule::set_load(std::int32_t torque) {
+    load_ = torque;
+    if (load_ != 0 && !next_drag_) next_drag_ = ticks_ + kDragStep;
+}
+
+/// 003 §III and §VII 19h: at rest the shaft is held by TORQUE's share of the holding torque, half of it in
+/// standby, and by nothing with power off. R: what pulls more gives it the acceleration of the rest; a shaft
+/// that is held again stands at once.
+void MidiModule::drag() {
+    if (load_ != 0) next_drag_ = ticks_ + kDragStep;
+    const std::int32_t beyond = std::abs(load_) - torque();
+    if (!on_ || held_ || mode_ == Mode::coast || beyond <= 0 || load_ == 0) {
+        drag_speed_ = drag_rest_ = 0;
+        return;
+    }
+    const std::int64_t full = kFullAcceleration * midi::facts_of(model_).increments_per_rev;
+    const std::int64_t gain = full * beyond * kFraction / options_.imax / kDragSteps / kDragSteps;
+    drag_speed_ += load_ > 0 ? gain : -gain;
+    drag_rest_ += drag_speed_;
+    const std::int64_t whole = drag_rest_ / kFraction;
+    drag_rest_ -= whole * kFraction;
+    if (whole != 0) turn_shaft(static_cast<std::int32_t>(whole));
 }
 
 void MidiModule::turn_shaft(std::int32_t increments) {

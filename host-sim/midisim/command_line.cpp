@@ -26,14 +26,15 @@ registers::midi::Model model(const std::string& option, const std::string& text)
     throw std::invalid_argument(fmt::format("{} \"{}\": write MAC23, MAC34-1 or MAC34-2", option, text));
 }
 
-std::uint8_t address(const std::string& option, const std::string& text) {
-    return static_cast<std::uint8_t>(whole_value(option, text, 0, kMaxAddress));
+/// 003 §V.1: on CAN 0 is for all.
+std::uint8_t address(const std::string& option, const std::string& text, bool on_can) {
+    return static_cast<std::uint8_t>(whole_value(option, text, on_can ? 1 : 0, kMaxAddress));
 }
 
 /// MODEL:ADDRESS
-MidiUnit unit(const std::string& text) {
+MidiUnit unit(const std::string& text, bool on_can) {
     const UnitText parts = unit_value(text, "MAC23:2");
-    return {model("--unit", parts.model), address("--unit", parts.address)};
+    return {model("--unit", parts.model), address("--unit", parts.address, on_can)};
 }
 
 std::uint32_t baud(const std::string& text) {
@@ -58,8 +59,6 @@ void check(const MidisimOptions& options) {
         if (!options.can.empty() && !registers::midi::facts_of(one.model).has_can)
             throw std::invalid_argument(
                 fmt::format("there is no {} with CAN: write MAC34-1 or MAC34-2", name));
-        if (!options.can.empty() && one.address == 0)
-            throw std::invalid_argument("address 0 is for all on CAN: write 1 to 127");
         if (!addresses.insert(one.address).second)
             throw std::invalid_argument(
                 fmt::format("address {} is given twice: each module on a line needs its own", one.address));
@@ -73,21 +72,22 @@ MidisimCommandLine parse_midisim(int argc, const char* const* argv) {
                        "midisim");
     MidisimOptions options;
     MidiUnit& first = options.units.front();
-    std::optional<std::uint8_t> first_address;
-    std::vector<MidiUnit> further;
+    std::string first_address;
+    std::vector<std::string> further;
     app.set_version_flag("--version", std::string("midisim ") + NPLC_VERSION);
     app.footer(kFooter);
     app.add_option("--model", "MAC23, MAC34-1 or MAC34-2 (MAC34-1)")->each([&](const std::string& text) {
         first.model = model("--model", text);
     });
-    app.add_option("--address", "of the module while its EEPROM file has none, 0..127 (0, with --can 1)")
-        ->each([&](const std::string& text) { first_address = address("--address", text); });
+    app.add_option("--address",
+                   "of the module while its EEPROM file has none, 0..127 (0), with --can 1..127 (1)")
+        ->each([&](const std::string& text) { first_address = text; });
     app.add_option("--v24", options.v24, "where the serial line is")->type_name("EP");
     app.add_option("--can", options.can, "the CAN interface it is on, set up and up")->type_name("INTERFACE");
     app.add_option("--unit", "a further module on the same line; may be repeated")
         ->type_name("MODEL:ADDRESS")
         ->repeatable()
-        ->each([&](const std::string& text) { further.push_back(unit(text)); });
+        ->each([&](const std::string& text) { further.push_back(text); });
     app.add_option("--eeprom", options.eeprom,
                    "keep parameters and position in this file (a further module's: FILE.ADDRESS)")
         ->type_name("FILE");
@@ -101,11 +101,10 @@ MidisimCommandLine parse_midisim(int argc, const char* const* argv) {
         if (outcome.kind == arguments::Outcome::Kind::told) return {};
         if (outcome.kind == arguments::Outcome::Kind::wrong)
             return {std::nullopt, outcome.error + " (see midisim --help)"};
-        if (first_address)
-            first.address = *first_address;
-        else if (!options.can.empty())
-            first.address = 1;  // from the factory
-        options.units.insert(options.units.end(), further.begin(), further.end());
+        const bool on_can = !options.can.empty();
+        first.address = on_can ? 1 : 0;  // from the factory
+        if (!first_address.empty()) first.address = address("--address", first_address, on_can);
+        for (const std::string& text : further) options.units.push_back(unit(text, on_can));
         check(options);
     } catch (const std::invalid_argument& error) {
         return {std::nullopt, error.what()};

@@ -6,9 +6,9 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 
+#include "host/files.h"
 #include "intel_hex/intel_hex.h"
 #include "sequencer/table.h"
 #include "sim/text.h"
@@ -16,21 +16,29 @@
 namespace nplc::sim {
 namespace {
 
-constexpr std::size_t kLargestFile = 256U << 20U;
+constexpr std::size_t kMost = 4U << 20U;
+constexpr std::size_t kMostOfALongOne = 256U << 20U;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& what, const std::string& why) {
     throw InputError(fmt::format("{}: {}; name {}", path, why, what));
 }
 
-std::string read_all(std::istream& stream, const std::string& path, const std::string& what) {
+std::string read_standard_input(const std::string& what) {
+    const std::string name = "standard input";
     std::string text;
     std::string block(1U << 16U, '\0');
-    while (stream.read(block.data(), static_cast<std::streamsize>(block.size())), stream.gcount() > 0) {
-        text.append(block, 0, static_cast<std::size_t>(stream.gcount()));
-        if (text.size() > kLargestFile) refuse(path, what, "it is larger than 256 MiB");
+    while (std::cin.read(block.data(), static_cast<std::streamsize>(block.size())), std::cin.gcount() > 0) {
+        text.append(block, 0, static_cast<std::size_t>(std::cin.gcount()));
+        if (text.size() > kMostOfALongOne) refuse(name, what, "it is larger than 256 MiB");
     }
-    if (stream.bad()) refuse(path, what, fmt::format("cannot be read: {}", std::strerror(errno)));
+    if (std::cin.bad()) refuse(name, what, fmt::format("cannot be read: {}", std::strerror(errno)));
     return text;
+}
+
+std::string read(const std::string& path, const std::string& what, std::size_t most) {
+    host::FileContent file = host::read_file(path, most);
+    if (!file.problem.empty()) refuse(path, what, fmt::format("cannot be opened: {}", file.problem));
+    return std::move(file.bytes);
 }
 
 bool is_printable(const std::string& text) {
@@ -54,13 +62,12 @@ bool has_extension(const std::string& path, std::string_view extension) {
     return lower(std::filesystem::path(path).extension().string()) == extension;
 }
 
-std::string read_input(const std::string& path, const std::string& what, bool dash_is_stdin) {
-    if (dash_is_stdin && path == "-") return read_all(std::cin, "standard input", what);
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error)) refuse(path, what, "it is a folder");
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream) refuse(path, what, fmt::format("cannot be opened: {}", std::strerror(errno)));
-    return read_all(stream, path, what);
+std::string read_input(const std::string& path, const std::string& what) {
+    return read(path, what, kMost);
+}
+
+std::string read_long_input(const std::string& path, const std::string& what) {
+    return path == "-" ? read_standard_input(what) : read(path, what, kMostOfALongOne);
 }
 
 std::vector<std::uint8_t> read_table(const std::string& path) {
@@ -72,7 +79,7 @@ std::vector<std::uint8_t> read_table(const std::string& path) {
     const std::string text = read_input(path, "a sequence table as `seqc build` writes it");
     if (text.empty()) refuse(path, "a sequence table as `seqc build` writes it", "the file is empty");
     std::vector<std::uint8_t> bytes = bytes_of(text, path);
-    if (is_printable(text) && !intel_hex::is_file(path, text) && !sequencer::Table::load(bytes).ok) {
+    if (is_printable(text) && !intel_hex::is_file(path, text)) {
         throw InputError(
             fmt::format("{0}: text, not a raw table; if it is a program's source, build the table first: "
                         "seqc build {0} -o {1}",

@@ -13,8 +13,10 @@ struct InputError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The whole file; `-` is standard input where `dash_is_stdin`. `what` names its purpose in messages.
-std::string read_input(const std::string& path, const std::string& what, bool dash_is_stdin = false);
+/// The whole file, of no more than 4 MiB. `what` names its purpose in messages.
+std::string read_input(const std::string& path, const std::string& what);
+/// The same of up to 256 MiB; `-` is standard input.
+std::string read_long_input(const std::string& path, const std::string& what);
 
 /// Without regard to case; `extension` is lower case and begins with its dot.
 bool has_extension(const std::string& path, std::string_view extension);

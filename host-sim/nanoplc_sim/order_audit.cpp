@@ -1,8 +1,6 @@
 #include "order_audit.h"
 
 #include <algorithm>
-#include <optional>
-#include <utility>
 
 #include "registers/mac.h"
 
@@ -10,9 +8,6 @@ namespace nplc::sim {
 namespace {
 
 namespace fastmac = protocol::fastmac;
-
-/// Alignment costs the product of both lengths; beyond this only the last orders are compared.
-constexpr std::size_t kMostOrders = 4000;
 
 bool concerns_the_link_only(const SentOrder& order) {
     using fastmac::Number;
@@ -39,85 +34,94 @@ SentOrder as_sent(const Order& order, fastmac::RegisterCode code) {
     return {.is_register_write = true, .reg = order.reg, .value = order.message.value};
 }
 
-/// What is compared of a list of orders.
-struct Compared {
-    std::vector<SentOrder> orders;
-    std::vector<bool> under_way;
+/// Of the longest common subsequence of what is wanted from i on and what is done from j on.
+class CommonLengths {
+  public:
+    template <class Same>
+    CommonLengths(std::size_t wanted, std::size_t done, Same same)
+        : columns_(done + 1), lengths_((wanted + 1) * columns_) {
+        for (std::size_t i = wanted; i-- > 0;) {
+            for (std::size_t j = done; j-- > 0;) {
+                at(i, j) = same(i, j) ? static_cast<std::uint16_t>(at(i + 1, j + 1) + 1)
+                                      : std::max(at(i + 1, j), at(i, j + 1));
+            }
+        }
+    }
+    std::uint16_t& at(std::size_t i, std::size_t j) { return lengths_[i * columns_ + j]; }
 
-    void keep(const SentOrder& order, bool is_under_way = false) {
-        if (concerns_the_link_only(order)) return;
-        orders.push_back(order);
-        under_way.push_back(is_under_way);
-    }
-    void cut() {
-        if (orders.size() <= kMostOrders) return;
-        const auto excess = static_cast<std::ptrdiff_t>(orders.size() - kMostOrders);
-        orders.erase(orders.begin(), orders.begin() + excess);
-        under_way.erase(under_way.begin(), under_way.begin() + excess);
-    }
+  private:
+    std::size_t columns_;
+    std::vector<std::uint16_t> lengths_;
 };
-
-/// lengths[i][j]: the longest common subsequence of a from i and b from j.
-std::vector<std::vector<std::uint16_t>> common_lengths(const std::vector<SentOrder>& a,
-                                                       const std::vector<SentOrder>& b) {
-    std::vector<std::vector<std::uint16_t>> lengths(a.size() + 1, std::vector<std::uint16_t>(b.size() + 1));
-    for (std::size_t i = a.size(); i-- > 0;) {
-        for (std::size_t j = b.size(); j-- > 0;) {
-            lengths[i][j] = a[i] == b[j] ? static_cast<std::uint16_t>(lengths[i + 1][j + 1] + 1)
-                                         : std::max(lengths[i + 1][j], lengths[i][j + 1]);
-        }
-    }
-    return lengths;
-}
-
-void not_executed(const Compared& wanted, std::size_t i, OrderAudit& result) {
-    (wanted.under_way[i] ? result.under_way : result.missing).push_back(wanted.orders[i]);
-}
-
-/// The common case, at no cost however long the lists are: everything executed was ordered, in that order.
-std::optional<OrderAudit> with_nothing_unordered(const Compared& wanted, const Compared& done) {
-    OrderAudit result;
-    std::size_t j = 0;
-    for (std::size_t i = 0; i < wanted.orders.size(); ++i) {
-        if (j < done.orders.size() && wanted.orders[i] == done.orders[j]) {
-            ++j;
-        } else {
-            not_executed(wanted, i, result);
-        }
-    }
-    if (j != done.orders.size()) return std::nullopt;
-    return result;
-}
 
 }  // namespace
 
-OrderAudit audit(const std::vector<SentOrder>& ordered, const std::deque<Order>& executed,
-                 const std::deque<std::size_t>& on_their_way, fastmac::RegisterCode code) {
-    Compared wanted;
-    Compared done;
-    for (std::size_t i = 0; i < ordered.size(); ++i) {
-        wanted.keep(ordered[i], std::binary_search(on_their_way.begin(), on_their_way.end(), i));
+void OrderList::add(const SentOrder& order) {
+    if (first.size() < kKept) first.push_back(order);
+    ++count;
+}
+
+void OrderAuditor::ordered(const SentOrder& order) {
+    const std::size_t number = numbers_++;
+    if (concerns_the_link_only(order)) return;
+    wanted_.push_back({order, number});
+    drop_equal_fronts();
+}
+
+void OrderAuditor::executed(const Order& order) {
+    const SentOrder sent = as_sent(order, code_);
+    if (concerns_the_link_only(sent)) return;
+    done_.push_back(sent);
+    drop_equal_fronts();
+}
+
+void OrderAuditor::drop_equal_fronts() {
+    while (!wanted_.empty() && !done_.empty() && wanted_.front().order == done_.front()) {
+        wanted_.pop_front();
+        done_.pop_front();
     }
-    for (const Order& order : executed) done.keep(as_sent(order, code));
-    if (auto result = with_nothing_unordered(wanted, done)) return *std::move(result);
-    wanted.cut();
-    done.cut();
-    const auto lengths = common_lengths(wanted.orders, done.orders);
-    OrderAudit result;
+}
+
+void OrderAuditor::settle(const OnTheirWay& on_their_way) {
+    const std::size_t waiting = wanted_.size() + done_.size();
+    if (waiting >= kMostWaiting) judge(on_their_way, waiting / 2);
+}
+
+OrderAudit OrderAuditor::finish(const OnTheirWay& on_their_way) {
+    judge(on_their_way, wanted_.size() + done_.size());
+    return found_;
+}
+
+/// So many of both together, at least.
+void OrderAuditor::judge(const OnTheirWay& on_their_way, std::size_t count) {
+    const bool at_the_end = count == wanted_.size() + done_.size();
+    const auto same = [&](std::size_t i, std::size_t j) { return wanted_[i].order == done_[j]; };
+    CommonLengths lengths(wanted_.size(), done_.size(), same);
     std::size_t i = 0;
     std::size_t j = 0;
-    while (i < wanted.orders.size() || j < done.orders.size()) {
-        const bool both = i < wanted.orders.size() && j < done.orders.size();
-        if (both && wanted.orders[i] == done.orders[j]) {
+    while (i + j < count) {
+        const bool has_wanted = i < wanted_.size();
+        const bool has_done = j < done_.size();
+        if (has_wanted && has_done && same(i, j)) {
             ++i;
             ++j;
-        } else if (j == done.orders.size() || (both && lengths[i + 1][j] >= lengths[i][j + 1])) {
-            not_executed(wanted, i++, result);
+            continue;
+        }
+        const int preference = has_wanted && has_done ? lengths.at(i + 1, j) - lengths.at(i, j + 1) : 0;
+        const bool is_under_way =
+            has_wanted && std::binary_search(on_their_way.begin(), on_their_way.end(), wanted_[i].number);
+        // What is under way waits for its execution as long as it may.
+        const bool waits = is_under_way && !at_the_end && preference == 0;
+        if (waits && !has_done) break;
+        if (has_done && (!has_wanted || preference < 0 || waits)) {
+            found_.unordered.add(done_[j++]);
         } else {
-            result.unordered.push_back(done.orders[j++]);
+            (is_under_way && at_the_end ? found_.under_way : found_.missing).add(wanted_[i++].order);
         }
     }
-    return result;
+    wanted_.erase(wanted_.begin(), wanted_.begin() + static_cast<std::ptrdiff_t>(i));
+    done_.erase(done_.begin(), done_.begin() + static_cast<std::ptrdiff_t>(j));
+    drop_equal_fronts();
 }
 
 }  // namespace nplc::sim

@@ -10,19 +10,60 @@
 
 namespace nplc::sim {
 
+/// How many, and the first of them.
+struct OrderList {
+    static constexpr std::size_t kKept = 8;
+
+    std::vector<SentOrder> first;
+    std::size_t count = 0;
+
+    void add(const SentOrder& order);
+    bool empty() const { return count == 0; }
+};
+
 /// What the sequence ordered against what the motor executed. Left out on both sides: what only concerns the
 /// link (NOP, 0Ah, 0Bh, 13h, 1Dh, 1Eh, 1Fh) and MODE_REG := 0, with which the gateway stops the motor by
 /// itself.
 struct OrderAudit {
-    std::vector<SentOrder> missing;    ///< ordered and not executed
-    std::vector<SentOrder> under_way;  ///< ordered and not executed yet
-    std::vector<SentOrder> unordered;  ///< executed and not ordered
+    OrderList missing;    ///< ordered and not executed
+    OrderList under_way;  ///< ordered and not executed yet
+    OrderList unordered;  ///< executed and not ordered
 };
 
-/// `on_their_way`: places in `ordered`, ascending, of what the driver has not finished. `code`: the register
-/// code that the motor executed its commands by; the sequence's is the format list's.
-OrderAudit audit(const std::vector<SentOrder>& ordered, const std::deque<Order>& executed,
-                 const std::deque<std::size_t>& on_their_way = {},
-                 protocol::fastmac::RegisterCode code = protocol::fastmac::RegisterCode::format_list);
+/// Compares while both go on: the longest common subsequence. Equal orders at the front of both are done with
+/// at once. Behind a difference up to kMostWaiting of both together are kept; then the older half is judged,
+/// in the light of the newer one. `on_their_way`: the numbers, ascending, of what the driver has not
+/// finished, of the orders in turn, from 0.
+class OrderAuditor {
+  public:
+    static constexpr std::size_t kMostWaiting = 1024;
+    using OnTheirWay = std::deque<std::size_t>;
+
+    /// `code`: the register code that the motor executes its commands by; the sequence's is the format
+    /// list's.
+    explicit OrderAuditor(protocol::fastmac::RegisterCode code) : code_(code) {}
+
+    void ordered(const SentOrder& order);
+    void executed(const Order& order);
+    /// To be called after them.
+    void settle(const OnTheirWay& on_their_way);
+    /// Judges all that is left.
+    OrderAudit finish(const OnTheirWay& on_their_way);
+
+  private:
+    struct Wanted {
+        SentOrder order;
+        std::size_t number;
+    };
+
+    void drop_equal_fronts();
+    void judge(const OnTheirWay& on_their_way, std::size_t count);
+
+    protocol::fastmac::RegisterCode code_;
+    std::size_t numbers_ = 0;
+    std::deque<Wanted> wanted_;
+    std::deque<SentOrder> done_;
+    OrderAudit found_;
+};
 
 }  // namespace nplc::sim

@@ -34,6 +34,8 @@ std::string rendered(const seqc::Compilation& compilation, const std::string& so
 
 Program compile(const std::string& file) {
     const std::string source = read_input(file, "a program for seqc");
+    if (source.find('\0') != std::string::npos)
+        throw InputError(fmt::format("{}: is no text, for it holds zeros; name a program for seqc", file));
     const seqc::Compilation compilation = seqc::compile(source);
     if (!compilation.ok) throw InputError(rendered(compilation, source, file));
     check_table(compilation.table, file);

@@ -29,7 +29,7 @@ constexpr auto kRefresh = std::chrono::milliseconds{100};
 constexpr std::chrono::milliseconds kKeyWait{5};
 /// A program at the port waits for each answer.
 constexpr std::chrono::milliseconds kPortWait{1};
-constexpr std::size_t kMostClients = 8;
+constexpr std::size_t kMostClients = 32;
 
 Scenario load_scenario(const RunOptions& options, const Names& names) {
     if (!options.scenario) return {};
@@ -88,7 +88,7 @@ class Door {
   public:
     explicit Door(const RunOptions& options) {
         if (!options.mactalk) return;
-        auto opened = hal_linux::ByteServer::open(*options.mactalk, kMostClients);
+        auto opened = hal_linux::ByteServer::open(*options.mactalk, {.seats = kMostClients});
         if (!opened.server) throw InputError("--mactalk " + opened.error);
         server_ = std::move(opened.server);
         line_.emplace(*server_);
@@ -98,16 +98,18 @@ class Door {
         if (is_open()) fmt::print("mactalk: {}\nready\n", server_->name());
         std::fflush(stdout);
     }
+    /// By the wall clock: virtual time stands while this process is halted.
     void take_in(Session& session) {
         if (!is_open()) return;
-        session.user_sends(
-            line_->to_line(session.now(), {session.gateway_address(), session.motor_address()}));
+        session.user_sends(line_->to_line(now(), {session.gateway_address(), session.motor_address()}));
     }
     void hand_out(Session& session) {
-        if (is_open()) line_->from_line(session.user_received(), session.now());
+        if (is_open()) line_->from_line(session.user_received(), now());
     }
 
   private:
+    static boards::SharedLine::Time now() { return Clock::now().time_since_epoch(); }
+
     std::unique_ptr<hal_linux::ByteServer> server_;
     std::optional<boards::SharedLine> line_;
 };

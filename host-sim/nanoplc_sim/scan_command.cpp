@@ -44,7 +44,7 @@ std::string scan_csv(std::span<const std::uint8_t> bytes, const std::vector<Stim
 void run_scan(const std::string& table_file, const std::string& stimulus_file) {
     const auto table = read_table(table_file);
     const std::string stimulus =
-        read_input(stimulus_file, "a CSV file with a stimulus, or - for standard input", true);
+        read_long_input(stimulus_file, "a CSV file with a stimulus, or - for standard input");
     const std::string name = stimulus_file == "-" ? "standard input" : stimulus_file;
     const std::string csv = scan_csv(table, parse_stimulus(stimulus, name));
     std::fwrite(csv.data(), 1, csv.size(), stdout);

@@ -7,8 +7,6 @@
 
 #include "input_file.h"
 
-#include "order_audit.h"
-
 namespace nplc::sim {
 namespace {
 
@@ -52,8 +50,16 @@ std::string_view in_words(gateway::SafeReason reason) {
             return "outputs safe: watchdog reset";
         case gateway::SafeReason::enable_lost:
             return "outputs safe: enable lost";
+        case gateway::SafeReason::bad_settings:
+            return "outputs safe: the stored settings are damaged";
+        case gateway::SafeReason::bad_run_mark:
+            return "outputs safe: the mark of the last run is damaged";
         case gateway::SafeReason::safe_command:
             return "outputs safe: a person's command";
+        case gateway::SafeReason::no_lines:
+        case gateway::SafeReason::no_store:
+        case gateway::SafeReason::no_port:
+            return "outputs safe: the board lacks something";
     }
     return "";
 }
@@ -70,12 +76,11 @@ std::string in_words(std::string_view direction, const LineCounters& c) {
         c.sent, c.dropped, c.damaged, c.framing, c.delayed, c.cut);
 }
 
-std::string list(const std::vector<SentOrder>& orders, const Names& names) {
-    constexpr std::size_t kMost = 8;
+std::string list(const OrderList& orders, const Names& names) {
     std::vector<std::string> words;
-    for (std::size_t i = 0; i < std::min(kMost, orders.size()); ++i)
-        words.push_back(in_words(orders[i], names.motor));
-    const std::string more = orders.size() > kMost ? fmt::format(" and {} more", orders.size() - kMost) : "";
+    for (const SentOrder& order : orders.first) words.push_back(in_words(order, names.motor));
+    const std::size_t others = orders.count - orders.first.size();
+    const std::string more = others != 0 ? fmt::format(" and {} more", others) : "";
     return words.empty() ? "nothing" : fmt::format("{}{}", fmt::join(words, ", "), more);
 }
 
@@ -90,6 +95,8 @@ Session::Session(const RunOptions& options, const Program& program, const Scenar
       timeline_(program.names, palette),
       world_(program.table, world_options(options, program.names, storage)),
       runner_(scenario, program.names, world_),
+      auditor_(options.old_register_codes ? protocol::fastmac::RegisterCode::older_example
+                                          : protocol::fastmac::RegisterCode::format_list),
       length_(options.length) {
     if (const auto& loaded = world_.load_result(); !loaded.ok) {
         if (const auto why = world_.why_not(); !why.empty())
@@ -165,7 +172,7 @@ void Session::show() {
     bool acted = false;
     do {
         last_ = world_.take_snapshot();
-        ordered_.insert(ordered_.end(), last_.orders.begin(), last_.orders.end());
+        follow_orders();
         note_changes();
         acted = runner_.observe(last_);
         if (!options_.quiet) timeline_.observe(last_);
@@ -173,6 +180,16 @@ void Session::show() {
         if (vcd_) vcd_->observe(last_);
     } while (acted);
     if (runner_.ended()) ended_ = true;
+}
+
+/// A MIDI drive's are in other words than the sequence's.
+void Session::follow_orders() {
+    if (world_.midi() != nullptr) return;
+    for (const SentOrder& order : last_.orders) auditor_.ordered(order);
+    if (!world_.mac().orders().empty()) {
+        for (const Order& order : world_.take_executed()) auditor_.executed(order);
+    }
+    auditor_.settle(world_.on_their_way());
 }
 
 void Session::note_changes() {
@@ -223,7 +240,7 @@ bool Session::finish() {
     return runner_.failures() == 0;
 }
 
-void Session::summary() const {
+void Session::summary() {
     const registers::Scale scale = registers::scale_of(program_.names.motor);
     const auto& driver = world_.driver();
     std::string outputs;
@@ -245,7 +262,7 @@ void Session::summary() const {
     judgements();
 }
 
-void Session::lines_in_words() const {
+void Session::lines_in_words() {
     const MidiSide* midi = world_.midi();
     if (midi != nullptr && midi->is_can()) return;
     const VirtualSerialLine& line = midi != nullptr ? midi->drive().line() : world_.line();
@@ -254,11 +271,8 @@ void Session::lines_in_words() const {
     if (midi == nullptr) compare_orders();
 }
 
-void Session::compare_orders() const {
-    const OrderAudit found =
-        audit(ordered_, world_.mac().orders(), world_.on_their_way(),
-              options_.old_register_codes ? protocol::fastmac::RegisterCode::older_example
-                                          : protocol::fastmac::RegisterCode::format_list);
+void Session::compare_orders() {
+    const OrderAudit found = auditor_.finish(world_.on_their_way());
     if (!found.under_way.empty()) {
         fmt::print("still on their way: {}\n", list(found.under_way, program_.names));
     }

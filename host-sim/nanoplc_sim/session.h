@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "order_audit.h"
 #include "program.h"
 #include "run_options.h"
 #include "sim/csv_trace.h"
@@ -52,11 +53,12 @@ class Session {
 
   private:
     std::string motor_in_words() const;
-    void lines_in_words() const;
+    void lines_in_words();
     void show();
     void note_changes();
-    void summary() const;
-    void compare_orders() const;
+    void summary();
+    void follow_orders();
+    void compare_orders();
     void judgements() const;
 
     const Program& program_;
@@ -66,11 +68,11 @@ class Session {
     Timeline timeline_;
     World world_;
     ScenarioRunner runner_;
+    OrderAuditor auditor_;
     std::optional<CsvTrace> csv_;
     std::optional<VcdTrace> vcd_;
     std::optional<Time> length_;
     Snapshot last_;
-    std::vector<SentOrder> ordered_;
     gateway::SafeReason reason_ = gateway::SafeReason::not_started;
     std::string motor_note_;
     std::uint32_t bites_ = 0;

@@ -2,20 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <sstream>
 
+#include "host/files.h"
 #include "sim/output_file.h"
 #include "sim/text.h"
 
 namespace nplc::sim {
 namespace {
 
-std::string unreadable(const std::string& path) {
-    return fmt::format("{}: cannot be read: {}", path, std::strerror(errno));
-}
+/// Far more than any memory holds.
+constexpr std::size_t kMostBytes = std::size_t{1} << 20U;
 
 std::string bad_line(const std::string& path, int line, const std::string& text, const std::string& form) {
     return fmt::format("{}:{}: \"{}\" is no `{}`; mend or remove the file", path, line, text.substr(0, 40),
@@ -29,14 +27,14 @@ ValueFile read_values(const std::string& path, const std::string& heading, const
     std::error_code error;
     if (!std::filesystem::exists(path, error)) return result;
     result.exists = true;
-    errno = 0;
-    std::ifstream file(path);
-    if (!file) {
-        result.error = unreadable(path);
+    const host::FileContent file = host::read_file(path, kMostBytes);
+    if (!file.problem.empty()) {
+        result.error = fmt::format("{}: cannot be read: {}", path, file.problem);
         return result;
     }
+    std::istringstream lines(file.bytes.empty() ? "\n" : file.bytes);
     std::string line;
-    for (int number = 1; result.error.empty() && std::getline(file, line); ++number) {
+    for (int number = 1; result.error.empty() && std::getline(lines, line); ++number) {
         const std::string text(trim(line.substr(0, line.find('#'))));
         if (number == 1 && trim(line) != heading)
             result.error = fmt::format("{}:1: this file is something else; the first line must be \"{}\"",
@@ -52,7 +50,6 @@ ValueFile read_values(const std::string& path, const std::string& heading, const
         else
             result.error = bad_line(path, number, text, form);
     }
-    if (result.error.empty() && file.bad()) result.error = unreadable(path);
     return result;
 }
 

@@ -120,6 +120,10 @@ void SimStorage::flip(std::uint32_t address, unsigned bit) {
     bytes_[address] = static_cast<std::uint8_t>(bytes_[address] ^ (1U << bit));
 }
 
+void SimStorage::fill(std::uint32_t address, std::uint32_t count, std::uint8_t value) {
+    std::fill_n(bytes_.data() + address, count, value);
+}
+
 std::vector<Tear> tears_of(const StorageOperation& operation, const ports::StorageGeometry& geometry) {
     std::vector<Tear> tears;
     if (operation.is_erase) {

@@ -49,7 +49,9 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
     } else {
         target_ = files[0];
         temporary_ = files[1];
-        stream_.open(temporary_, std::ios::trunc);
+        if (!fs::is_directory(fs::symlink_status(temporary_, error))) fs::remove(temporary_, error);
+        errno = 0;
+        stream_.open(temporary_, std::ios::out | std::ios::noreplace);
     }
     if (!stream_) fail(path, std::strerror(errno));
 }
@@ -61,10 +63,14 @@ OutputFile::~OutputFile() {
     fs::remove(temporary_, ignored);
 }
 
-void OutputFile::commit() {
-    stream_.flush();
+void OutputFile::write(const std::string& text) {
+    stream_ << text;
     if (!stream_) fail(path_, std::strerror(errno));
+}
+
+void OutputFile::commit() {
     stream_.close();
+    if (!stream_) fail(path_, std::strerror(errno));
     if (temporary_.empty()) return;
     std::error_code error;
     fs::rename(temporary_, target_, error);

@@ -11,9 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "gateway/gateway.h"
-#include "gateway/own_registers.h"
-#include "gateway/user_port.h"
+#include "gateway/controller.h"
 #include "motor/jvl_motor.h"
 #include "sim/mac_motor.h"
 #include "sim/midi_side.h"
@@ -78,16 +76,20 @@ class World final : public Stage, private gateway::Observer {
     /// As things stand, with the orders since the last call.
     Snapshot take_snapshot();
 
+    /// What the JVL motor has executed since the last call; mac().orders() forgets it.
+    std::deque<Order> take_executed() { return mac_.take_orders(); }
+
     /// The orders that the driver has neither executed nor given up, by their numbers among all orders given,
     /// counted from 0. The motor may have executed one of them already, unknown to the driver.
     const std::deque<std::size_t>& on_their_way() const { return on_their_way_; }
 
-    const gateway::Gateway& gateway() const { return *gateway_; }
+    const gateway::Gateway& gateway() const { return controller_->sequence(); }
     /// What the gateway said of the table; it may still not be for this motor.
     const gateway::Gateway::LoadResult& load_result() const { return load_result_; }
     const motor::Motor& driver() const { return *motor_; }
     const MacMotor& mac() const { return mac_; }
     const MidiSide* midi() const { return midi_ ? &*midi_ : nullptr; }
+    MidiSide* midi() { return midi_ ? &*midi_ : nullptr; }
     /// Of a table that load_result() says is not for this motor; empty if nothing more is known.
     std::string_view why_not() const;
     const VirtualSerialLine& line() const { return line_; }
@@ -103,7 +105,7 @@ class World final : public Stage, private gateway::Observer {
     std::uint32_t setting(store::Setting setting) const { return settings_->at_start(setting); }
     std::uint8_t gateway_address() const;
     std::uint8_t motor_address() const;  ///< on the user's port
-    const gateway::TableKeeper& tables() const { return *tables_; }
+    const gateway::TableKeeper& tables() const { return controller_->tables(); }
     bool motor_powered() const { return motor_powered_; }
 
     /// What `log` actions say.
@@ -162,12 +164,9 @@ class World final : public Stage, private gateway::Observer {
     std::optional<MidiSide> midi_;
     std::optional<motor::JvlMotor> driver_;
     motor::Motor* motor_ = nullptr;
-    std::optional<gateway::SettingsKeeper> settings_;
-    std::optional<gateway::Gateway> gateway_;
     std::array<std::uint8_t, (sequencer::kMaxTerms + 1) * sequencer::kTermBytes> table_memory_{};
-    std::optional<gateway::TableKeeper> tables_;
-    std::optional<gateway::OwnRegisters> own_registers_;
-    std::optional<gateway::UserPort> user_port_;
+    std::optional<gateway::SettingsKeeper> settings_;
+    std::optional<gateway::Controller> controller_;
     VirtualSerialLine user_line_;     ///< its "motor" is the person
     VirtualSerialLine mactalk_line_;  ///< to the motor's own MacTalk port
     std::deque<std::uint8_t> user_waiting_;

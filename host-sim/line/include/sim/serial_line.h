@@ -43,13 +43,15 @@ class LineDirection {
     /// Needs free(now). Back-to-back characters keep the exact rate over any time.
     void start(std::uint8_t byte, Time now);
 
-    std::optional<Time> next_arrival() const;
+    std::optional<Time> next_arrival() const {
+        return flying_.empty() ? std::nullopt : std::optional<Time>(flying_.front().arrival);
+    }
     /// The oldest character that has arrived by `now`.
     std::optional<ports::ReceivedByte> take(Time now);
 
-    void set_faults(const LineFaults& faults) { faults_ = faults; }
+    void set_faults(const LineFaults& faults);
     const LineFaults& faults() const { return faults_; }
-    void reseed(std::uint64_t seed) { random_.seed(seed); }
+    void reseed(std::uint64_t seed);
     /// At unlike rates every character arrives changed and with a framing error.
     void set_rates(std::uint32_t sender, std::uint32_t receiver);
     /// While cut, characters leave and never arrive; those under way are lost too.
@@ -64,7 +66,13 @@ class LineDirection {
         Time arrival;
     };
 
+    struct Luck {
+        double drop, damage, framing, delay, wait;
+        std::uint8_t mask;
+    };
+
     void clock_out(Time now);
+    Luck draw_all();
     double draw();
     std::uint8_t damage_mask();
 
@@ -75,8 +83,10 @@ class LineDirection {
     Time last_arrival_{0};
     bool cut_ = false;
     LineFaults faults_;
+    bool has_faults_ = false;
     LineCounters counters_;
     std::mt19937_64 random_;
+    std::uint64_t undrawn_ = 0;  ///< of good characters, whose draws come to nothing
     std::deque<Flying> flying_;
 };
 

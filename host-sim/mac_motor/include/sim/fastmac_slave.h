@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <utility>
 
 #include "base/time.h"
 #include "protocol/fastmac.h"
@@ -62,6 +63,8 @@ class FastMacSlave {
     std::optional<std::uint8_t> transmit(base::Instant now, const LinkTarget& motor);
 
     const std::deque<Order>& orders() const { return orders_; }
+    /// Takes them out of the log.
+    std::deque<Order> take_orders() { return std::exchange(orders_, {}); }
 
     bool flexmac() const { return flexmac_; }
     bool safe_communication() const { return receiver_.safe(); }

@@ -66,6 +66,7 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
 
     /// FastMAC commands and FlexMAC writes in the order in which they were accepted.
     const std::deque<Order>& orders() const { return link_.orders(); }
+    std::deque<Order> take_orders() { return link_.take_orders(); }
 
     /// A register by its own width and sign; unknown ones as unsigned words (MAC800: longwords).
     std::int32_t read(std::uint8_t reg) const;

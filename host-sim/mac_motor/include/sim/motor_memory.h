@@ -55,7 +55,9 @@ inline constexpr Cell PROG_VERSION = word(1, 1), MODE_REG = word(2, 2), P_SOLL =
                       V1 = integer(65, 65), A1 = word(73, 73), T1 = word(77, 77), L1 = word(81, 81),
                       Z1 = word(85, 85), FNC_OUT = integer(117, 166), V_EXT = integer(120, 163),
                       VF_OUT = integer(121, 169), ANINP = integer(122, 170), ANINP_OFFSET = integer(123, 171),
-                      MYADDR = word(156, 202), G_FNC = long_int(0, 165), HW_SETUP = word(0, 39),
+                      MYADDR = word(156, 202), MOTOR_TYPE = word(153, 203),
+                      SERIAL_NUMBER = long_int(154, 204), HW_VERSION = word(157, 205),
+                      CHKSUM = long_int(158, 206), G_FNC = long_int(0, 165), HW_SETUP = word(0, 39),
                       P_NEW = long_int(163, 4), V_IST_16 = integer(0, 11), SAMPLE1 = word(112, 158),
                       REC_CNT = word(116, 162);
 

@@ -74,8 +74,10 @@ class MidiModule {
     void connect_encoder(bool connected);
     void overload_amplifier() { trip(registers::midi::kAmplifierTrip); }
     void hold_shaft(bool held) { held_ = held; }
-    void set_load(std::uint8_t torque) { load_ = torque; }  ///< in steps of TORQUE; the shaft turns above it
-    void turn_shaft(std::int32_t increments);               ///< by hand; with power off nothing turns it back
+    /// A constant pull in steps of TORQUE, positive clockwise. Below the motor's torque it only has to be
+    /// overcome; above it, it drags the shaft.
+    void set_load(std::int32_t torque);
+    void turn_shaft(std::int32_t increments);  ///< by hand; with power off nothing turns it back
 
     Model model() const { return model_; }
     bool is_can() const { return options_.can; }
@@ -143,6 +145,7 @@ class MidiModule {
     void turn(int direction);
     bool adjusts() const;
     bool can_turn() const;
+    void drag();
     bool is_over_release(std::int32_t millivolts) const;
     bool braking_is_cut() const;
     bool blocked(int direction);
@@ -167,7 +170,10 @@ class MidiModule {
     std::int32_t temperature_ = 25'000;
     bool encoder_ = true;
     bool held_ = false;
-    std::uint8_t load_ = 0;
+    std::int32_t load_ = 0;
+    std::optional<Ticks> next_drag_;  ///< while there is a load
+    std::int64_t drag_speed_ = 0;     ///< of a shaft that slips, increments a step of it, x 2^20
+    std::int64_t drag_rest_ = 0;      ///< less than an increment, x 2^20
 
     std::uint32_t trips_ = 0;
     std::uint32_t stopped_by_ = 0;

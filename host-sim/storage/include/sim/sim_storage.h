@@ -48,6 +48,8 @@ class SimStorage final : public ports::Storage {
     SimStorage torn(const StorageOperation& operation, const Tear& tear) const;
 
     void flip(std::uint32_t address, unsigned bit);
+    /// Bytes that are lost at rest.
+    void fill(std::uint32_t address, std::uint32_t count, std::uint8_t value);
     /// Programmings leave this bit 1 from now on.
     void wear_out(std::uint32_t address, unsigned bit) { worn_ = {address, bit}; }
     /// Operation number `number` from now, counted from 0, does nothing and is reported as failed.

@@ -20,7 +20,7 @@ class OutputFile {
     /// The files that writing to `path` touches: none for what is written directly.
     static std::vector<std::filesystem::path> written_for(const std::string& path);
 
-    void write(const std::string& text) { stream_ << text; }
+    void write(const std::string& text);
     void commit();
     const std::string& path() const { return path_; }
 
