@@ -30,6 +30,26 @@ std::string wrong_usage(const arguments::Outcome& outcome) {
     return fmt::format("'{}' is no command", outcome.rest.front());
 }
 
+/// What was read from a file or a line may stand in a message: nothing that would upset a terminal, and no
+/// endless line.
+std::string shown(const std::string& text) {
+    constexpr std::size_t kLongestLine = 1000;
+    std::string result;
+    std::size_t length = 0;
+    bool was_c2 = false;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        length = c == '\n' ? 0 : length + 1;
+        if (length == kLongestLine) result += "...";
+        if (length >= kLongestLine) continue;
+        const bool control = (byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7F ||
+                             (was_c2 && byte >= 0x80 && byte < 0xA0);
+        result += control ? '?' : c;
+        was_c2 = byte == 0xC2;
+    }
+    return result;
+}
+
 /// Tells what went wrong, with --json as a document too.
 void fail(Common& common, int exit_code, const std::string& text, const Json& details = Json::object()) {
     common.exit_code = exit_code;
@@ -38,7 +58,7 @@ void fail(Common& common, int exit_code, const std::string& text, const Json& de
         whole.update(details);
         fmt::print("{}\n", one_line(whole));
     }
-    fmt::print(stderr, "{}: {}\n", common.program, text);
+    fmt::print(stderr, "{}: {}\n", common.program, shown(text));
 }
 
 void try_to(Common& common, const std::function<void()>& what) {
@@ -93,7 +113,7 @@ int run(arguments::App& app, Common& common, int argc, char** argv) {
     return common.exit_code;
 }
 
-std::unique_ptr<mactalk_client::Wire> open_port(const Common& common) {
+std::unique_ptr<mactalk_client::Wire> open_port(const Common& common, mactalk_client::Holding holding) {
     if (common.port.empty())
         throw UserError(
             fmt::format("no port; name one with --port or in the environment's {}", port_variable(common)));
@@ -102,7 +122,7 @@ std::unique_ptr<mactalk_client::Wire> open_port(const Common& common) {
     if (socket && std::find(kSpeeds.begin(), kSpeeds.end(), common.baud) == kSpeeds.end())
         throw UserError(fmt::format("--baud {}: no line has that speed; take one of {}", common.baud,
                                     fmt::join(kSpeeds, ", ")));
-    auto opened = mactalk_client::open_wire(common.port, common.baud);
+    auto opened = mactalk_client::open_wire(common.port, common.baud, holding);
     if (opened.never) throw UserError(opened.error);
     if (opened.wire == nullptr)
         throw mactalk_client::LineError(mactalk_client::LineError::Kind::port_gone, opened.error);

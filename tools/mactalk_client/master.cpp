@@ -55,6 +55,15 @@ void Master::write(std::uint8_t address, std::uint8_t reg, std::uint32_t value, 
         0, options_.attempts);
 }
 
+void Master::send_write(std::uint8_t address, std::uint8_t reg, std::uint32_t value, Width width) {
+    send(mactalk::encode({.kind = mactalk::Kind::write,
+                          .address = address,
+                          .reg = reg,
+                          .length = static_cast<std::uint8_t>(width),
+                          .value = value})
+             .view());
+}
+
 bool Master::try_write(std::uint8_t address, std::uint8_t reg, std::uint32_t value, Width width,
                        base::Microseconds more_patience) {
     const auto bytes = mactalk::encode({.kind = mactalk::Kind::write,
@@ -99,10 +108,12 @@ Master::Reply Master::ask(const mactalk::Request& request, std::size_t data_byte
     const auto answer = mactalk::answer_to(request.kind);
     const std::uint8_t reg = answer == mactalk::Answer::registers ? request.reg : std::uint8_t{0};
     const Question question{request.address, reg, answer, data_bytes, bytes.view()};
+    std::uint64_t heard = 0;
     for (unsigned i = 0; i < attempts; ++i) {
         if (const auto reply = ask_once(question)) return *reply;
+        heard += heard_;
     }
-    no_answer(request.address, attempts);
+    no_answer(request.address, attempts, heard);
 }
 
 std::optional<Master::Reply> Master::ask_once(const Question& question) {
@@ -169,14 +180,18 @@ base::Microseconds Master::on_line(std::size_t bytes) const {
     return base::Microseconds{static_cast<std::int64_t>(bytes) * 10'000'000 / options_.baud};
 }
 
-void Master::no_answer(std::uint8_t address, unsigned attempts) const {
+/// Silence says something else than bytes that are no answer.
+void Master::no_answer(std::uint8_t address, unsigned attempts, std::uint64_t bytes) const {
+    const bool others = counters_.answers > 0;
     const std::string heard =
-        counters_.answers > 0 && counters_.stray_bytes > 0
-            ? std::string(
-                  "others were answered, some came damaged: check wiring, shield and ground of the line")
-        : counters_.answers > 0 ? std::string("others were answered: was it switched off or unplugged?")
-        : heard_ == 0           ? std::string("is it switched on, and are address and speed right?")
-                      : fmt::format("{} bytes came that are no answer: is the speed right?", heard_);
+        bytes == 0 && others
+            ? std::string("nothing came, though others were answered: was it switched off or unplugged?")
+        : bytes == 0 ? std::string("nothing came: is it switched on, and are address and speed right?")
+        : others     ? fmt::format(
+                           "others were answered, and {} bytes came damaged: check wiring, shield and ground of "
+                               "the line",
+                           bytes)
+                 : fmt::format("{} bytes came that are no answer: is the speed right?", bytes);
     throw LineError(LineError::Kind::no_answer,
                     fmt::format("{}: no answer from address {}, asked {} time{}; {}", wire_.name(), address,
                                 attempts, attempts == 1 ? "" : "s", heard));
@@ -189,13 +204,13 @@ void Master::gone() {
     if (const std::string other = socket && silent ? wire_.other_client() : std::string(); !other.empty())
         throw LineError(
             LineError::Kind::port_gone,
-            fmt::format("{}: it serves one client at a time, and {} is connected; end that one first", name,
-                        other));
+            fmt::format("{}: it has no room for another client, and {} is connected; end that one first",
+                        name, other));
     throw LineError(
         LineError::Kind::port_gone,
         name + (socket && silent
-                    ? ": the other end closed the connection before anything came: it serves one client "
-                      "at a time, and another one probably holds it; end that one first"
+                    ? ": the other end closed the connection before anything came: it probably has no room "
+                      "for another client; end one first"
                 : socket ? ": the other end closed the connection; has its program ended?"
                          : ": the other end closed the connection; was the device unplugged, or its "
                            "program ended?"));

@@ -1,4 +1,3 @@
-#include "host/byte_client.h"
 #include "mactalk_client/wire.h"
 
 namespace nplc::mactalk_client {
@@ -15,6 +14,8 @@ class LineWire final : public Wire {
     }
     base::Instant now() override { return client_->now(); }
     std::string other_client() override { return client_->other_client(); }
+    Rest rest(base::Microseconds time) override { return client_->rest(time); }
+    std::string holder() override { return client_->holder(); }
 
   private:
     std::unique_ptr<host::ByteClient> client_;
@@ -22,8 +23,8 @@ class LineWire final : public Wire {
 
 }  // namespace
 
-OpenedWire open_wire(const std::string& endpoint, std::uint32_t baud) {
-    auto opened = host::ByteClient::open(endpoint, baud);
+OpenedWire open_wire(const std::string& endpoint, std::uint32_t baud, Holding holding) {
+    auto opened = host::ByteClient::open(endpoint, baud, holding);
     if (opened.client == nullptr) return {nullptr, opened.error, opened.never};
     return {std::make_unique<LineWire>(std::move(opened.client)), {}};
 }

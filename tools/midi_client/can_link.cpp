@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace nplc::midi_client {
 
@@ -19,6 +20,10 @@ std::string words_of(const ports::CanFrame& frame) {
     return text;
 }
 
+std::uint8_t answerer_of(std::uint8_t address) {
+    return address == can::kGeneral ? std::uint8_t{1} : address;
+}
+
 can::Request message_of(const Request& request) {
     return {.kind = request.query ? can::Request::Kind::query : can::Request::Kind::command,
             .address = request.address,
@@ -33,6 +38,7 @@ Answer CanLink::ask(const Request& request) {
     const can::Request message = message_of(request);
     drain();
     send(message);
+    counter(answerer_of(request.address)).asked();
     const base::Instant end = can_.now() + options_.patience;
     for (base::Instant now = can_.now(); now < end; now = can_.now()) {
         const can::Answer answer = hear(end - now);
@@ -90,6 +96,11 @@ bool CanLink::take_boot(std::uint8_t address) {
     return booted;
 }
 
+bool CanLink::take_foreign_sync() {
+    drain();
+    return std::exchange(foreign_sync_, false);
+}
+
 void CanLink::send(const can::Request& request) {
     const can::Frame message = can::encode(request);
     const ports::CanFrame frame{.id = message.id, .length = message.size, .data = message.data};
@@ -118,23 +129,31 @@ can::Answer CanLink::hear(base::Microseconds wait) {
                             name() + ": the interface is gone; was the adapter unplugged?");
         return {};
     }
-    if (frame->extended || frame->remote) return {};
-    heard_any_ = true;
-    const can::Answer answer = can::decode_answer(
-        {.id = static_cast<std::uint16_t>(frame->id), .size = frame->length, .data = frame->data});
-    if (answer.kind == can::Answer::Kind::booted) boots_.set(answer.address);
-    if (answer.kind != can::Answer::Kind::none) heard_ = words_of(*frame);
-    return answer;
+    heard_any_ = heard_any_ || (!frame->extended && !frame->remote);
+    return take(*frame);
 }
 
 /// Reads over what came before the request.
 void CanLink::drain() {
-    while (const auto frame = can_.read(base::Microseconds{0})) {
-        const can::Answer answer = can::decode_answer(
-            {.id = static_cast<std::uint16_t>(frame->id), .size = frame->length, .data = frame->data});
-        if (!frame->extended && !frame->remote && answer.kind == can::Answer::Kind::booted)
-            boots_.set(answer.address);
-    }
+    while (const auto frame = can_.read(base::Microseconds{0})) take(*frame);
+}
+
+/// Other masters' requests are answered too; what is for all by the module at address 1 (003 §V.8).
+can::Answer CanLink::take(const ports::CanFrame& frame) {
+    if (frame.extended || frame.remote) return {};
+    const can::Frame message{static_cast<std::uint16_t>(frame.id), frame.length, frame.data};
+    const can::Request request = can::decode_request(message);
+    using Ask = can::Request::Kind;
+    foreign_sync_ = foreign_sync_ || request.kind == Ask::sync;
+    if (request.kind == Ask::command || request.kind == Ask::query || request.kind == Ask::other)
+        counter(answerer_of(request.address)).asked_by_other();
+    const can::Answer answer = can::decode_answer(message);
+    using Say = can::Answer::Kind;
+    if (answer.kind == Say::booted) boots_.set(answer.address);
+    if (answer.kind == Say::accepted || answer.kind == Say::value || answer.kind == Say::refused)
+        counter(answer.address).answered();
+    if (answer.kind != Say::none) heard_ = words_of(frame);
+    return answer;
 }
 
 }  // namespace nplc::midi_client

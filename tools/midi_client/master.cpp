@@ -12,10 +12,22 @@ using Kind = Answer::Kind;
 namespace {
 
 constexpr base::Microseconds kLook{50'000};
+constexpr unsigned kLooks = 3;
+/// In which a second module would have answered too (R: in no manual).
+constexpr base::Microseconds kOthersAnswer{150'000};
 
 std::string command_name(std::uint8_t number) {
     const midi::CommandRow* row = midi::find_command(number);
     return row != nullptr ? std::string(row->name) : fmt::format("command {:02X}h", number);
+}
+
+[[noreturn]] void same_address(const Link& link, std::uint8_t address) {
+    throw SameAddress(fmt::format(
+        "{}: more than one module answers to address {}, and what moves one moves both: leave one "
+        "of them connected, give it an address of its own ({}), then connect the other again",
+        link.name(), address,
+        link.is_can() ? "`macreg midi address set NEW`"
+                      : fmt::format("`macreg midi --address {} address set NEW`", address)));
 }
 
 }  // namespace
@@ -27,14 +39,17 @@ std::uint32_t Master::query(std::uint8_t address, midi::Query query, std::uint8_
     for (unsigned i = 0; i < attempts_; ++i) {
         const Answer answer =
             link_.ask({.address = address, .query = true, .number = query, .sub_index = sub_index});
+        look_at_answers(address);
         if (answer.kind == Kind::value) {
             answered_ = true;
             return answer.value;
         }
         // Twice, for a damaged answer may look like a refusal.
         if (answer.kind == Kind::refused && refused++ > 0)
-            throw Refused(fmt::format("address {} refuses {}; it does not know it", address,
-                                      midi::find_query(query)->name));
+            throw Refused(fmt::format(
+                "address {} answers and refuses {}{}", address, midi::find_query(query)->name,
+                query == midi::GET_RAM ? "; it does not know it"
+                                       : ", which no MIDI module does: is it another kind of device?"));
         heard = heard || answer.kind != Kind::silence;
         damaged += answer.kind == Kind::not_taken ? 1 : 0;
     }
@@ -44,6 +59,19 @@ std::uint32_t Master::query(std::uint8_t address, midi::Query query, std::uint8_
 
 Answer Master::try_query(std::uint8_t address, midi::Query query) {
     return link_.ask({.address = address, .query = true, .number = query});
+}
+
+std::uint32_t Master::expect_alone(std::uint8_t address) {
+    for (unsigned i = 0; i < kLooks; ++i) {
+        const std::uint32_t release = query(address, midi::GET_RELEASE);
+        link_.pause(kOthersAnswer);
+        if (!link_.answers(address).surplus()) return release;
+    }
+    same_address(link_, address);
+}
+
+void Master::look_at_answers(std::uint8_t address) const {
+    if (link_.answers(address).several()) same_address(link_, address);
 }
 
 void Master::command(std::uint8_t address, midi::Command command, std::uint32_t data) {
@@ -68,6 +96,7 @@ Answer Master::try_request(const Request& request) {
     Answer answer;
     for (unsigned i = 0; i < attempts_; ++i) {
         answer = link_.ask(request);
+        if (!is_stop(request.number) || request.query) look_at_answers(request.address);
         const bool told =
             answer.kind == Kind::accepted || answer.kind == Kind::value || answer.kind == Kind::refused;
         if (told) answered_ = true;
@@ -121,7 +150,7 @@ void Master::came_damaged(std::uint8_t address, std::string_view name) const {
 void Master::no_answer(std::uint8_t address, unsigned asked, bool heard) const {
     const std::string why =
         answered_ ? "others were answered: was it switched off or unplugged, or has the line noise?"
-        : heard   ? "bytes came that are no answer: is the speed right?"
+        : heard   ? "bytes came that are no answer: is the speed right, or do two modules have this address?"
         : link_.is_can()
             ? "is it switched on, and are address and bit rate right? `macreg midi find` asks all addresses"
             : "is it switched on, and are address and speed right? `macreg midi find` asks all addresses";

@@ -70,6 +70,17 @@ void look_for_everyone(const Link& link, const std::vector<std::uint8_t>& addres
     }
 }
 
+/// It has started, or will start, each move as soon as it is prepared.
+void look_for_foreign_sync(Link& link) {
+    if (link.take_foreign_sync())
+        throw NotPlayed(
+            "another master on the bus sends SYNC (080h, 003 §V.4), which starts each axis as soon as its "
+            "move "
+            "is prepared, not all together: switch that SYNC off, or move one axis after the other; paths "
+            "and "
+            "circles that begin where the axes stand need no SYNC");
+}
+
 void forget_boots(Link& link, const std::vector<std::uint8_t>& addresses) {
     for (const std::uint8_t address : addresses) static_cast<void>(link.take_boot(address));
 }
@@ -96,6 +107,7 @@ class Player {
         if (std::string why = feeding_problem(plan_, lead_.ticks(), message, reserve); !why.empty())
             throw NotPlayed(why);
         forget_boots(link(), addresses_);
+        for (const std::uint8_t address : addresses_) master_.expect_alone(address);
         look_at_axes();
         begin();
         for (std::size_t axis = 0; axis < plan_.axes.size(); ++axis) fill(axis);
@@ -306,7 +318,11 @@ void go_together(Master& master, const std::vector<Target>& targets, const PlayO
     look_for_everyone(master.link(), addresses);
     with_stop(master, addresses, [&] {
         forget_boots(master.link(), addresses);
+        static_cast<void>(master.link().take_foreign_sync());
+        for (const std::uint8_t address : addresses) master.expect_alone(address);
+        look_for_foreign_sync(master.link());
         for (const Target& one : targets) prepare(master, one);
+        look_for_foreign_sync(master.link());
         look_for_boots(master.link(), addresses);
         if (master.link().synchronise().kind != Kind::accepted)
             throw NotPlayed(

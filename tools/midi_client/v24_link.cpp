@@ -44,6 +44,8 @@ Answer V24Link::ask(const Request& request) {
                                .data = request.data};
     const v24::RequestBytes bytes = v24::encode(message);
     settle();
+    asked_ = request.address;
+    counter(asked_).asked();
     sent_.assign(bytes.begin(), bytes.end());
     heard_.clear();
     if (!wire_.write(bytes)) gone();
@@ -103,6 +105,10 @@ std::size_t V24Link::receive(std::span<std::uint8_t> out, base::Microseconds wai
     const auto count = wire_.read(out, wait);
     if (!count) gone();
     heard_any_ = heard_any_ || *count > 0;
+    // Either character begins an answer, and no reply holds one. Whose it is it does not say.
+    for (const std::uint8_t byte : out.first(*count)) {
+        if (byte == v24::kAck || byte == v24::kNack) counter(asked_).answered();
+    }
     return *count;
 }
 

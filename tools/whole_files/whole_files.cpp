@@ -7,10 +7,9 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 
+#include "host/files.h"
 #include "host/paths.h"
 #include "host/process.h"
 
@@ -20,8 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using host::path_of;
 
-constexpr std::size_t kMostInput = 256 * 1024 * 1024;
-
 std::string temporary_name(const std::string& path) {
     return fmt::format("{}.{}.tmp", path, host::own_process());
 }
@@ -30,7 +27,41 @@ std::string reason() {
     return errno != 0 ? std::strerror(errno) : "unknown reason";
 }
 
-/// What a symbolic link leads to is written, not the link; it need not exist yet.
+void remove_file(const std::string& path) {
+    std::error_code ignored;
+    if (!fs::is_directory(fs::symlink_status(path_of(path), ignored))) fs::remove(path_of(path), ignored);
+}
+
+void keep_permissions(const std::string& path) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path_of(path), ignored);
+    if (fs::is_regular_file(status))
+        fs::permissions(path_of(temporary_name(path)), status.permissions(), ignored);
+}
+
+std::FILE* open_first(const std::string& path) {
+    return is_special(path) ? std::fopen(path.c_str(), "wb") : create_anew(temporary_name(path));
+}
+
+std::string write_first(const OutputFile& file) {
+    errno = 0;
+    std::FILE* const stream = open_first(file.path);
+    bool written = stream != nullptr &&
+                   std::fwrite(file.content.data(), 1, file.content.size(), stream) == file.content.size() &&
+                   std::fflush(stream) == 0;
+    const std::string why = written ? std::string() : reason();
+    if (stream != nullptr) written = std::fclose(stream) == 0 && written;
+    if (!written) return fmt::format("cannot write '{}': {}", file.path, why.empty() ? reason() : why);
+    keep_permissions(file.path);
+    return {};
+}
+
+void remove_temporaries(const std::vector<OutputFile>& files) {
+    for (const OutputFile& file : files) remove_file(temporary_name(file.path));
+}
+
+}  // namespace
+
 std::string behind_links(const std::string& path) {
     constexpr int kMostLinks = 40;
     std::error_code error;
@@ -43,32 +74,10 @@ std::string behind_links(const std::string& path) {
     return host::name_of(target);
 }
 
-std::string where_first(const std::string& path) {
-    return is_special(path) ? path : temporary_name(path);
+std::FILE* create_anew(const std::string& path) {
+    remove_file(path);
+    return host::create_file(path);
 }
-
-void keep_permissions(const std::string& path) {
-    std::error_code ignored;
-    const fs::file_status status = fs::status(path_of(path), ignored);
-    if (fs::is_regular_file(status))
-        fs::permissions(path_of(temporary_name(path)), status.permissions(), ignored);
-}
-
-std::string write_first(const OutputFile& file) {
-    errno = 0;
-    std::ofstream stream(path_of(where_first(file.path)), std::ios::binary | std::ios::trunc);
-    stream.write(file.content.data(), static_cast<std::streamsize>(file.content.size()));
-    stream.close();
-    keep_permissions(file.path);
-    return stream ? std::string() : fmt::format("cannot write '{}': {}", file.path, reason());
-}
-
-void remove_temporaries(const std::vector<OutputFile>& files) {
-    std::error_code ignored;
-    for (const OutputFile& file : files) fs::remove(path_of(temporary_name(file.path)), ignored);
-}
-
-}  // namespace
 
 bool is_special(const std::string& path) {
     std::error_code error;
@@ -76,16 +85,22 @@ bool is_special(const std::string& path) {
     return fs::exists(status) && !fs::is_regular_file(status);
 }
 
-FileText read_file(const std::string& path) {
+std::string why_kept(const std::string& path) {
     std::error_code error;
-    if (fs::is_directory(path_of(path), error)) return {{}, fmt::format("'{}' is a folder", path)};
-    errno = 0;
-    std::ifstream stream(path_of(path), std::ios::binary);
-    if (!stream) return {{}, fmt::format("cannot read '{}': {}", path, reason())};
-    FileText result;
-    result.text.assign(std::istreambuf_iterator<char>(stream), {});
-    if (stream.bad()) return {{}, fmt::format("cannot read '{}': {}", path, reason())};
-    return result;
+    if (!fs::is_regular_file(path_of(path), error) || fs::file_size(path_of(path), error) == 0) return {};
+    return fmt::format("'{}' is there already: name another file, or replace it with --force", path);
+}
+
+FileText read_file(const std::string& path, std::size_t most) {
+    host::FileContent file = host::read_file(path, most);
+    if (!file.problem.empty()) return {{}, fmt::format("cannot read '{}': {}", path, file.problem)};
+    return {std::move(file.bytes), {}};
+}
+
+FileText read_text(const std::string& path) {
+    FileText file = read_file(path);
+    if (file.text.find('\0') == std::string::npos) return file;
+    return {{}, fmt::format("cannot read '{}': it is no text, for it holds zeros", path)};
 }
 
 FileText read_standard_input() {
@@ -100,6 +115,16 @@ FileText read_standard_input() {
     if (std::cin.bad() || std::ferror(stdin) != 0)
         return {{}, fmt::format("cannot read standard input: {}", reason())};
     return result;
+}
+
+std::string why_not_made(const std::string& path) {
+    if (is_special(path)) return {};
+    const std::string probe = temporary_name(behind_links(path));
+    std::FILE* const file = create_anew(probe);
+    if (file == nullptr) return fmt::format("cannot write '{}': {}", path, reason());
+    std::fclose(file);
+    remove_file(probe);
+    return {};
 }
 
 std::string write_files(const std::vector<OutputFile>& named) {

@@ -78,7 +78,8 @@ arguments::App& add_command(arguments::App& app, const std::string& name, const 
 int run(arguments::App& app, Common& common, int argc, char** argv);
 
 /// Throws UserError without a port, LineError if it cannot be opened.
-std::unique_ptr<mactalk_client::Wire> open_port(const Common& common);
+std::unique_ptr<mactalk_client::Wire> open_port(
+    const Common& common, mactalk_client::Holding holding = mactalk_client::Holding::alone);
 
 /// Does the work of a subcommand; sets the exit code and tells what went wrong.
 void guard(Common& common, const std::function<void()>& what);

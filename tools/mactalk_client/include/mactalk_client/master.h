@@ -79,6 +79,9 @@ class Master {
     bool try_write_long(std::uint8_t address, std::uint8_t reg, std::span<const std::uint8_t> data,
                         base::Microseconds more_patience = {});
 
+    /// Once and at once, whatever is still to come from the line; whether an accept comes is not looked at.
+    void send_write(std::uint8_t address, std::uint8_t reg, std::uint32_t value, Width width);
+
     /// 54h, 55h: repeated until accepted.
     void safe_mode(std::uint8_t address);
     void init_mode(std::uint8_t address);
@@ -111,7 +114,7 @@ class Master {
     std::size_t receive(std::span<std::uint8_t> out, base::Microseconds wait);
     void settle(bool for_accept);
     base::Microseconds on_line(std::size_t bytes) const;
-    [[noreturn]] void no_answer(std::uint8_t address, unsigned attempts) const;
+    [[noreturn]] void no_answer(std::uint8_t address, unsigned attempts, std::uint64_t bytes) const;
     [[noreturn]] void gone();
 
     Wire& wire_;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/time.h"
+#include "host/byte_client.h"
 
 namespace nplc::mactalk_client {
 
@@ -24,6 +25,10 @@ class Wire {
     virtual base::Instant now() = 0;
     /// Which other program the far end serves, "macreg (process 1234)"; empty where that cannot be told.
     virtual std::string other_client() { return {}; }
+    /// As host::ByteClient does.
+    using Rest = host::ByteClient::Rest;
+    virtual Rest rest(base::Microseconds /*time*/) { return Rest::not_shared; }
+    virtual std::string holder() { return {}; }
 };
 
 struct OpenedWire {
@@ -33,6 +38,7 @@ struct OpenedWire {
 };
 
 /// An endpoint as host::ByteClient takes it.
-OpenedWire open_wire(const std::string& endpoint, std::uint32_t baud);
+using Holding = host::ByteClient::Holding;
+OpenedWire open_wire(const std::string& endpoint, std::uint32_t baud, Holding holding = Holding::alone);
 
 }  // namespace nplc::mactalk_client

@@ -31,6 +31,7 @@ class CanLink final : public Link {
     std::string last_sent() const override { return sent_; }
     std::string last_heard() const override { return heard_; }
     bool take_boot(std::uint8_t address) override;
+    bool take_foreign_sync() override;
     bool heard_anything() const override { return heard_any_; }
 
     /// The whole LMT procedure (003 §V.5) with the only module on the bus; true when it has booted with the
@@ -43,6 +44,7 @@ class CanLink final : public Link {
     void send(const protocol::midi_can::Request& request);
     protocol::midi_can::Answer hear(base::Microseconds wait);
     void drain();
+    protocol::midi_can::Answer take(const ports::CanFrame& frame);
 
     host::CanClient& can_;
     CanOptions options_;
@@ -50,6 +52,7 @@ class CanLink final : public Link {
     std::string heard_;
     std::bitset<protocol::midi_can::kMaxAddress + 1U> boots_;  ///< heard, by address
     bool heard_any_ = false;
+    bool foreign_sync_ = false;
 };
 
 }  // namespace nplc::midi_client

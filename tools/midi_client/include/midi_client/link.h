@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
 #include "base/time.h"
 #include "mactalk_client/master.h"
+#include "protocol/answer_count.h"
 
 /// The client's end of a line or bus with MIDI Ingenierie modules: one request, one answer.
 namespace nplc::midi_client {
@@ -64,8 +66,19 @@ class Link {
     virtual std::string last_heard() const = 0;
     /// The module has said that it started anew, since this was asked last. Only on CAN (003 §V.2).
     virtual bool take_boot(std::uint8_t) { return false; }
+    /// Another master has sent SYNC, since this was asked last. Only on CAN (003 §V.4).
+    virtual bool take_foreign_sync() { return false; }
     /// Something came since the link was opened, answer or not.
     virtual bool heard_anything() const = 0;
+
+    /// Of an address: whether more answers come than requests.
+    const protocol::AnswerCount& answers(std::uint8_t address) const { return answers_[address]; }
+
+  protected:
+    protocol::AnswerCount& counter(std::uint8_t address) { return answers_[address]; }
+
+  private:
+    std::array<protocol::AnswerCount, 256> answers_{};
 };
 
 }  // namespace nplc::midi_client

@@ -30,8 +30,14 @@ class Doubtful : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// More than one module answers to an address: what moves one moves both, and readings are of either.
+class SameAddress : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
 /// A master of MIDI modules (000, 003). Asks again, up to `attempts` times, where that can do no harm:
-/// queries, what a module said not to have understood, and stops. Throws LineError, too.
+/// queries, what a module said not to have understood, and stops. Throws LineError and SameAddress, too.
 class Master {
   public:
     explicit Master(Link& link, unsigned attempts = 10) : link_(link), attempts_(attempts) {}
@@ -41,6 +47,10 @@ class Master {
     std::uint32_t query(std::uint8_t address, registers::midi::Query query, std::uint8_t sub_index = 0);
     /// The same, asked once: for who looks whether anybody is there. Silence is nothing.
     Answer try_query(std::uint8_t address, registers::midi::Query query);
+
+    /// Before something moves: asks, and waits for a second module's answer. GET_RELEASE's. Throws
+    /// SameAddress.
+    std::uint32_t expect_alone(std::uint8_t address);
 
     /// Throws Refused, Doubtful.
     void command(std::uint8_t address, registers::midi::Command command, std::uint32_t data = 0);
@@ -59,6 +69,7 @@ class Master {
     void pause(base::Microseconds time, const std::function<bool()>& goes_on);
 
   private:
+    void look_at_answers(std::uint8_t address) const;
     [[noreturn]] void came_damaged(std::uint8_t address, std::string_view name) const;
     [[noreturn]] void no_answer(std::uint8_t address, unsigned asked, bool heard) const;
 

@@ -43,6 +43,7 @@ class V24Link final : public Link {
     std::vector<std::uint8_t> sent_;
     std::vector<std::uint8_t> heard_;
     bool heard_any_ = false;
+    std::uint8_t asked_ = 0;  ///< last
     bool unsettled_ = false;
 };
 

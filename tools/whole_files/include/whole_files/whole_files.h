@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -10,9 +12,22 @@ struct FileText {
     std::string error;  ///< empty when it was read
 };
 
-FileText read_file(const std::string& path);
-/// No more than 256 MiB: what has no end is none of ours.
+/// More than any program, table or symbol file has, and any recording.
+constexpr std::size_t kMostOfAProgram = std::size_t{4} * 1024 * 1024;
+constexpr std::size_t kMostInput = std::size_t{256} * 1024 * 1024;
+
+/// As host::read_file.
+FileText read_file(const std::string& path, std::size_t most = kMostOfAProgram);
+/// The same of a text: bytes that cannot be one are refused.
+FileText read_text(const std::string& path);
+/// No more than kMostInput: what has no end is none of ours.
 FileText read_standard_input();
+
+/// What a chain of symbolic links leads to, there or not: it is written, not the link.
+std::string behind_links(const std::string& path);
+
+/// A new file in the place of one that may be there. Null, and errno, if it cannot be made.
+std::FILE* create_anew(const std::string& path);
 
 /// A device or pipe, which is written to in place: a rename would replace it.
 bool is_special(const std::string& path);
@@ -21,6 +36,13 @@ struct OutputFile {
     std::string path;
     std::string content;
 };
+
+/// Why a file that was read from a machine, and may be the only one, must not be written there: a file with
+/// something in it is there. Nothing if it may.
+std::string why_kept(const std::string& path);
+
+/// Why no file can be made there, or nothing. Leaves nothing behind.
+std::string why_not_made(const std::string& path);
 
 /// Writes into temporary files beside the targets and renames them once all are written whole, so that no
 /// half file is ever seen. A target that exists keeps its permissions. Answers what went wrong, or nothing.
