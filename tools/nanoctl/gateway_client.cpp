@@ -26,6 +26,12 @@ std::string reason(gw::Command command, gw::Result result) {
     return std::string(gw::describe(result));
 }
 
+Block block_of(const std::array<std::uint8_t, protocol::mactalk::kBlockBytes>& bytes) {
+    Block block{};
+    for (std::size_t i = 0; i < block.size(); ++i) block[i] = base::load_u32(&bytes[4 * i]);
+    return block;
+}
+
 }  // namespace
 
 void GatewayClient::identify() {
@@ -44,10 +50,12 @@ void GatewayClient::identify() {
 }
 
 Block GatewayClient::read_block(std::uint8_t reg) {
-    const auto bytes = master_.read_block(address_, reg);
-    Block block{};
-    for (std::size_t i = 0; i < block.size(); ++i) block[i] = base::load_u32(&bytes[4 * i]);
-    return block;
+    return block_of(master_.read_block(address_, reg));
+}
+
+std::optional<Block> GatewayClient::try_read_block(std::uint8_t reg) {
+    const auto bytes = master_.try_read_block(address_, reg);
+    return bytes ? std::optional(block_of(*bytes)) : std::nullopt;
 }
 
 GatewayClient::LastResult GatewayClient::last_result() {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "base/bytes.h"
 #include "base/crc32.h"
@@ -122,15 +123,32 @@ void commit(GatewayClient& gateway) {
     }
 }
 
+/// Does a part of an upload; if the gateway is lost in it, what it has stored then is said too.
+void part(const char* stored, const std::function<void()>& what) {
+    try {
+        what();
+    } catch (const LineError& error) {
+        throw LineError(error.kind(), fmt::format("{}; {}", error.what(), stored));
+    }
+}
+
 void upload_whole(GatewayClient& gateway, std::span<const std::uint8_t> table, const Progress& progress) {
-    gateway.command(gw::Command::upload_begin);
-    wait_while(gateway, kErasing);
-    Upload(gateway, table).send(progress);
-    gateway.write(gw::UPLOAD_CRC, base::crc32(table));
-    gateway.write(gw::UPLOAD_BYTES, static_cast<std::uint32_t>(table.size()));
-    commit(gateway);
-    const UploadStatus end = wait_while(gateway, kClosing);
-    if (end.state != kStored) upload_failed(gw::Result::no_upload, 0);
+    part("the upload was not finished, the stored table is as it was and so is the active one", [&] {
+        gateway.command(gw::Command::upload_begin);
+        wait_while(gateway, kErasing);
+        Upload(gateway, table).send(progress);
+        gateway.write(gw::UPLOAD_CRC, base::crc32(table));
+        gateway.write(gw::UPLOAD_BYTES, static_cast<std::uint32_t>(table.size()));
+    });
+    part(
+        "the old table or the new one is stored, whole, and the active one is as it was; `nanoctl verify` "
+        "tells "
+        "which is stored",
+        [&] {
+            commit(gateway);
+            const UploadStatus end = wait_while(gateway, kClosing);
+            if (end.state != kStored) upload_failed(gw::Result::no_upload, 0);
+        });
 }
 
 /// What a MIDI drive has not; empty where nobody knows.

@@ -58,7 +58,7 @@ std::string_view name_of(RunState state) {
 }
 
 std::string_view name_of_event(std::uint8_t event) {
-    constexpr std::array<std::string_view, 30> kNames{"none",
+    constexpr std::array<std::string_view, 33> kNames{"none",
                                                       "not started",
                                                       "stop command",
                                                       "link down",
@@ -67,11 +67,11 @@ std::string_view name_of_event(std::uint8_t event) {
                                                       "watchdog",
                                                       "enable lost",
                                                       "safe command",
-                                                      "",
-                                                      "",
-                                                      "",
-                                                      "",
-                                                      "",
+                                                      "bad settings",
+                                                      "bad run mark",
+                                                      "GPIO lines missing",
+                                                      "no store",
+                                                      "user's port missing",
                                                       "",
                                                       "",
                                                       "started",
@@ -87,9 +87,35 @@ std::string_view name_of_event(std::uint8_t event) {
                                                       "stored table or settings damaged",
                                                       "upload given up",
                                                       "the firmware gave up before this start",
-                                                      "it was at this code address"};
+                                                      "it was at this code address",
+                                                      "",
+                                                      "",
+                                                      "the drive's fault"};
     if (event >= kNames.size() || kNames[event].empty()) return "unknown";
     return kNames[event];
+}
+
+std::string_view name_of_motor_fault(std::uint16_t number) {
+    constexpr std::array<std::string_view, 12> kNames{
+        "none",
+        "it does not answer",
+        "it started anew by itself",
+        "tripped: its power is off until \"reset error\"",
+        "an end-stop ended its motion",
+        "it stands, and not where it was sent",
+        "it refused a command",
+        "nobody knows whether it took a command",
+        "an order that it cannot do",
+        "its answers cannot be read",
+        "several drives answer to its address",
+        "its position jumped in mid-motion: another master, or a hand; find the origin again"};
+    return number < kNames.size() ? kNames[number] : "unknown";
+}
+
+std::string_view held_remark(const Status& status) {
+    if (!status.has(registers::gateway::kCannotGoOn)) return {};
+    return ", cannot go on from here: the motor cannot take up again what it did; `nanoctl stop`, then "
+           "`nanoctl run`";
 }
 
 std::string_view name_of_link(std::uint32_t link) {

@@ -3,24 +3,13 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/session.h"
+#include "nanoctl/stopping.h"
 #include "nanoctl/words.h"
 
 namespace nplc::nanoctl::cli {
 namespace {
 
-/// Other clients may keep the line busy; a stop is worth waiting for.
-constexpr unsigned kStopAttempts = 60;
-
-void wait_for_hold(Session& session) {
-    if (session.wait_until_held(kHoldWait)) return;
-    throw Refused(
-        gw::Result::moving, gw::COMMAND, 0,
-        fmt::format("hold: the sequence is {} and not held, also not after 10 s; `nanoctl log` tells more",
-                    name_of(session.status().run_state)));
-}
-
-void tell_state(Session& session) {
-    const Status status = session.status();
+void tell_state(Session& session, const Status& status) {
     session.tell(fmt::format("{}, step {}", name_of(status.run_state), session.names().step(status.step)),
                  {{"state", name_of(status.run_state)}, {"step", status.step}});
 }
@@ -34,27 +23,29 @@ void tell_restarted(Session& session, std::uint8_t address_before) {
                  {{"state", name_of(status.run_state)}, {"step", status.step}, {"address", address}});
 }
 
-void add_order(arguments::App& app, Common& common, gw::Command order, const char* text) {
+void add_stop(arguments::App& app, Common& common, gw::Command order, const char* text) {
     arguments::App& command = add_command(app, std::string(name_of(order)), text);
     command.callback([order, &common] {
-        if (order == gw::Command::stop || order == gw::Command::safe) common.attempts = kStopAttempts;
-        work(common, [&](Session& session) {
-            session.gateway().command(order);
-            if (order == gw::Command::hold) wait_for_hold(session);
-            tell_state(session);
-        });
+        stop_work(common,
+                  [&](Session& session) { tell_state(session, stop_machine(session.gateway(), order)); });
     });
 }
 
 }  // namespace
 
 void add_controls(arguments::App& app, Common& common) {
-    add_order(app, common, gw::Command::run,
-              "Start the sequence from step 0, the motor stopped first; or let a held one go on");
-    add_order(app, common, gw::Command::stop, "Stop sequence and motor; outputs take their safe values");
-    add_order(app, common, gw::Command::safe, "Stop, and end forces, breakpoints and an upload too");
-    add_order(app, common, gw::Command::hold,
-              "Hold the sequence at the end of a scan, the motor stopped, outputs as they are");
+    add_command(app, "run",
+                "Start the sequence from step 0, the motor stopped first; or let a held one go on")
+        .callback([&common] {
+            work(common, [](Session& session) {
+                session.gateway().command(gw::Command::run);
+                tell_state(session, session.status());
+            });
+        });
+    add_stop(app, common, gw::Command::stop, "Stop sequence and motor; outputs take their safe values");
+    add_stop(app, common, gw::Command::safe, "Stop, and end forces, breakpoints and an upload too");
+    add_stop(app, common, gw::Command::hold,
+             "Hold the sequence at the end of a scan, the motor stopped, outputs as they are");
     add_command(app, "activate",
                 "Make the stored table the active one; waits 5 s for the motor to stand still")
         .callback([&common] {

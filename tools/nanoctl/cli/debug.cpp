@@ -26,10 +26,10 @@ void tell_breaks(Session& session) {
     session.tell(text.empty() ? "no breakpoints" : "breakpoints at steps " + text, {{"steps", steps}});
 }
 
-std::uint64_t steps_mask(const Session& session, const std::vector<std::string>& texts) {
+std::uint64_t steps_mask(Session& session, const std::vector<std::string>& texts) {
     std::uint64_t mask = 0;
     for (const std::string& text : texts) {
-        const auto step = session.names().find_step(text);
+        const auto step = session.right_names().find_step(text);
         if (!step)
             throw UserError(
                 fmt::format("'{}' is no step: write 0..62, or a name of the program with --sym", text));
@@ -69,12 +69,12 @@ struct ForceOptions {
     double seconds = 0;
 };
 
-void parse_force(const Session& session, const std::string& text, Force& in, Force& out) {
+void parse_force(Session& session, const std::string& text, Force& in, Force& out) {
     const auto equals = text.find('=');
     const std::string name = text.substr(0, equals);
     const std::string level = equals == std::string::npos ? "" : text.substr(equals + 1);
-    const auto input = session.names().find_input(name);
-    const auto output = session.names().find_output(name);
+    const auto input = session.right_names().find_input(name);
+    const auto output = session.right_names().find_output(name);
     if ((!input && !output) || (level != "0" && level != "1"))
         throw UserError(
             fmt::format("'{}': write IN0..IN5 or OUT0..OUT3, or a name of the program with --sym, and "
@@ -142,8 +142,13 @@ std::string detail_text(const LogEntry& entry) {
             return entry.detail == gw::FORCE_OUT ? ", outputs" : ", inputs";
         case gw::Event::forces_ended:
             return entry.detail == 1 ? ", by silence" : ", by the user";
+        case gw::Event::held:
+        case gw::Event::breakpoint:
+            return entry.detail == 1 ? ", cannot go on from there" : "";
         case gw::Event::upload_failed:
             return fmt::format(", {}", gw::describe(static_cast<gw::Result>(entry.detail & 0xFF)));
+        case gw::Event::motor_fault:
+            return fmt::format(", {}", name_of_motor_fault(entry.detail));
         default:
             return entry.detail == 0 ? "" : fmt::format(", {}", entry.detail);
     }

@@ -8,9 +8,10 @@ constexpr const char* kFooter =
     "environment's\n"
     "NANOCTL_PORT instead. A program that holds the port already is named.\n"
     "Exit codes: 0 done, 1 the gateway refused or tables differ, 2 wrong usage or a file,\n"
-    "3 the port cannot be opened or nobody answers, 130 ended by Ctrl-C or SIGTERM before it was done (watch "
-    "and\n"
-    "force end with 0). With --json a failure is {\"ok\": false, \"error\": "
+    "3 the port cannot be opened or nobody answers, 4 a stop, safe or hold was not confirmed and the "
+    "machine\n"
+    "may still be running, 130 ended by Ctrl-C or SIGTERM before it was done (watch and force end with 0).\n"
+    "With --json a failure is {\"ok\": false, \"error\": "
     "...}.\n"
     "Example: nanoctl --port /dev/ttyUSB0 upload shuttle.bin --run && nanoctl --port /dev/ttyUSB0 watch";
 

@@ -2,29 +2,73 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "command_line/files.h"
+#include "nanoctl/stopping.h"
 #include "seqc/symbol_file.h"
 
 namespace nplc::nanoctl::cli {
-Session::Session(const Common& common)
+
+using mactalk_client::Holding;
+using mactalk_client::LineError;
+using mactalk_client::Wire;
+
+namespace {
+
+/// A whole upload of another program is waited for.
+constexpr base::Milliseconds kTurnWait{60'000};
+
+}  // namespace
+
+Session::Session(const Common& common, Holding holding)
     : common_(common),
-      wire_(command_line::open_port(common)),
+      wire_(command_line::open_port(common, holding)),
       master_(*wire_, {.baud = common.baud,
                        .patience = base::Milliseconds{common.patience_ms},
                        .attempts = common.attempts}),
       gateway_(master_, static_cast<std::uint8_t>(common.address)) {
     gateway_.set_goes_on(goes_on);
-    gateway_.identify();
-    if (common.symbols.empty()) return;
-    const auto reading = seqc::read_symbols(command_line::read_whole(common.symbols));
-    if (!reading.error.empty()) throw UserError(fmt::format("{}: {}", common.symbols, reading.error));
+}
+
+Names Session::read_names() {
+    if (common_.symbols.empty()) return {};
+    const auto reading = seqc::read_symbols(command_line::read_whole(common_.symbols));
+    if (!reading.error.empty()) throw UserError(fmt::format("{}: {}", common_.symbols, reading.error));
     const Block about = gateway_.read_block(gw::IDENTITY);
     if (about[gw::TABLE_BYTES - 1] != 0 && about[gw::TABLE_CRC - 1] != reading.file.crc32)
         throw UserError(
             fmt::format("{} belongs to another table than the active one (CRC {:08X}h, {:08X}h); "
                         "upload its table, or name the right file",
-                        common.symbols, reading.file.crc32, about[gw::TABLE_CRC - 1]));
-    names_ = Names(reading.file);
+                        common_.symbols, reading.file.crc32, about[gw::TABLE_CRC - 1]));
+    return Names(reading.file);
+}
+
+const Names& Session::right_names() {
+    if (!names_) names_ = read_names();
+    return *names_;
+}
+
+const Names& Session::names() {
+    try {
+        return right_names();
+    } catch (const UserError& error) {
+        fmt::print(stderr, "{}: {}; steps and signals have their numbers\n", common_.program, error.what());
+        return names_.emplace();
+    }
+}
+
+void Session::pause(base::Microseconds time) {
+    Wire::Rest rest = wire_->rest(time);
+    if (rest == Wire::Rest::not_shared) return master_.pause(time);
+    const base::Instant end = now() + kTurnWait;
+    while (rest == Wire::Rest::still_taken && goes_on()) {
+        if (now() >= end)
+            throw LineError(LineError::Kind::port_gone,
+                            fmt::format("{}: {} has held this port for a minute; end it first", wire_->name(),
+                                        wire_->holder()));
+        rest = wire_->rest(base::Microseconds{0});
+    }
 }
 
 bool Session::wait_until_held(base::Milliseconds patience) {
@@ -39,16 +83,45 @@ bool Session::wait_until_held(base::Milliseconds patience) {
     }
 }
 
+namespace {
+
+void tell_failures(const std::function<void()>& what) {
+    try {
+        what();
+    } catch (const Refused& error) {
+        throw command_line::Failure(command_line::kRefused, error.what());
+    } catch (const NotConfirmed& error) {
+        throw command_line::Failure(kNotConfirmed, error.what());
+    } catch (const WrongDevice& error) {
+        throw command_line::Failure(command_line::kNoAnswer, error.what());
+    }
+}
+
+}  // namespace
+
 void work(Common& common, const std::function<void(Session&)>& what) {
     command_line::guard(common, [&] {
-        try {
-            Session session(common);
+        tell_failures([&] {
+            Session session(common, Holding::in_turns);
+            session.gateway().identify();
             what(session);
-        } catch (const Refused& error) {
-            throw command_line::Failure(command_line::kRefused, error.what());
-        } catch (const WrongDevice& error) {
-            throw command_line::Failure(command_line::kNoAnswer, error.what());
+        });
+    });
+}
+
+void stop_work(Common& common, const std::function<void(Session&)>& what) {
+    constexpr unsigned kMostPatience = 500;  // what is lost is sent again
+    common.patience_ms = std::min(common.patience_ms, kMostPatience);
+    command_line::guard(common, [&] {
+        std::optional<Session> session;
+        try {
+            session.emplace(common, Holding::at_once);
+        } catch (const LineError& error) {
+            throw command_line::Failure(kNotConfirmed, fmt::format("{}: {}", error.what(), kMayStillRun));
+        } catch (const UserError& error) {
+            throw UserError(fmt::format("{}: {}", error.what(), kMayStillRun));
         }
+        tell_failures([&] { what(*session); });
     });
 }
 

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "command_line/program.h"
@@ -16,23 +17,28 @@ using command_line::Json;
 using command_line::output_has_reader;
 using command_line::UserError;
 
-/// The last orders are finished and the motor is stopped within it, or something is wrong.
-inline constexpr base::Milliseconds kHoldWait{10'000};
-
 struct Common : command_line::Common {
     std::string symbols;
 };
 
-/// A gateway that answered, and how results are told.
+/// A stop, safe or hold that was not seen to be done; beside command_line::Exit.
+inline constexpr int kNotConfirmed = 4;
+
+/// A gateway, and how results are told.
 class Session {
   public:
-    explicit Session(const Common& common);
+    /// `holding`: of a serial line.
+    explicit Session(const Common& common, mactalk_client::Holding holding);
 
     GatewayClient& gateway() { return gateway_; }
-    const Names& names() const { return names_; }
+    /// Those of --sym; numbers, and a note on standard error, if it cannot be read or is another table's.
+    const Names& names();
+    /// Throws UserError where names() makes a note.
+    const Names& right_names();
     bool json() const { return common_.json; }
     Status status() { return Status(gateway_.read_block(gw::STATUS)); }
-    void pause(base::Microseconds time) { master_.pause(time); }
+    /// A serial line is another program's meanwhile, if it holds it in turns too.
+    void pause(base::Microseconds time);
     base::Instant now() { return wire_->now(); }
 
     /// False if it was stopped instead, or after `patience`.
@@ -44,15 +50,20 @@ class Session {
     }
 
   private:
+    Names read_names();
+
     const Common& common_;
     std::unique_ptr<mactalk_client::Wire> wire_;
     mactalk_client::Master master_;
     GatewayClient gateway_;
-    Names names_;
+    std::optional<Names> names_;
 };
 
-/// Does the work of a subcommand with an open session; sets the exit code and tells what went wrong.
+/// Does the work of a subcommand with a gateway that answered; sets the exit code and tells what went wrong.
 void work(Common& common, const std::function<void(Session&)>& what);
+/// The same for a stop: nothing is asked or looked at before, and whatever goes wrong says that the machine
+/// may still be running.
+void stop_work(Common& common, const std::function<void(Session&)>& what);
 
 /// `add_transfers`: upload, verify, download. `add_controls`: run, stop, safe, hold, activate, reset.
 /// `add_stepping`: step, scan. `add_status`: status, watch.

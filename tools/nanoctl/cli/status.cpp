@@ -34,6 +34,7 @@ Json document_of(const Status& status, const Names& names) {
             {"forced_inputs", status.has(gw::kForcedInputs)},
             {"breakpoints", status.has(gw::kBreakpoints)},
             {"at_breakpoint", status.has(gw::kAtBreakpoint)},
+            {"can_go_on", !status.has(gw::kCannotGoOn)},
             {"table", status.has(gw::kTable)},
             {"upload", status.has(gw::kUpload)},
             {"stored_differs", status.has(gw::kStoredDiffers)},
@@ -50,6 +51,7 @@ std::string line_of(const Status& status, const Names& names) {
     if (status.has(gw::kInPosition)) text += ", IN_POS";
     if (status.has(gw::kMotorError)) text += ", ERROR";
     if (status.has(gw::kAtBreakpoint)) text += ", at a breakpoint";
+    text += held_remark(status);
     if (status.has(gw::kForcedInputs) || status.has(gw::kForcedOutputs))
         text += fmt::format(", FORCED for {} ms", status.force_left);
     if (status.has(gw::kSafe)) text += fmt::format(", SAFE: {}", name_of_event(status.safe_reason));
@@ -66,6 +68,7 @@ std::string table_text(std::uint32_t bytes, std::uint32_t crc) {
 }
 
 void show_status(Session& session) {
+    session.right_names();
     GatewayClient& gateway = session.gateway();
     const Block about = gateway.read_block(gw::IDENTITY);
     const Block counters = gateway.read_block(gw::LINK_LOSSES);
@@ -79,9 +82,9 @@ void show_status(Session& session) {
     text +=
         fmt::format("\nactive table {}; stored table {}", table_text(of(gw::TABLE_BYTES), of(gw::TABLE_CRC)),
                     table_text(of(gw::STORED_BYTES), of(gw::STORED_CRC)));
-    if ((flags & 1) != 0) text += "\nDAMAGED: a stored table; an older one is in use, upload again";
+    if ((flags & 1) != 0) text += "\nDAMAGED: a stored table; an older one or none is in use, upload again";
     if ((flags & 2) != 0)
-        text += "\nDAMAGED: the stored settings; initial ones are in use, set and keep them";
+        text += "\nDAMAGED: the stored settings; older or initial ones are in use, set and keep them";
     text += fmt::format("\nmotor link {}, lost {} times, {} messages repeated, {} orders done, {} discarded",
                         name_of_link(status.link), count(gw::LINK_LOSSES), count(gw::RESENT),
                         count(gw::ORDERS), count(gw::DISCARDED));
@@ -114,6 +117,7 @@ constexpr base::Microseconds kLook{100'000};
 
 /// A line at every change of what matters, with the gateway's time.
 void watch(Session& session, const WatchOptions& options) {
+    session.right_names();
     const base::Instant begun = session.now();
     const base::Microseconds limit{static_cast<std::int64_t>(options.seconds * 1e6)};
     std::string last;
@@ -133,8 +137,9 @@ void watch(Session& session, const WatchOptions& options) {
         }
         last = line;
         const base::Instant next = session.now() + base::Milliseconds{options.interval_ms};
-        while (session.now() < next && !ends())
-            session.pause(std::min<base::Microseconds>(kLook, next - session.now()));
+        do {
+            session.pause(std::clamp<base::Microseconds>(next - session.now(), base::Microseconds{0}, kLook));
+        } while (session.now() < next && !ends());
     }
 }
 

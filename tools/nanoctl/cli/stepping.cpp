@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/session.h"
+#include "nanoctl/stopping.h"
 #include "nanoctl/words.h"
 
 namespace nplc::nanoctl::cli {
@@ -16,16 +17,17 @@ void tell_held(Session& session) {
     std::string terms;
     for (const std::uint16_t term : fired.terms)
         terms += fmt::format("{}{}{}", terms.empty() ? "" : ", ", term, names.term_place(term));
-    session.tell(fmt::format("{}, step {}, timer {} ms, counter {}, out {}, true terms of step {}: {}",
+    session.tell(fmt::format("{}, step {}, timer {} ms, counter {}, out {}, true terms of step {}: {}{}",
                              name_of(status.run_state), names.step(status.step), status.timer, status.counter,
                              signals_text(status.outputs, 4, names, false), names.step(fired.step),
-                             terms.empty() ? "none" : terms),
+                             terms.empty() ? "none" : terms, held_remark(status)),
                  {{"state", name_of(status.run_state)},
                   {"step", status.step},
                   {"step_name", names.step_name(status.step)},
                   {"timer", status.timer},
                   {"counter", status.counter},
                   {"outputs", status.outputs},
+                  {"can_go_on", !status.has(gw::kCannotGoOn)},
                   {"fired_step", fired.step},
                   {"fired_terms", fired.terms}});
 }
@@ -38,10 +40,9 @@ struct StepOptions {
 /// A step that is left pending would hold the sequence some time later, unexpectedly.
 std::string cancel(Session& session) {
     try {
-        session.gateway().command(gw::Command::hold);
-    } catch (const Refused&) {  // it stopped, or was held after all
+        stop_machine(session.gateway(), gw::Command::hold);
+    } catch (const Refused&) {  // it was stopped meanwhile
     }
-    static_cast<void>(session.wait_until_held(kHoldWait));
     const Status status = session.status();
     return fmt::format("the sequence is {} in step {}", name_of(status.run_state),
                        session.names().step(status.step));
@@ -65,6 +66,7 @@ void go_once(Session& session, gw::Command order, unsigned seconds) {
 }
 
 void go(Session& session, gw::Command order, const StepOptions& options) {
+    session.right_names();
     for (unsigned i = 0; i < options.times; ++i) {
         session.gateway().look_for_interruption();
         go_once(session, order, options.seconds);

@@ -8,11 +8,15 @@
 #include "cli/files.h"
 #include "cli/session.h"
 #include "host/terminal.h"
+#include "nanoctl/stopping.h"
 #include "nanoctl/transfer.h"
 #include "nanoctl/words.h"
+#include "whole_files/whole_files.h"
 
 namespace nplc::nanoctl::cli {
 namespace {
+
+using mactalk_client::LineError;
 
 struct UploadOptions {
     std::string file;
@@ -59,12 +63,17 @@ void make_active(Session& session, const UploadOptions& options) {
             throw Refused(gw::Result::not_stopped, gw::COMMAND, 0,
                           "the table is stored and not active, since the sequence runs; `nanoctl stop` and "
                           "`nanoctl activate`, or upload with --stop");
-        gateway.command(gw::Command::stop);
+        stop_machine(gateway, gw::Command::stop);
     }
     try {
         gateway.activate();
     } catch (const Interrupted&) {
         throw Interrupted("interrupted; the table is stored and not active");
+    } catch (const LineError& error) {
+        throw LineError(
+            error.kind(),
+            fmt::format("{}; the table is stored, and `nanoctl verify` tells whether it is active",
+                        error.what()));
     }
 }
 
@@ -122,7 +131,15 @@ void verify(Session& session, const std::string& file, bool all_bytes) {
         {{"file", file}, {"crc32", crc}, {"active", true}, {"stored", true}, {"bytes_read", all_bytes}});
 }
 
-void download_to(Session& session, const std::string& file) {
+struct DownloadOptions {
+    std::string file;
+    bool force = false;
+};
+
+void download_to(Session& session, const DownloadOptions& options) {
+    const std::string& file = options.file;
+    if (const std::string why = whole_files::why_kept(file); !why.empty() && !options.force)
+        throw UserError(why);
     std::vector<std::uint8_t> table;
     {
         ProgressLine line("read", session);
@@ -163,9 +180,10 @@ void add_transfers(arguments::App& app, Common& common) {
         work(common, [&](Session& s) { verify(s, verified->first, verified->second); });
     });
 
-    const auto target = std::make_shared<std::string>();
+    const auto target = std::make_shared<DownloadOptions>();
     arguments::App& down = add_command(app, "download", "Write the active table into a file");
-    down.add_option("-o,--output", *target, "F.bin, or F.hex for Intel HEX")->required();
+    down.add_option("-o,--output", target->file, "F.bin, or F.hex for Intel HEX")->required();
+    down.add_flag("--force", target->force, "Replace a file that is there");
     down.callback([target, &common] { work(common, [&](Session& s) { download_to(s, *target); }); });
 }
 

@@ -61,6 +61,8 @@ class GatewayClient {
 
     std::uint32_t read(std::uint8_t reg) { return master_.read(address_, reg); }
     Block read_block(std::uint8_t reg);
+    /// Asked once.
+    std::optional<Block> try_read_block(std::uint8_t reg);
 
     void write(std::uint8_t reg, std::uint32_t value);
     /// Carried out exactly once. `more_patience`: how long it may take. For a `busy` gateway it waits up to 5

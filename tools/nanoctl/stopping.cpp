@@ -1,0 +1,105 @@
+#include "nanoctl/stopping.h"
+
+#include <fmt/format.h>
+
+#include "base/bytes.h"
+#include "nanoctl/words.h"
+
+namespace nplc::nanoctl {
+
+using mactalk_client::LineError;
+using mactalk_client::Wire;
+
+namespace {
+
+constexpr base::Milliseconds kLongest{10'000};
+/// A link to the motor that does not deliver is waited for so long.
+constexpr base::Milliseconds kLinkWait{1'000};
+constexpr base::Milliseconds kBetweenLooks{20};
+
+/// Until its status shows it the command is sent again: a message may be lost, and another client may own the
+/// line's answers.
+class Stopping {
+  public:
+    Stopping(GatewayClient& gateway, gw::Command command)
+        : gateway_(gateway), command_(command), begun_(now()) {}
+
+    Status run() {
+        for (;;) {
+            const auto status = send_and_look();
+            if (status && is_done(*status)) return *status;
+            if (status && is_idle(*status))
+                throw Refused(gw::Result::not_running, gw::COMMAND, 0,
+                              fmt::format("hold: {}", gw::describe(gw::Result::not_running)));
+            if (now() - begun_ >= kLongest) fail(status);
+            gateway_.look_for_interruption();
+        }
+    }
+
+  private:
+    base::Instant now() const { return gateway_.master().wire().now(); }
+    bool holds() const { return command_ == gw::Command::hold; }
+
+    /// Who has a serial line gives way within some 20 ms, or the command is sent all the same.
+    std::optional<Status> send_and_look() {
+        static_cast<void>(gateway_.master().wire().rest(base::Microseconds{0}));
+        gateway_.master().send_write(gateway_.address(), gw::COMMAND, static_cast<std::uint32_t>(command_),
+                                     mactalk_client::Width::longword);
+        const auto block = gateway_.try_read_block(gw::STATUS);
+        if (block) last_ = Status(*block);
+        return block ? last_ : std::nullopt;
+    }
+
+    bool is_done(const Status& status) {
+        const bool ordered = status.run_state == (holds() ? gw::RunState::held : gw::RunState::stopped);
+        if (!ordered) {
+            if (status.run_state == gw::RunState::holding) gateway_.master().pause(kBetweenLooks);
+            return false;
+        }
+        if (status.has(gw::kLinkDelivers)) return true;
+        if (now() - begun_ >= kLinkWait)
+            throw NotConfirmed(
+                fmt::format("{}: the sequence is {}, but the link to the motor is down and the motor "
+                            "could not be told: {}",
+                            name_of(command_), name_of(status.run_state), kMayStillRun));
+        gateway_.master().pause(kBetweenLooks);
+        return false;
+    }
+    bool is_idle(const Status& status) const { return holds() && status.run_state == gw::RunState::stopped; }
+
+    [[noreturn]] void fail(const std::optional<Status>& status) const {
+        Wire& wire = gateway_.master().wire();
+        const std::string holder = wire.holder();
+        const std::string why =
+            status ? fmt::format("the sequence is {}", name_of(status->run_state))
+                   : fmt::format("no answer from address {} in 10 s{}", gateway_.address(),
+                                 holder.empty() ? "" : "; " + holder + " has the port too, end that one");
+        throw NotConfirmed(fmt::format("{}: {}: {}: {}", wire.name(), name_of(command_), why, kMayStillRun));
+    }
+
+    GatewayClient& gateway_;
+    gw::Command command_;
+    base::Instant begun_;
+    std::optional<Status> last_;
+};
+
+}  // namespace
+
+Status stop_machine(GatewayClient& gateway, gw::Command command) {
+    const auto not_confirmed = [&](const std::exception& error) {
+        return fmt::format("{}: {}: {}", name_of(command), error.what(), kMayStillRun);
+    };
+    try {
+        const Status status = Stopping(gateway, command).run();
+        gateway.identify();
+        return status;
+    } catch (const LineError& error) {
+        throw NotConfirmed(not_confirmed(error));
+    } catch (const WrongDevice& error) {
+        throw NotConfirmed(not_confirmed(error));
+    } catch (const Interrupted& error) {
+        throw Interrupted(not_confirmed(error));
+    }
+}
+
+}  // namespace nplc::nanoctl
