@@ -18,7 +18,12 @@ using registers::Register;
 
 namespace {
 
+constexpr std::int64_t kModeToLeave = 0;
+constexpr std::int64_t kTestU = 8;
+constexpr std::int64_t kTestA = 9;
+constexpr std::int64_t kBreak = 10;
 constexpr std::int64_t kStopMode = 11;
+constexpr std::int64_t kTestKi = 22;
 constexpr std::int64_t kSafeMode = 15;
 constexpr std::int64_t kLastMode = 24;
 constexpr std::int64_t kLastModeOfMac800 = 21;
@@ -68,7 +73,16 @@ bool runs_on(const Register& reg) {
            reg.number == registers::FLWERR || reg.name == "REC_CNT";
 }
 
-std::string why_mode(Motor& motor, std::int64_t wanted, std::int64_t now) {
+bool holds_by_supply(Motor& motor) {
+    const Model model = motor.model();
+    const std::int64_t handle = motor.read("UV_HANDLE");
+    const std::uint8_t number = motor.find("UV_HANDLE")->number;
+    return (motor.read(registers::ERR_STAT) & mask(model, registers::ERR_STAT, "UV_DETECT")) != 0 &&
+           (handle & mask(model, number, "UV_GO_PASSIVE")) != 0;
+}
+
+/// What keeps the motor from the mode that was asked for; empty: nothing that is known.
+std::string hindrance(Motor& motor, std::int64_t wanted, std::int64_t now) {
     if (now == kSafeMode && wanted != kSafeMode)
         return "the motor is in SAFE_MODE and leaves it by `macreg safe exit` only (001 §4.4.16)";
     if (wanted == kSafeMode) return "SAFE_MODE is entered by `macreg safe enter` only (001 §4.4.16)";
@@ -79,9 +93,34 @@ std::string why_mode(Motor& motor, std::int64_t wanted, std::int64_t now) {
             "{}: the motor stays passive until the error is cleared; mend its cause (`macreg why`), then "
             "`{}`",
             errors, clear_errors_command(motor.model(), status));
+    if (now == kModeToLeave && holds_by_supply(motor)) {
+        const Register& supply = *motor.find(motor.model() == Model::mac800 ? "U_BUS" : "U_SUPPLY");
+        return fmt::format(
+            "the motor stays passive while its supply is too low (it is {}), since UV_GO_PASSIVE is set in "
+            "UV_HANDLE; "
+            "mend the supply (`macreg why`)",
+            value_text(supply, motor.model(), motor.read(supply)));
+    }
+    return {};
+}
+
+/// Modes that the motor leaves by itself, and may have left before it was asked (001 §4.4.9, §4.4.10,
+/// §4.4.11, §4.4.12, §4.4.23). Empty: it was not one of them.
+std::string ended_by_itself(std::int64_t wanted, std::int64_t now) {
+    if (wanted == kStopMode && now == kModeToLeave)
+        return "the motor stands: it is in INIT_MODE, which follows STOP_MODE";
+    const bool test = wanted == kTestU || wanted == kTestA || wanted == kBreak || wanted == kTestKi;
+    const bool braking = wanted == kTestA && now == kBreak;
+    if (!test || !(now == kModeToLeave || braking)) return {};
+    return braking ? "the test has run, the motor brakes (BREAK_MODE) and ends in INIT_MODE"
+                   : "the test has run and ended, the motor is in INIT_MODE again";
+}
+
+std::string why_mode(Motor& motor, std::int64_t wanted, std::int64_t now) {
+    if (std::string known = hindrance(motor, wanted, now); !known.empty()) return known;
     if (now == kStopMode)
         return "the motor brakes in STOP_MODE first; the new mode follows when it is slower than 300 rpm";
-    return "the motor has no such mode, or left it again by itself; `macreg why` tells more";
+    return "the motor left it again by itself, or does not take it now; `macreg why` tells more";
 }
 
 std::string why_not(Motor& motor, const Register& reg, std::int64_t wanted, std::int64_t now) {
@@ -256,6 +295,12 @@ Outcome change(Motor& motor, const Register& reg, std::int64_t raw) {
     if (!outcome.taken && runs_on(reg) && outcome.after != outcome.before) {
         outcome.taken = true;
         outcome.remark = "the motor goes on changing it";
+    }
+    if (const std::string ended =
+            reg.number == registers::MODE_REG ? ended_by_itself(raw, outcome.after) : "";
+        !outcome.taken && !ended.empty() && hindrance(motor, raw, outcome.after).empty()) {
+        outcome.taken = true;
+        outcome.remark = ended;
     }
     if (!outcome.taken) outcome.why = why_not(motor, reg, raw, outcome.after);
     add_remark(outcome, motor, reg, raw);

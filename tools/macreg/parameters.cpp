@@ -37,9 +37,9 @@ bool is_passing(const Register& reg) {
         default:
             break;
     }
-    static const std::set<std::string_view> kNames{"REC_CNT",   "IA_OFFSET",  "IB_OFFSET",
-                                                   "IC_OFFSET", "SERIAL_NMB", "P_NEW"};
-    return kNames.count(reg.name) != 0;
+    static const std::set<std::string_view> kRunning{"REC_CNT",   "IA_OFFSET",  "IB_OFFSET",
+                                                     "IC_OFFSET", "SERIAL_NMB", "P_NEW"};
+    return kRunning.count(reg.name) != 0;
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -96,14 +96,15 @@ std::optional<std::int64_t> found_in_motor(const Register& reg, std::string_view
 struct Parser {
     ParsedFile file{};
     unsigned line = 0;
-    bool ended = false;
+    std::size_t shown = 0;                  ///< measurements and states, in comments of `dump --all`
+    std::optional<std::size_t> promised{};  ///< registers, by the last line
 
     void problem(std::string text) { file.problems.push_back({line, std::move(text)}); }
 
     void header(const std::string& key, const std::string& value) {
         if (file.set.header.count(key) != 0) return problem(fmt::format("'{}' stands here twice", key));
         file.set.header[key] = value;
-        if (key == "end") ended = true;
+        if (key == "end") end(value);
         if (key == "incomplete") file.set.incomplete = value;
         if (key != "model") return;
         if (!file.set.values.empty()) return problem("the model must be named before the first register");
@@ -114,6 +115,37 @@ struct Parser {
             return problem(fmt::format(
                 "'{}' is no model; write MAC50, MAC95, MAC140, MAC141, MAC50-141 or MAC800", value));
         file.set.model = *model;
+    }
+
+    void end(const std::string& value) {
+        std::size_t count = 0;
+        const auto [rest, error] = std::from_chars(value.data(), value.data() + value.size(), count);
+        const std::string_view unit = trimmed({rest, value.data() + value.size()});
+        // What is cut off in this very line has the whole file before it.
+        if (error != std::errc() || !std::string_view("registers").starts_with(unit))
+            return problem(fmt::format("'end = {}': write `end = N registers`", value));
+        promised = count;
+    }
+
+    /// "# P_IST = ...": of `dump --all`, and counted by its last line.
+    void comment(std::string_view text) {
+        text = trimmed(text.substr(1));
+        const registers::Register* reg = registers::find(file.set.model, text.substr(0, text.find(' ')));
+        if (reg != nullptr && !is_parameter(file.set.model, *reg) &&
+            text.substr(reg->name.size()).starts_with(" = "))
+            ++shown;
+    }
+
+    /// Why it is not whole; empty if it is.
+    std::string lacks() const {
+        const std::size_t found = file.set.values.size();
+        if (!promised) return "no line says 'end = ...', so it may be cut short";
+        if (*promised == found || *promised == found + shown) return {};
+        return fmt::format(
+            "its last line says {} registers, and it has {}: lines are missing or were added (then write "
+            "that number "
+            "into the last line)",
+            *promised, shown == 0 ? found : found + shown);
     }
 
     void value(const std::string& name, const std::string& text) {
@@ -134,6 +166,7 @@ struct Parser {
     }
 
     void read_line(std::string_view text) {
+        if (text.starts_with('#')) return comment(text);
         text = trimmed(text.substr(0, text.find('#')));
         if (text.empty()) return;
         const auto equals = text.find('=');
@@ -210,8 +243,7 @@ ParsedFile parse_parameters(std::string_view text) {
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     parser.line = 0;
-    if (!parser.ended && parser.file.set.incomplete.empty())
-        parser.file.set.incomplete = "no line says 'end = ...', so it may be cut short";
+    if (parser.file.set.incomplete.empty()) parser.file.set.incomplete = parser.lacks();
     if (parser.file.set.header.count("model") == 0)
         parser.problem("no line says 'model = ...'; this is no file of macreg dump");
     if (parser.file.set.values.empty() && parser.file.problems.empty()) parser.problem("holds no register");

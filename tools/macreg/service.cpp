@@ -14,10 +14,10 @@ using registers::Model;
 
 namespace {
 
-constexpr std::int64_t kInit = 0;
-constexpr std::int64_t kSafe = 15;
+constexpr std::int64_t kInitOperation = 0;
+constexpr std::int64_t kSafeOperation = 15;
 constexpr std::int64_t kDefaultsToFlash = 256;
-constexpr std::int64_t kDefaults = 257;
+constexpr std::int64_t kFactoryDefaults = 257;
 constexpr std::int64_t kReload = 258;
 constexpr base::Milliseconds kLook{50};
 constexpr base::Milliseconds kStopWait{10'000};
@@ -48,7 +48,7 @@ void go_to_init(Motor& motor, Trail& trail) {
 void wait_until_passive(Motor& motor, const std::function<bool()>& goes_on, Trail& trail) {
     const base::Instant end = motor.now() + kStopWait;
     const registers::Register& speed = *motor.find(registers::V_IST);
-    while (motor.read(registers::MODE_REG) != kInit) {
+    while (motor.read(registers::MODE_REG) != kInitOperation) {
         trail.turns = fmt::format("{} {}", speed.name, value_text(speed, motor.model(), motor.read(speed)));
         if (goes_on && !goes_on()) throw Interrupted("interrupted");
         if (motor.now() >= end)
@@ -69,9 +69,9 @@ std::string mode_text(Model model, std::int64_t mode) {
 SafeMode::SafeMode(Motor& motor, bool stop, std::function<bool()> goes_on, Trail& trail)
     : motor_(motor), trail_(trail) {
     const std::int64_t found = motor.read(registers::MODE_REG);
-    was_safe_ = found == kSafe;
+    was_safe_ = found == kSafeOperation;
     if (was_safe_) return;
-    if (found != kInit) {
+    if (found != kInitOperation) {
         if (!stop)
             throw NotDone(
                 fmt::format("the motor is in {} and would have to be stopped; stop it first, or say --stop",
@@ -110,18 +110,18 @@ void Service::enter_safe() {
     begin(Task::safe_mode);
     SafeMode safe(motor_, stop_, goes_on_, trail_);
     safe.keep();
-    if (mode() != kSafe)
+    if (mode() != kSafeOperation)
         throw NotDone("the motor did not stay in SAFE_MODE; does another master speak to it?");
 }
 
 void Service::exit_safe() {
     begin(Task::safe_mode);
-    if (mode() != kSafe)
+    if (mode() != kSafeOperation)
         throw NotDone(
             fmt::format("the motor is not in SAFE_MODE but in {}", mode_text(motor_.model(), mode())));
     trail_.in_safe_mode = true;
     go_to_init(motor_, trail_);
-    if (mode() == kSafe) throw NotDone("the motor did not leave SAFE_MODE");
+    if (mode() == kSafeOperation) throw NotDone("the motor did not leave SAFE_MODE");
     trail_.in_safe_mode = false;
 }
 
@@ -132,7 +132,7 @@ bool Service::wait_until_out_of_safe() {
     while (motor_.now() < begun + kRestartWait) {
         motor_.master().pause(kLook);
         try {
-            if (mode() != kSafe) return true;
+            if (mode() != kSafeOperation) return true;
             if (motor_.now() > begun + kOrderWait) return false;
         } catch (const LineError& error) {
             if (error.kind() != LineError::Kind::no_answer) throw;
@@ -178,7 +178,7 @@ void Service::reset() {
 
 void Service::defaults(bool into_flash) {
     begin(into_flash ? Task::defaults : Task::unsaved_defaults);
-    if (!into_flash) return order_parameters(kDefaults, "read its defaults");
+    if (!into_flash) return order_parameters(kFactoryDefaults, "read its defaults");
     const registers::Register& mode_reg = *motor_.find(registers::MODE_REG);
     order_reset([&] { static_cast<void>(motor_.try_write(mode_reg, kDefaultsToFlash)); },
                 "read its defaults");

@@ -55,7 +55,7 @@ void judge_gateway(const Facts& facts, Findings& findings) {
              "motor's own port."});
     if (state == gw::RunState::stopped)
         findings.push_back({"gateway_stopped",
-                            Severity::hinders,
+                            facts.moves() ? Severity::hinders : Severity::stops,
                             "The gateway's sequence is stopped, so it gives the motor no orders.",
                             {},
                             "`nanoctl run` starts it."});
@@ -75,7 +75,7 @@ void judge_gateway(const Facts& facts, Findings& findings) {
              "`nanoctl watch` shows which step it waits in; `nanoctl stop` before setting anything here."});
     if ((status & gw::kSafe) != 0)
         findings.push_back({"gateway_safe",
-                            Severity::hinders,
+                            facts.moves() ? Severity::hinders : Severity::stops,
                             fmt::format("The gateway is in its safe state (reason {}).", reason),
                             {},
                             "`nanoctl status` names the reason and what ends it."});
@@ -89,7 +89,8 @@ void judge_torque(const Facts& facts, Findings& findings) {
     const auto grows = [&](std::uint8_t number) {
         return std::abs(facts.at(number)) > std::abs(facts.before(number));
     };
-    if (!grows(FLWERR) && !grows(FNCERR)) return;
+    const bool held_back = facts.gears() && facts.at(FNCERR) != 0;  // G_FNC there, which may stand
+    if (!grows(FLWERR) && !grows(FNCERR) && !held_back) return;
     const std::uint8_t reg = facts.mode() == kHome1 ? T_HOME : T_SOLL;
     std::vector<std::uint8_t> seen{facts.number("VF_OUT"), reg, FLWERR, FNCERR, V_IST};
     if (limit >= 1000) {
@@ -107,14 +108,6 @@ void judge_torque(const Facts& facts, Findings& findings) {
          seen, "Free the shaft, or allow more torque: `macreg set T_SOLL 100%` if the machine may take it."});
 }
 
-std::string restore_words(const Facts& facts) {
-    return fmt::format(
-        "Bring the parameters back: those in the flash by {}, or a file of an earlier dump; as the last "
-        "resort {}, "
-        "which loses all that was set.",
-        facts.service("macreg flash reload"), facts.service("macreg flash defaults"));
-}
-
 bool all_zero(const Facts& facts, std::initializer_list<std::string_view> names) {
     return std::all_of(names.begin(), names.end(),
                        [&](std::string_view name) { return !facts.knows(name) || facts.at(name) == 0; });
@@ -125,13 +118,16 @@ void judge_regulator(const Facts& facts, Findings& findings) {
         findings.push_back(
             {code, Severity::stops, std::move(sentence), {facts.number(first)}, restore_words(facts)});
     };
-    if (facts.is_driven() && facts.at(KVOUT) == 0)
+    if (facts.at(KVOUT) == 0)
         findings.push_back(
             {"load_factor_zero",
              Severity::stops,
              "KVOUT, the load factor, is 0: the torque that the regulator asks for is multiplied by it.",
              {KVOUT},
-             "`macreg set KVOUT 1`, more with inertia at the shaft."});
+             facts.is_passive() ? "`macreg set KVOUT 1`, more with inertia at the shaft."
+                                : "`macreg set MODE_REG INIT_MODE KVOUT 1`, more with inertia at the shaft; "
+                                  "then choose the mode "
+                                  "again."});
     if (facts.at("AMPLITUDE") == 0)
         add("amplitude_zero", "AMPLITUDE", "AMPLITUDE is 0, so no current flows in the windings.");
     if (all_zero(facts, {"KVFX1", "KVFX2", "KVFX3", "KVFX4", "KVFX5", "KVFX6"}))
@@ -163,19 +159,34 @@ void judge_pointers(const Facts& facts, Findings& findings) {
     }
 }
 
+/// CNTRL_BITS may have been written after the last reset, from which on it counts (001 §3.2.36).
 void judge_link(const Facts& facts, Findings& findings) {
-    const bool fastmac = !facts.large() && (facts.at(CNTRL_BITS) & 3) == 3;
-    if (fastmac && !facts.gateway())
+    if (facts.large()) return;
+    const bool asked_for = (facts.at(CNTRL_BITS) & 3) == 3;
+    const bool counts = facts.counts_pulses();
+    if (asked_for ? counts : facts.speaks_fastmac()) {
         findings.push_back(
-            {"fastmac_owns",
+            {"user_interface_waits",
              Severity::tells,
-             "The user interface is set to FastMAC: whoever is wired to it (an expansion module, a PLC) may "
-             "set modes and targets at any time.",
-             {CNTRL_BITS},
              fmt::format(
-                 "If values change by themselves, stop that one first; {} makes the motor passive and "
-                 "deaf to it.",
-                 facts.service("macreg safe enter"))});
+                 "CNTRL_BITS asks for another user interface than the one that acts: it counts from a "
+                 "reset on, and the pins are still those of {}.",
+                 counts ? "the pulse input" : "FastMAC"),
+             {CNTRL_BITS, facts.number("V_EXT")},
+             fmt::format("If it is to act: {} keeps it and resets the motor.",
+                         facts.service("macreg flash save"))});
+        return;
+    }
+    if (!asked_for || facts.gateway()) return;
+    findings.push_back({"fastmac_owns",
+                        Severity::tells,
+                        "The user interface is set to FastMAC, which acts if it was so at the last reset: "
+                        "whoever is wired to it (an "
+                        "expansion module, a PLC) may set modes and targets at any time.",
+                        {CNTRL_BITS},
+                        fmt::format("If values change by themselves, stop that one first; {} makes the motor "
+                                    "passive and deaf to it.",
+                                    facts.service("macreg safe enter"))});
 }
 
 Finding unknown(const Facts& facts) {
@@ -220,6 +231,14 @@ Finding moving(const Facts& facts) {
 
 }  // namespace
 
+std::string restore_words(const Facts& facts) {
+    return fmt::format(
+        "Bring the parameters back: those in the flash by {}, or a file of an earlier dump; as the last "
+        "resort {}, "
+        "which loses all that was set.",
+        facts.service("macreg flash reload"), facts.service("macreg flash defaults"));
+}
+
 std::string Facts::text(std::uint8_t number) const {
     const registers::Register* reg = registers::find(model(), number);
     return reg == nullptr ? std::string()
@@ -249,6 +268,16 @@ bool Facts::runs_away() const {
     const bool follows = mode() != kStop && way <= pace + pace / 4;
     const std::int64_t margin = large() ? 831 : 629;  // 300 rpm: 2.77056 and 2.09715 a rpm
     return !follows && now > 2 * asked + margin;
+}
+
+bool Facts::speaks_fastmac() const {
+    return !large() && gateway() && (gateway()->status & gw::kLinkDelivers) != 0;
+}
+
+bool Facts::counts_pulses() const {
+    // Other modes leave V_EXT as it was (001 §3.2.120).
+    if (mode() != kInit && !gears() && mode() != kAnalogueVelocityGear) return false;
+    return mode() != kCoil && (at("V_EXT") != 0 || before(number("V_EXT")) != 0);
 }
 
 bool Facts::gears() const {
@@ -296,6 +325,7 @@ std::vector<Finding> why(const Condition& condition) {
     judge_errors(facts, findings);
     judge_gateway(facts, findings);
     judge_modes(facts, findings);
+    judge_limits(facts, findings);
     judge_regulator(facts, findings);
     judge_torque(facts, findings);
     judge_pointers(facts, findings);
@@ -304,11 +334,9 @@ std::vector<Finding> why(const Condition& condition) {
         return one.severity != Severity::tells || one.code == "moves" || one.code == "runaway";
     };
     if (std::none_of(findings.begin(), findings.end(), says_why)) findings.push_back(unknown(facts));
-    std::stable_sort(findings.begin(), findings.end(),
-                     [](const Finding& a, const Finding& b) { return a.severity < b.severity; });
-    if (facts.moves())
-        std::stable_partition(findings.begin(), findings.end(),
-                              [](const Finding& one) { return one.code == "moves"; });
+    begin_safely(facts, findings);
+    pass_gateway(facts, findings);
+    sort_by_rank(findings);
     return findings;
 }
 

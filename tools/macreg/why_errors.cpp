@@ -13,11 +13,6 @@ using enum registers::Number;
 
 namespace {
 
-/// ERR_STAT's settings stay.
-std::string clear(const Facts& facts) {
-    return "`" + clear_errors_command(facts.model(), facts.at(ERR_STAT)) + "`";
-}
-
 /// One error bit: what it means for the owner, and what mends it.
 struct Error {
     const char* name;  ///< of the field in ERR_STAT
@@ -29,7 +24,8 @@ struct Error {
 constexpr Error kErrors[] = {
     {"I2T_ERR",
      "The windings were too hot, as computed (I2T above I2TLIM), and the motor made itself passive.",
-     "Let it cool down; use less torque or acceleration, less load, more pauses.",
+     "Free the shaft if something holds it; let it cool down; use less torque or acceleration, less load, "
+     "more pauses.",
      {"I2T", "I2TLIM"}},
     {"UIT_ERR",
      "Braking gave back more energy than the motor can burn (UIT above UITLIM), and it made itself passive.",
@@ -45,7 +41,7 @@ constexpr Error kErrors[] = {
      {"FNCERR", "FNCERRMAX", "T_SOLL", "A_SOLL"}},
     {"PLIM_ERR",
      "The shaft left its position limits (MIN_P_IST, MAX_P_IST) and the motor made itself passive.",
-     "Turn the shaft back inside, or widen the limits; both 0 is none.",
+     "",
      {"P_IST", "MIN_P_IST", "MAX_P_IST"}},
     {"UV_ERR",
      "The supply voltage was too low.",
@@ -71,10 +67,7 @@ constexpr Error kErrors[] = {
      "The encoder has a fault.",
      "Switch the motor off and on; if it stays, the motor needs repair.",
      {}},
-    {"OLD_FILT_ERR",
-     "The filters' parameters are not valid.",
-     "Load the right parameters; as the last resort `macreg flash defaults`, which loses all that was set.",
-     {}},
+    {"OLD_FILT_ERR", "The filters' parameters are not valid.", "", {}},
     {"U24V_ERR", "The control supply was too low.", "Mend the 24 V supply.", {"U_24V"}},
 };
 
@@ -96,6 +89,14 @@ bool is_set(const Facts& facts, std::string_view bit) {
     const registers::Field* field = registers::field_of(facts.model(), ERR_STAT, bit);
     return field != nullptr &&
            (static_cast<std::uint32_t>(facts.at(ERR_STAT)) & registers::mask_of(*field)) != 0;
+}
+
+std::string remedy_of(const Facts& facts, const Error& error) {
+    const std::string_view name = error.name;
+    if (name == "PLIM_ERR") return way_back(facts);
+    const std::string then = fmt::format("Then {}.", clear_words(facts));
+    if (name == "OLD_FILT_ERR") return fmt::format("{} {}", restore_words(facts), then);
+    return fmt::format("{} {}", error.remedy, then);
 }
 
 /// A supply that is there may be measured against a limit that is wrong.
@@ -156,10 +157,7 @@ void judge_heat(const Facts& facts, Findings& findings) {
                             fmt::format("The motor is nearly too hot: {}.", facts.text("DEGC")),
                             {facts.number("DEGC"), facts.number("DEGCMAX")},
                             "Less torque, or cooling."});
-    const std::string back = fmt::format(
-        "The right value is the maker's, the manuals name none: {} brings back what the flash has, a "
-        "file of an earlier dump what it was.",
-        facts.service("macreg flash reload"));
+    const std::string back = "The right value is the maker's, the manuals name none. " + restore_words(facts);
     if (facts.at(I2TLIM) == 0)
         findings.push_back(
             {"heat_limit_zero",
@@ -184,10 +182,9 @@ void judge_errors(const Facts& facts, Findings& findings) {
     judge_supply(facts, findings);
     for (const Error& error : kErrors) {
         if (!is_set(facts, error.name)) continue;
-        findings.push_back(
-            {code_of(error.name), Severity::stops, fmt::format("{}: {}", error.name, error.sentence),
-             numbers(facts, error.registers),
-             fmt::format("{} Then clear it: {}, and choose the mode again.", error.remedy, clear(facts))});
+        findings.push_back({code_of(error.name), Severity::stops,
+                            fmt::format("{}: {}", error.name, error.sentence),
+                            numbers(facts, error.registers), remedy_of(facts, error)});
     }
     judge_heat(facts, findings);
     if (is_set(facts, "IX_ERR"))
@@ -198,7 +195,8 @@ void judge_errors(const Facts& facts, Findings& findings) {
              "or the "
              "supply too high.",
              {ERR_STAT, facts.number("AMPLITUDE")},
-             fmt::format("Bring the filters' parameters back; less A_SOLL. Clear it: {}.", clear(facts))});
+             fmt::format("Bring the filters' parameters back; less A_SOLL. Clear it: `{}`.",
+                         clear_errors_command(facts.model(), facts.at(ERR_STAT)))});
     if (is_set(facts, "FRAME_ERR_TX"))
         findings.push_back({"frame_errors",
                             Severity::hinders,

@@ -23,14 +23,6 @@ void add(Findings& findings, const char* code, Severity severity, std::string se
     findings.push_back({code, severity, std::move(sentence), std::move(registers), std::move(remedy)});
 }
 
-/// Where P_MODE would turn to from here (001 §4.4.3), for one who is about to choose it.
-std::string way_words(const Facts& facts) {
-    const registers::Register& profile = *registers::find(facts.model(), P_FNC);
-    const auto way = static_cast<std::int32_t>(16 * facts.at(P_SOLL) - facts.at(P_FNC));
-    if (way == 0) return " (it is at P_SOLL and will stand)";
-    return fmt::format(" (it turns {} at once, to P_SOLL)", long_value_text(profile, facts.model(), way));
-}
-
 void judge_passive(const Facts& facts, Findings& findings) {
     const std::int64_t mode = facts.mode();
     if (mode == kSafe) {
@@ -40,11 +32,8 @@ void judge_passive(const Facts& facts, Findings& findings) {
     } else if (mode == kInit) {
         const bool error = (static_cast<std::uint32_t>(facts.at(ERR_STAT)) & error_bits(facts.model())) != 0;
         const char* sentence = "The motor is in INIT_MODE: passive, nobody told it to move.";
-        std::string remedy = fmt::format(
-            "`macreg set MODE_REG P_MODE`{}, `macreg set MODE_REG V_MODE` turns it at once ({}); {} is the "
-            "mode "
-            "after power-up.",
-            way_words(facts), facts.text(V_SOLL), registers::find(facts.model(), STARTMODE)->name);
+        std::string remedy = fmt::format("{} {} is the mode after power-up.", start_words(facts),
+                                         registers::find(facts.model(), STARTMODE)->name);
         if (facts.gateway()) {
             sentence = "The motor is in INIT_MODE, passive: the gateway's sequence has not told it to move.";
             remedy =
@@ -53,8 +42,7 @@ void judge_passive(const Facts& facts, Findings& findings) {
         }
         if (error) {
             sentence = "The motor is in INIT_MODE, passive, because of the error.";
-            remedy =
-                fmt::format("When the error is cleared: `macreg set MODE_REG P_MODE`{}.", way_words(facts));
+            remedy = "When the error is cleared: " + start_words(facts);
         }
         add(findings, "passive", Severity::stops, sentence, {MODE_REG, STARTMODE}, remedy);
     } else if (mode == kStop) {
@@ -74,7 +62,9 @@ void judge_passive(const Facts& facts, Findings& findings) {
 }
 
 void judge_demands(const Facts& facts, Findings& findings) {
-    if (!facts.is_driven() || facts.mode() == kStop) return;
+    // In INIT_MODE it is for the mode that will be chosen; a gateway's sequence sets what it needs.
+    const bool will_be = facts.mode() == kInit && !facts.gateway();
+    if ((!facts.is_driven() && !will_be) || facts.mode() == kStop) return;
     if (facts.mode() != kHome1 && facts.at(T_SOLL) == 0)
         add(findings, "torque_zero", Severity::stops, "T_SOLL, the torque that the motor may use, is 0.",
             {T_SOLL}, "`macreg set T_SOLL 100%`, or less if the machine takes less.");
@@ -82,7 +72,7 @@ void judge_demands(const Facts& facts, Findings& findings) {
         add(findings, "acceleration_zero", Severity::stops,
             "A_SOLL, the acceleration, is 0: the velocity can never change.", {A_SOLL},
             "`macreg set A_SOLL 10000rpm/s`, for example.");
-    if (!facts.has_velocity_limit()) return;
+    if (!facts.has_velocity_limit() && !will_be) return;
     const std::int64_t v = std::abs(facts.at(V_SOLL));
     const bool by_supply = (facts.at("UV_HANDLE") & (facts.large() ? 4 : 8)) != 0;
     if (v == 0)
@@ -91,7 +81,7 @@ void judge_demands(const Facts& facts, Findings& findings) {
             by_supply ? "`macreg set V_SOLL 500rpm`, for example. UV_HANDLE lets undervoltage set it to 0: "
                         "look at the supply."
                       : "`macreg set V_SOLL 500rpm`, for example.");
-    else if (v < (facts.large() ? 14 : 10))
+    else if (v < facts.tiny_velocity())
         add(findings, "velocity_tiny", Severity::hinders,
             fmt::format("{} is so slow that it looks like standing.", facts.text(V_SOLL)), {V_SOLL},
             "`macreg set V_SOLL 500rpm`; without unit a number is raw steps, not rpm.");
@@ -99,15 +89,6 @@ void judge_demands(const Facts& facts, Findings& findings) {
 
 void judge_target(const Facts& facts, Findings& findings) {
     if (!facts.positions()) return;
-    const std::int64_t low = facts.at(MIN_P_IST);
-    const std::int64_t high = facts.at(MAX_P_IST);
-    const bool limited = (low != 0 || high != 0) && !facts.has_error(14);
-    if (limited && (facts.at(P_SOLL) < low || facts.at(P_SOLL) > high))
-        add(findings, "target_outside_limits", Severity::hinders,
-            fmt::format("The target ({}) is outside of the position limits: on its way the motor makes "
-                        "itself passive (PLIM_ERR).",
-                        facts.text(P_SOLL)),
-            {P_SOLL, MIN_P_IST, MAX_P_IST}, "Give a target inside, or widen the limits; both 0 is none.");
     // P_FNC, not P_IST, is where the profile is: FLWERR lies between (001 §4.4.3).
     const auto distance = static_cast<std::int32_t>(16 * facts.at(P_SOLL) - facts.at(P_FNC));
     if (distance != 0 || facts.moves()) return;
@@ -134,30 +115,38 @@ void judge_target(const Facts& facts, Findings& findings) {
                         facts.text(P_SOLL), facts.text(FLWERR)),
             {P_SOLL, P_IST, FLWERR, T_SOLL, facts.number("VF_OUT")},
             "Something holds the shaft, or T_SOLL is too small for it: free it, or allow more torque.");
-    std::string remedy = "Give it another target: P_SOLL, or P_REG_P for one of P1 to P8.";
+    std::string remedy = fmt::format(
+        "Give it another target: {}, for example, or P_REG_P for one of P1 to P8.", target_command(facts));
     const char* code = "at_target";
-    if (facts.mode() == kAnalogue2Position) {
+    if (facts.mode() == kAnalogue2Position && facts.at("P1") == facts.at("P2")) {
+        code = "positions_equal";
+        remedy = fmt::format("P1 and P2 are one place, so no level moves it: {}, for example.",
+                             target_command(facts, "P2"));
+    } else if (facts.mode() == kAnaloguePosition && facts.at("P2") == 0) {
+        code = "range_zero";
+        remedy =
+            "P2 is 0, so no voltage moves it: `macreg set P2 10`, for example (10 V then go 640 counts from "
+            "P1, "
+            "1280 on a MAC800).";
+    } else if (facts.mode() == kAnaloguePosition &&
+               std::abs(facts.at("P2")) * facts.full_voltage() / 16 <= facts.at("P3")) {
+        code = "dead_band_wide";
+        remedy =
+            "P3, the dead band, is as wide as all that P2 lets a voltage do: `macreg set P3 0`, or a larger "
+            "P2.";
+    } else if (facts.mode() == kAnalogue2Position) {
         code = "waits_for_level";
         remedy = "It goes to the other position (P1, P2) when the level at the analogue input changes.";
     } else if (facts.mode() == kAnaloguePosition) {
         code = "waits_for_voltage";
         remedy =
-            "The voltage at the analogue input chooses the target; P2 is how far 10 V go, P3 the dead band.";
+            "The voltage at the analogue input chooses the target; 10 V go 64 times P2 from P1 (128 times on "
+            "a MAC800), P3 is the dead band.";
     }
     add(findings, code, Severity::stops,
         fmt::format("The motor is where it should be: its profile has reached the target ({}, {}).",
                     facts.text(P_SOLL), facts.text(P_IST)),
         {P_SOLL, P_FNC, P_IST, facts.number("ANINP")}, remedy);
-}
-
-void judge_limits(const Facts& facts, Findings& findings) {
-    const std::int64_t low = facts.at(MIN_P_IST);
-    const std::int64_t high = facts.at(MAX_P_IST);
-    if (low > high)
-        add(findings, "limits_swapped", Severity::stops,
-            "MIN_P_IST is above MAX_P_IST: every position is outside, and the motor makes itself passive "
-            "(PLIM_ERR).",
-            {MIN_P_IST, MAX_P_IST}, "Set both, the lower one smaller; both 0 is none.");
 }
 
 void judge_gear(const Facts& facts, Findings& findings) {
@@ -175,10 +164,10 @@ void judge_gear(const Facts& facts, Findings& findings) {
     const bool by_voltage =
         facts.mode() == kAnalogueVelocityGear && facts.at("ANINP") * 100 / facts.full_voltage() != 0;
     if (pulses != 0 || facts.before(facts.number("V_EXT")) != 0 || by_voltage) return;
-    if (!facts.large() && (facts.at(CNTRL_BITS) & 3) != 0)
+    if (!facts.large() && ((facts.at(CNTRL_BITS) & kUserInterface) != 0 || facts.speaks_fastmac()))
         add(findings, "pulse_pins_taken", Severity::stops,
             "The motor is to follow pulses, but the pins of the pulse input serve something else (USERINTF "
-            "is not 00).",
+            "is not 00, or was not at the last reset).",
             {CNTRL_BITS, facts.number("V_EXT")},
             fmt::format(
                 "`{}`, then {}: it counts from a reset on. The pins are FastMAC's then no more: a PLC or a "
@@ -190,8 +179,11 @@ void judge_gear(const Facts& facts, Findings& findings) {
             "The motor is to follow pulses, and none come (V_EXT is 0).", {facts.number("V_EXT"), CNTRL_BITS},
             facts.large()
                 ? "Turn the master; check the wiring."
-                : "Turn the master; check the wiring and the format (PULSEDIR: pulse and direction, else "
-                  "quadrature).");
+                : fmt::format(
+                      "Turn the master; check the wiring and the format (PULSEDIR: pulse and direction, else "
+                      "quadrature). If USERINTF was set after the last reset, the pins are not those of the "
+                      "pulse input yet: {} keeps it and resets.",
+                      facts.service("macreg flash save")));
 }
 
 void judge_coil(const Facts& facts, Findings& findings) {
@@ -201,13 +193,35 @@ void judge_coil(const Facts& facts, Findings& findings) {
         add(findings, "coil_setup", Severity::stops,
             "The coil's setup is none: P1 <= P2 <= P3 <= P4 with P1 below P4 must hold (001 4.4.20).",
             {P1, facts.number("P2"), facts.number("P3"), facts.number("P4")},
-            "Set P1 to P4: thread left, stop left, stop right, thread right.");
+            "Set P1 to P4: thread left, stop left, stop right, thread right; inside the position limits, if "
+            "there are any.");
+    else if (!facts.allows(p1) || !facts.allows(p4))
+        add(findings, "coil_outside_limits", Severity::stops,
+            "The coil's way is not inside the position limits: the motor makes itself passive on it "
+            "(PLIM_ERR).",
+            {P1, facts.number("P4"), MIN_P_IST, MAX_P_IST}, "Set P1 to P4 inside, or widen the limits.");
     else if (!facts.moves() && facts.at("FNC_OUT") == 0)
         add(findings, "coil_waits", Severity::hinders,
             "The coil waits: a high level at the analogue input sends it to its start (P5), and after it low "
             "lets it wind.",
             {facts.number("ANINP"), facts.number("P5")},
             "Give a start position command once after power-up and homing; then turn the spool.");
+}
+
+/// 001 §4.1.10, §4.1.11: where the analogue input can send it.
+void judge_reach(const Facts& facts, Findings& findings) {
+    const std::int64_t p1 = facts.at("P1"), p2 = facts.at("P2");
+    const std::int64_t reach = facts.full_voltage() * p2 / 16;
+    const bool inside = facts.mode() == kAnaloguePosition
+                            ? facts.allows(p1 - reach) && facts.allows(p1 + reach)
+                            : facts.allows(p1) && facts.allows(p2);
+    if ((facts.mode() != kAnaloguePosition && facts.mode() != kAnalogue2Position) || inside) return;
+    add(findings, "voltage_outside_limits", Severity::stops,
+        "The voltage at the analogue input can send the motor out of its position limits, where it makes "
+        "itself "
+        "passive (PLIM_ERR).",
+        {P1, facts.number("P2"), MIN_P_IST, MAX_P_IST},
+        "Choose P1 and P2 so that all they reach is inside, or widen the limits.");
 }
 
 void judge_analogue(const Facts& facts, Findings& findings) {
@@ -268,11 +282,11 @@ void judge_homing(const Facts& facts, Findings& findings) {
 
 void judge_modes(const Facts& facts, Findings& findings) {
     judge_passive(facts, findings);
-    judge_limits(facts, findings);
     judge_demands(facts, findings);
     judge_target(facts, findings);
     judge_gear(facts, findings);
     judge_coil(facts, findings);
+    judge_reach(facts, findings);
     judge_analogue(facts, findings);
     judge_homing(facts, findings);
 }

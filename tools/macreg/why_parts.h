@@ -58,6 +58,14 @@ class Facts {
     std::string text(std::uint8_t number) const;
     std::string text(std::string_view name) const { return text(number(name)); }
 
+    /// MIN_P_IST and MAX_P_IST act.
+    bool limited() const;
+    /// P_MODE with this target ends inside of them (001 §4.4.3).
+    bool allows(std::int64_t p_soll) const;
+    /// A gateway's orders arrive, so FastMAC has the pins, whatever CNTRL_BITS has been set to since the last
+    /// reset.
+    bool speaks_fastmac() const;
+    bool counts_pulses() const;
     bool moves() const;
     /// It turns much faster than its mode asks for, and is not slowing down.
     bool runs_away() const;
@@ -68,6 +76,8 @@ class Facts {
     bool gears() const;
     bool positions() const;
     bool has_velocity_limit() const;
+    /// Of V_SOLL; what is slower looks like standing.
+    std::int64_t tiny_velocity() const { return large() ? 14 : 10; }
     /// Both regulators are on.
     bool is_driven() const;
     /// 10 V at the analogue input.
@@ -81,7 +91,29 @@ class Facts {
 
 using Findings = std::vector<Finding>;
 
+void judge_limits(const Facts& facts, Findings& findings);  ///< of positions and FLWERR: why_limits.cpp
 void judge_modes(const Facts& facts, Findings& findings);   ///< what each mode needs: why_modes.cpp
 void judge_errors(const Facts& facts, Findings& findings);  ///< ERR_STAT and what leads to it: why_errors.cpp
+
+/// What starts a passive motor without an error: P_MODE or V_MODE, to a place inside the position limits.
+std::string start_words(const Facts& facts);
+/// "`macreg set P_SOLL 4096`": another target that the position limits allow, in a register of targets.
+std::string target_command(const Facts& facts, std::string_view name = "P_SOLL");
+/// What has to come before a remedy that lets the motor turn, or it would leave the position limits. Empty:
+/// nothing.
+std::string before_it_turns(const Facts& facts);
+/// How parameters come back that a file or the flash may still have.
+std::string restore_words(const Facts& facts);
+/// "clear it: `macreg set ERR_STAT none`, ...". ERR_STAT's settings stay.
+std::string clear_words(const Facts& facts);
+/// Back inside the position limits.
+std::string way_back(const Facts& facts);
+
+/// What to mend first in front.
+void sort_by_rank(Findings& findings);
+/// Remedies that let the motor turn say what has to come before.
+void begin_safely(const Facts& facts, Findings& findings);
+/// Behind a gateway, what it must be told before and what it does not carry.
+void pass_gateway(const Facts& facts, Findings& findings);
 
 }  // namespace nplc::macreg

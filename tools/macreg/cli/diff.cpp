@@ -13,7 +13,7 @@ namespace {
 using registers::Model;
 using registers::Register;
 
-struct Options {
+struct DiffArguments {
     std::string left;
     std::string right = "motor";
     bool partial = false;
@@ -32,7 +32,7 @@ bool is_missing(std::optional<std::int64_t> raw, const ParameterSet& set) {
     return !raw && !set.incomplete.empty();
 }
 
-void look_at_models(const Options& options, const ParameterSet& left, const ParameterSet& right) {
+void look_at_models(const DiffArguments& options, const ParameterSet& left, const ParameterSet& right) {
     if ((left.model == Model::mac800) == (right.model == Model::mac800)) return;
     throw UserError(fmt::format("{} is of {}, {} of {}: their registers cannot be compared", options.left,
                                 model_words(left), options.right, model_words(right)));
@@ -45,7 +45,7 @@ void only_settings(ParameterSet& set) {
     }
 }
 
-void diff(Common& common, const Options& options) {
+void diff(Common& common, const DiffArguments& options) {
     ParameterSet left = read_parameter_file(options.left, options.partial);
     ParameterSet right = options.right == "motor" ? read_parameters(Session(common).motor(), {}, goes_on)
                                                   : read_parameter_file(options.right, options.partial);
@@ -80,7 +80,7 @@ void diff(Common& common, const Options& options) {
 }  // namespace
 
 void add_diff(arguments::App& app, Common& common) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<DiffArguments>();
     arguments::App& command =
         add_command(app, "diff",
                     "Compare a file of `dump` with another one or with the motor; exit code 1 if "

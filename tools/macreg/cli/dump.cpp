@@ -12,6 +12,7 @@
 #include "host/paths.h"
 #include "macreg/parameters.h"
 #include "macreg/values.h"
+#include "whole_files/whole_files.h"
 
 namespace nplc::macreg::cli {
 namespace {
@@ -19,24 +20,30 @@ namespace {
 using mactalk_client::Interrupted;
 using mactalk_client::LineError;
 
-struct Options {
+struct DumpArguments {
     std::string file = "-";
     bool all = false;
+    bool force = false;
 };
+
+std::string reason() {
+    return std::strerror(errno);
+}
 
 /// Where lines go as they come: F.part, which becomes F when it is whole; or standard output.
 class Target {
   public:
     explicit Target(const std::string& path) : path_(path) {
         if (path.empty()) return;
-        std::error_code ignored;
-        const std::filesystem::path place = host::path_of(path);
-        const bool special =
-            std::filesystem::exists(place, ignored) && !std::filesystem::is_regular_file(place, ignored);
-        written_ = special ? path : path + ".part";
-        file_ = std::fopen(written_.c_str(), "wb");
-        if (file_ == nullptr)
-            throw UserError(fmt::format("{}: cannot be written: {}", written_, std::strerror(errno)));
+        if (whole_files::is_special(path)) {
+            written_ = path;
+            file_ = std::fopen(path.c_str(), "wb");
+        } else {
+            path_ = whole_files::behind_links(path);
+            written_ = path_ + ".part";
+            file_ = whole_files::create_anew(written_);
+        }
+        if (file_ == nullptr) throw UserError(fmt::format("{}: cannot be written: {}", written_, reason()));
     }
     ~Target() {
         if (file_ != nullptr) std::fclose(file_);
@@ -46,8 +53,10 @@ class Target {
 
     void add(const std::string& text) {
         std::FILE* to = file_ != nullptr ? file_ : stdout;
-        if (std::fwrite(text.data(), 1, text.size(), to) != text.size() || std::fflush(to) != 0)
-            throw UserError(fmt::format("{}: cannot be written: {}", name(), std::strerror(errno)));
+        if (std::fwrite(text.data(), 1, text.size(), to) == text.size() && std::fflush(to) == 0) return;
+        const std::string why = reason();
+        if (file_ != nullptr && written_ != path_) std::remove(written_.c_str());
+        throw UserError(fmt::format("{}: cannot be written: {}", name(), why));
     }
     void finish() {
         if (file_ == nullptr) return;
@@ -71,17 +80,18 @@ void give_up(Session& session, Target& target, const char* why, int exit_code, s
              std::size_t all) {
     if (!session.json()) target.add(incomplete_text(why));
     session.progress("");
-    throw command_line::Failure(
-        exit_code,
-        fmt::format("{}; {} of {} registers were read and are in {}, marked as incomplete", why, done, all,
-                    target.name()),
-        {{"incomplete", true}, {"read", done}, {"of", all}, {"file", target.name()}});
+    const std::string read =
+        done == 0 ? "no register was read"
+                  : fmt::format("{} of {} registers were read and are in {}", done, all, target.name());
+    throw command_line::Failure(exit_code,
+                                fmt::format("{}; {}{}", why, read, done == 0 ? "" : ", marked as incomplete"),
+                                {{"incomplete", true}, {"read", done}, {"of", all}, {"file", target.name()}});
 }
 
-void dump(Session& session, const Options& options) {
+void dump(Session& session, const DumpArguments& options) {
     Motor& motor = session.motor();
     const registers::Model model = motor.model();
-    const std::string file = output_file(options.file);
+    const std::string file = output_file(options.file, options.force);
     Target target(file);
     const bool as_text = !file.empty() || !session.json();
     std::size_t done = 0;
@@ -118,13 +128,14 @@ void dump(Session& session, const Options& options) {
 }  // namespace
 
 void add_dump(arguments::App& app, Common& common) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<DumpArguments>();
     arguments::App& command =
         add_command(app, "dump",
                     "Write the motor's parameters as text with units, for `load`, `diff` and version "
                     "control. What was read of a motor that vanishes stays in FILE.part");
     command.add_option("-o,--output", options->file, "FILE; standard output if not said, or -");
     command.add_flag("--all", options->all, "What the motor measures and counts too, as comments");
+    command.add_flag("--force", options->force, "Replace a file that is there");
     command.callback([options, &common] { work(common, [&](Session& s) { dump(s, *options); }); });
 }
 

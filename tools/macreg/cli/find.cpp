@@ -14,7 +14,7 @@ namespace {
 
 using registers::Model;
 
-struct Options {
+struct FindArguments {
     bool every_address = false;
     bool this_speed = false;
     bool every_speed = false;
@@ -29,7 +29,7 @@ std::string version_text(const FoundUnit& unit) {
 
 class Search {
   public:
-    Search(Common& common, const Options& options) : common_(common), options_(options) {}
+    Search(Common& common, const FindArguments& options) : common_(common), options_(options) {}
 
     void run() {
         const bool socket = common_.port.starts_with("unix:") || common_.port.starts_with("tcp:") ||
@@ -106,7 +106,7 @@ class Search {
     }
 
     Common& common_;
-    const Options& options_;
+    const FindArguments& options_;
     std::string text_;
     Json units_ = Json::array();
     bool noise_ = false;
@@ -115,7 +115,7 @@ class Search {
 }  // namespace
 
 void add_find(arguments::App& app, Common& common) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<FindArguments>();
     arguments::App& command =
         add_command(app, "find",
                     "Which motors are on the line, by address and speed. Only reads. All "

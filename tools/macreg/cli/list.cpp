@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/session.h"
+#include "macreg/mactalk_names.h"
 #include "macreg/values.h"
 
 namespace nplc::macreg::cli {
@@ -14,7 +15,7 @@ using registers::Access;
 using registers::Model;
 using registers::Register;
 
-struct Options {
+struct ListArguments {
     std::string pattern;
     bool dangerous = false;
     bool writable = false;
@@ -26,10 +27,11 @@ std::string lower(std::string text) {
     return text;
 }
 
-bool is_wanted(const Register& reg, Model model, const Options& options) {
+bool is_wanted(const Register& reg, Model model, const ListArguments& options) {
     if (options.dangerous && !reg.dangerous) return false;
     if (options.writable && reg.access == Access::read_only) return false;
-    const std::string all = fmt::format("{} {}", reg.name, registers::details_of(model, reg.number)->title);
+    const std::string all =
+        fmt::format("{} {} {}", reg.name, registers::details_of(model, reg.number)->title, mactalk_name(reg));
     return lower(all).find(lower(options.pattern)) != std::string::npos;
 }
 
@@ -45,6 +47,7 @@ Json document_of(const Register& reg, Model model) {
     return {{"number", reg.number},
             {"name", reg.name},
             {"title", details.title},
+            {"mactalk", mactalk_name(reg)},
             {"format", registers::name_of(reg.format)},
             {"min", reg.min},
             {"max", reg.max},
@@ -70,6 +73,8 @@ std::string whole(const Register& reg, Model model) {
                                    registers::name_of(reg.format), registers::name_of(reg.access),
                                    reg.dangerous ? ", dangerous" : "", reg.section);
     text += fmt::format("  range {}\n", range_text(reg, model));
+    if (const auto name = mactalk_name(reg); !name.empty())
+        text += fmt::format("  in the program MacTalk: {}\n", name);
     if (!details.note.empty()) text += fmt::format("  note: {}\n", details.note);
     for (const registers::Field& field : registers::fields_of(model, reg.number)) {
         text += fmt::format("  bit {:>2} {:<13} {}\n", field.first, field.name, field.meaning);
@@ -85,7 +90,7 @@ Model model_for_list(const Common& common) {
     return Session(common).motor().model();
 }
 
-void list(Common& common, const Options& options) {
+void list(Common& common, const ListArguments& options) {
     const Model model = model_for_list(common);
     std::vector<const Register*> wanted;
     for (const Register& reg : registers::map_of(model)) {
@@ -94,8 +99,10 @@ void list(Common& common, const Options& options) {
     if (const NamedRegister exact = find_register(model, options.pattern); exact.reg != nullptr)
         wanted = {exact.reg};
     if (wanted.empty())
-        throw UserError(fmt::format("no register has '{}' in its name or title; `macreg list` shows them all",
-                                    options.pattern));
+        throw UserError(
+            fmt::format("no register has '{}' in its name, its title or what MacTalk calls it; `macreg list` "
+                        "shows them all",
+                        options.pattern));
     std::string text = wanted.size() == 1 ? whole(*wanted[0], model) : "";
     Json documents = Json::array();
     for (const Register* reg : wanted) {
@@ -109,12 +116,13 @@ void list(Common& common, const Options& options) {
 }  // namespace
 
 void add_list(arguments::App& app, Common& common) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ListArguments>();
     arguments::App& command = add_command(
         app, "list",
         "The registers of a model; r: read only, !: dangerous. Of one register all there is to know. "
         "Needs no motor: without --port and --model it shows MAC50 to MAC141");
-    command.add_option("pattern", options->pattern, "A register, or a part of names and titles");
+    command.add_option("pattern", options->pattern,
+                       "A register, or a part of names, titles and MacTalk's names (Max velocity)");
     command.add_flag("--dangerous", options->dangerous, "Only those that `set` changes with --force only");
     command.add_flag("--writable", options->writable, "Only those that are not read only");
     command.callback([options, &common] { guard(common, [&] { list(common, *options); }); });

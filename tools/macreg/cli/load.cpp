@@ -6,6 +6,7 @@
 #include "cli/files.h"
 #include "cli/session.h"
 #include "macreg/change.h"
+#include "macreg/limits.h"
 #include "macreg/parameters.h"
 #include "macreg/service.h"
 #include "macreg/values.h"
@@ -18,7 +19,7 @@ using mactalk_client::LineError;
 using registers::Model;
 using registers::Register;
 
-struct Options {
+struct LoadArguments {
     std::string file;
     bool stop = false;
     bool force = false;
@@ -40,7 +41,7 @@ std::string names_of(const std::vector<Difference>& all) {
     return all.size() > kMost ? text + fmt::format(" and {} more", all.size() - kMost) : text;
 }
 
-void look_at_model(Session& session, const ParameterSet& set, const Options& options) {
+void look_at_model(Session& session, const ParameterSet& set, const LoadArguments& options) {
     const Model model = session.motor().model();
     if ((set.model == Model::mac800) != (model == Model::mac800))
         throw UserError(fmt::format("{} is of {}, the motor is {}: their registers are not the same",
@@ -63,7 +64,7 @@ void look_at_model(Session& session, const ParameterSet& set, const Options& opt
 
 /// What is to be written: what differs, without the address. Dangerous ones as the options say.
 std::vector<Difference> to_write(Session& session, const ParameterSet& wanted, const ParameterSet& own,
-                                 const Options& options) {
+                                 const LoadArguments& options) {
     std::vector<Difference> some;
     std::vector<Difference> dangerous;
     for (const Difference& one : differences(wanted, own)) {
@@ -71,6 +72,10 @@ std::vector<Difference> to_write(Session& session, const ParameterSet& wanted, c
         const bool may_harm = !danger(session.motor().model(), *one.reg, *one.left).empty();
         (may_harm ? dangerous : some).push_back(one);
     }
+    const std::string limits = limits_danger(read_limits(session.motor(), wanted.values), wanted.values);
+    if (!limits.empty() && !options.force)
+        throw UserError(fmt::format("{}: {}; --force writes it all the same", options.file, limits));
+    if (!limits.empty()) session.ask(limits);
     if (dangerous.empty() || options.skip_dangerous) return some;
     if (!options.force)
         throw UserError(
@@ -85,7 +90,7 @@ std::vector<Difference> to_write(Session& session, const ParameterSet& wanted, c
 /// Writes the differences; when something breaks off it says what has been done.
 class Writer {
   public:
-    Writer(Session& session, const Options& options, const std::vector<Difference>& all)
+    Writer(Session& session, const LoadArguments& options, const std::vector<Difference>& all)
         : session_(session), options_(options), all_(all) {}
 
     void run(const ParameterSet& wanted) {
@@ -180,7 +185,7 @@ class Writer {
     }
 
     Session& session_;
-    const Options& options_;
+    const LoadArguments& options_;
     const std::vector<Difference>& all_;
     std::size_t done_ = 0;
     bool in_doubt_ = false;  ///< the write under way may have arrived
@@ -202,7 +207,7 @@ ParameterSet read_own(Session& session) {
 }
 
 /// What the file says and is not written: the address of this motor is its own.
-std::string left_alone(const Options& options, const ParameterSet& wanted, const ParameterSet& own) {
+std::string left_alone(const LoadArguments& options, const ParameterSet& wanted, const ParameterSet& own) {
     for (const Difference& one : differences(wanted, own)) {
         if (one.left && one.right && is_address(*one.reg))
             return fmt::format("{} stays {}: load leaves the address alone, {} has {}", one.reg->name,
@@ -212,7 +217,7 @@ std::string left_alone(const Options& options, const ParameterSet& wanted, const
 }
 
 /// A file of another axis is a mistake more often than not.
-void look_at_address(Session& session, const ParameterSet& wanted, const Options& options) {
+void look_at_address(Session& session, const ParameterSet& wanted, const LoadArguments& options) {
     const auto address = wanted.header.find("address");
     const unsigned own = session.motor().address();
     if (address == wanted.header.end() || address->second == fmt::format("{}", own)) return;
@@ -220,7 +225,7 @@ void look_at_address(Session& session, const ParameterSet& wanted, const Options
                                address->second, own));
 }
 
-void load(Common& common, Options options) {
+void load(Common& common, LoadArguments options) {
     ParameterSet wanted = read_parameter_file(options.file, options.partial);
     if (options.file == "-") options.file = "standard input";
     Session session(common);
@@ -231,7 +236,8 @@ void load(Common& common, Options options) {
     for (auto& [number, raw] : wanted.values)
         raw &= static_cast<std::int32_t>(setting_bits(model, *session.motor().find(number)));
     wanted.model = model;
-    const auto all = to_write(session, wanted, own, options);
+    auto all = to_write(session, wanted, own, options);
+    order_limits(read_limits(session.motor(), wanted.values), wanted.values, all);
     const std::string address = left_alone(options, wanted, own);
     Writer(session, options, all).run(wanted);
     if (!address.empty()) session.remark(address);
@@ -249,7 +255,7 @@ void load(Common& common, Options options) {
 }  // namespace
 
 void add_load(arguments::App& app, Common& common) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<LoadArguments>();
     arguments::App& command =
         add_command(app, "load",
                     "Write a file of `dump` into the motor's memory. The whole file is checked first; only "

@@ -17,13 +17,12 @@ constexpr std::string_view kCan = "can:";
 constexpr base::Microseconds kLook{100'000};
 constexpr base::Microseconds kLongestRamp{10'000'000};
 
-std::uint8_t address_of(const MidiCommon& options, const midi_client::Link& link) {
-    const int said = options.address >= 0          ? options.address
-                     : options.common.address != 0 ? static_cast<int>(options.common.address)
-                                                   : link.usual_address();
-    if (said > 127 || (link.is_can() && said == 0))
-        throw UserError(fmt::format("--address {}: modules on {} have {} to 127", said,
-                                    link.is_can() ? "CAN" : "a serial line", link.is_can() ? 1 : 0));
+std::uint8_t address_of(const MidiCommon& options) {
+    const int said = options.address != MidiCommon::kNotSaid ? options.address
+                     : options.common.address != 0           ? static_cast<int>(options.common.address)
+                     : is_can(options)                       ? 1
+                                                             : 0;
+    look_at_address(options, "--address", said);
     return static_cast<std::uint8_t>(said);
 }
 
@@ -54,6 +53,13 @@ bool is_can(const MidiCommon& midi) {
     return midi.common.port.starts_with(kCan);
 }
 
+void look_at_address(const MidiCommon& midi, const char* what, int address) {
+    const int least = is_can(midi) ? 1 : 0;
+    if (address < least || address > 127)
+        throw UserError(fmt::format("{} {}: modules on {} have the addresses {} to 127", what, address,
+                                    is_can(midi) ? "CAN" : "a serial line", least));
+}
+
 std::uint32_t midi_baud(const MidiCommon& midi) {
     return midi.baud != 0 ? midi.baud : midi.common.baud_or(midi::reg::kFactoryBaud);
 }
@@ -61,6 +67,7 @@ std::uint32_t midi_baud(const MidiCommon& midi) {
 MidiSession::MidiSession(const MidiCommon& options, std::uint32_t baud, base::Microseconds patience)
     : common_(options.common) {
     const auto model = midi_model(options);
+    const std::uint8_t address = address_of(options);
     if (patience.count() == 0) patience = base::Milliseconds{common_.patience_ms};
     if (is_can(options)) {
         open_can(options, patience);
@@ -72,7 +79,7 @@ MidiSession::MidiSession(const MidiCommon& options, std::uint32_t baud, base::Mi
             *wire_, midi_client::V24Options{.baud = line.baud, .patience = patience});
     }
     master_ = std::make_unique<midi_client::Master>(*link_, kAttempts);
-    module_ = std::make_unique<midi::Module>(*master_, address_of(options, *link_), model);
+    module_ = std::make_unique<midi::Module>(*master_, address, model);
 }
 
 void MidiSession::open_can(const MidiCommon& options, base::Microseconds patience) {
@@ -95,6 +102,8 @@ void midi_guard(const MidiCommon& midi, const std::function<void()>& what) {
             throw command_line::Failure(command_line::kRefused, error.what());
         } catch (const midi_client::NotPlayed& error) {
             throw command_line::Failure(command_line::kRefused, error.what());
+        } catch (const midi_client::SameAddress& error) {
+            throw command_line::Failure(command_line::kRefused, error.what());
         } catch (const midi_client::Doubtful& error) {
             throw command_line::Failure(command_line::kNoAnswer, error.what());
         }
@@ -116,7 +125,9 @@ void hold_signals() {
     host::hold_interruptions();
 }
 
-std::int32_t bring_to_rest(MidiSession& session) {
+namespace {
+
+std::int32_t come_to_rest(MidiSession& session) {
     using Kind = midi_client::Answer::Kind;
     midi_client::Master& master = session.master();
     const std::uint8_t address = session.address();
@@ -142,6 +153,20 @@ std::int32_t bring_to_rest(MidiSession& session) {
     }
 }
 
+}  // namespace
+
+std::int32_t bring_to_rest(MidiSession& session) {
+    try {
+        return come_to_rest(session);
+    } catch (const midi_client::SameAddress& error) {
+        const std::uint8_t address = session.address();
+        const bool told = session.master().stop_hard(std::span(&address, 1)).empty();
+        throw midi_client::SameAddress(
+            fmt::format("{}; told to stop at once (18h){}: LOOK WHETHER EACH STANDS", error.what(),
+                        told ? ", and one has confirmed" : ", and none has confirmed"));
+    }
+}
+
 void stop_and_rethrow(MidiSession& session, const std::runtime_error& error) {
     progress(session.common(), "");
     try {
@@ -157,12 +182,10 @@ void add_midi(arguments::App& app, Common& common) {
     arguments::App& command = command_line::add_command(
         app, "midi", "MIDI Ingenierie MAC23 and MAC34 modules, on a serial line or on CAN (--port can:can0)");
     command.require_subcommand(1);
-    command
-        .add_option(
-            "--address", midi->address,
-            "Address of the module: 0 to 127 on a serial line, 1 to 127 on CAN; if not said, what a new "
-            "module has: 0, and 1 on CAN")
-        ->in_range(0, 127);
+    command.add_option(
+        "--address", midi->address,
+        "Address of the module: 0 to 127 on a serial line, 1 to 127 on CAN; if not said, what a "
+        "new module has: 0, and 1 on CAN");
     command.add_option("--model", midi->model, "MAC23, MAC34-1 or MAC34-2: for turns, volts and degrees")
         ->envname("MACREG_MIDI_MODEL");
     command

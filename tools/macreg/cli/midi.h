@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "cli/session.h"
 #include "macreg/midi/module.h"
 #include "midi_client/can_link.h"
@@ -13,7 +15,8 @@ namespace nplc::macreg::cli {
 struct MidiCommon {
     explicit MidiCommon(Common& all) : common(all) {}
     Common& common;
-    int address = -1;  ///< -1: what a module from the factory has
+    static constexpr int kNotSaid = std::numeric_limits<int>::min();
+    int address = kNotSaid;  ///< then what a module from the factory has
     std::uint32_t baud = 0;
     std::string model;
 };
@@ -22,6 +25,8 @@ struct MidiCommon {
 std::optional<midi::reg::Model> midi_model(const MidiCommon& midi);
 bool is_can(const MidiCommon& midi);
 std::uint32_t midi_baud(const MidiCommon& midi);
+/// Throws UserError unless a module on this kind of line can have it; `what` is what was typed before it.
+void look_at_address(const MidiCommon& midi, const char* what, int address);
 
 /// An open line or bus, and the module of --address.
 class MidiSession {

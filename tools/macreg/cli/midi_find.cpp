@@ -7,7 +7,7 @@
 namespace nplc::macreg::cli {
 namespace {
 
-struct Options {
+struct MidiFindArguments {
     bool this_speed = false;
     bool every_speed = false;
 };
@@ -15,9 +15,9 @@ struct Options {
 constexpr base::Microseconds kPatience{40'000};
 constexpr std::uint32_t kSpeeds[] = {38'400, 19'200, 9'600};
 
-class Search {
+class MidiSearch {
   public:
-    Search(const MidiCommon& midi, const Options& options) : midi_(midi), options_(options) {}
+    MidiSearch(const MidiCommon& midi, const MidiFindArguments& options) : midi_(midi), options_(options) {}
 
     void run() {
         const std::string& port = midi_.common.port;
@@ -61,20 +61,51 @@ class Search {
         midi_client::Answer answer = session.master().try_query(address, midi::reg::GET_RELEASE);
         for (int i = 0; i < 3 && answer.kind != Kind::value && answer.kind != Kind::silence; ++i)
             answer = session.master().try_query(address, midi::reg::GET_RELEASE);
-        if (answer.kind != Kind::value) return;
+        if (is_shared(session, address, answer.kind == Kind::value))
+            return add(address, baud, "MORE THAN ONE MODULE ANSWERS, and what moves one moves both",
+                       {{"address", address}, {"several", true}});
+        if (answer.kind != Kind::value) return note(address, answer.kind);
         const std::int32_t position = session.master().position(address);
         const std::string words = midi::status_words(session.master().status(address));
+        const std::string release = midi::release_text(answer.value);
+        add(address, baud,
+            fmt::format("release {}, at {} inc{}", release, position, words.empty() ? "" : ", " + words),
+            {{"address", address}, {"release", release}, {"position", position}});
+    }
+
+    static bool is_shared(MidiSession& session, std::uint8_t address, bool answers) {
+        if (!answers) return session.link().answers(address).several();
+        try {
+            session.master().expect_alone(address);
+            return false;
+        } catch (const midi_client::SameAddress&) {
+            return true;
+        }
+    }
+
+    void add(std::uint8_t address, std::uint32_t baud, const std::string& what, Json one) {
         const std::string speed = is_can(midi_) ? "" : fmt::format(", {} baud", baud);
-        text_ +=
-            fmt::format("{}address {:>3}{}: release {}, at {} inc{}", text_.empty() ? "" : "\n", address,
-                        speed, midi::release_text(answer.value), position, words.empty() ? "" : ", " + words);
-        Json one{{"address", address}, {"release", midi::release_text(answer.value)}, {"position", position}};
+        text_ += fmt::format("{}address {:>3}{}: {}", text_.empty() ? "" : "\n", address, speed, what);
         if (!is_can(midi_)) one["baud"] = baud;
         modules_.push_back(std::move(one));
     }
 
+    /// Who answers and is no module, as far as one can tell.
+    void note(std::uint8_t address, midi_client::Answer::Kind kind) {
+        using Kind = midi_client::Answer::Kind;
+        if (kind == Kind::refused)
+            remark(midi_.common,
+                   fmt::format("address {}: something answers and refuses GET_RELEASE, which no "
+                               "MIDI module does; is it another kind of device?",
+                               address));
+        if (kind == Kind::unclear)
+            remark(midi_.common, fmt::format("address {}: each answer came damaged; do several modules have "
+                                             "this address, or has the line noise?",
+                                             address));
+    }
+
     const MidiCommon& midi_;
-    const Options& options_;
+    const MidiFindArguments& options_;
     std::string text_;
     Json modules_ = Json::array();
     bool heard_ = false;
@@ -83,14 +114,14 @@ class Search {
 }  // namespace
 
 void add_midi_find(arguments::App& app, MidiCommon& midi) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<MidiFindArguments>();
     arguments::App& command = command_line::add_command(
         app, "find",
         "Which modules are on the line or bus, by address and speed. Only reads; some 7 s a speed");
     command.add_flag("--every-speed", options->every_speed,
                      "Go on with the other speeds when one has been answered at");
     command.add_flag("--this-speed", options->this_speed, "Only the speed of --baud");
-    command.callback([options, &midi] { midi_guard(midi, [&] { Search(midi, *options).run(); }); });
+    command.callback([options, &midi] { midi_guard(midi, [&] { MidiSearch(midi, *options).run(); }); });
 }
 
 }  // namespace nplc::macreg::cli

@@ -78,6 +78,7 @@ void move(const MidiCommon& midi, const MoveOptions& options) {
     const std::int64_t typed = distance(options.by.empty() ? options.target : options.by, midi);
     if (options.by.empty()) data_of(midi::reg::GO_TO, typed);
     MidiSession session(midi);
+    session.master().expect_alone(session.address());
     const Scale scale = session.module().known_scale();
     const std::int64_t from = session.master().position(session.address());
     const std::int64_t target = options.by.empty() ? typed : from + typed;
@@ -140,6 +141,7 @@ void jog(const MidiCommon& midi, const JogOptions& options) {
     if (!keys && time.value == 0)
         throw UserError("jog: nobody is at the terminal to end it; say --for, as --for 2s");
     MidiSession session(midi);
+    session.master().expect_alone(session.address());
     const Scale scale = session.module().known_scale();
     const std::int32_t from = session.master().position(session.address());
     hold_signals();
@@ -206,6 +208,7 @@ void power(MidiSession& session, const std::string& what, bool force) {
         refuse(
             "it turns, and to switch it off now can damage the supply; `macreg midi stop` stops it, --force "
             "switches it off all the same");
+    if (on) session.master().expect_alone(session.address());
     session.module().order(on ? midi::reg::POWER_ON : midi::reg::POWER_OFF);
     session.tell(on ? "the motor is on and holds" : "the motor is off and holds nothing", {{"power", what}});
 }

@@ -26,8 +26,7 @@ struct Job {
 
 /// 003 §V.8: 0 is all of them.
 void look_at_addresses(const MidiCommon& midi, const std::vector<std::uint8_t>& addresses) {
-    if (is_can(midi) && std::find(addresses.begin(), addresses.end(), 0) != addresses.end())
-        throw UserError("axis 0: modules on CAN have the addresses 1 to 127");
+    for (const std::uint8_t address : addresses) look_at_address(midi, "axis", address);
 }
 
 Plan plan_of(const Job& job) {
@@ -131,11 +130,13 @@ std::vector<std::string> split(const std::string& text) {
     return parts;
 }
 
-std::uint8_t axis_of(const std::string& text) {
+std::uint8_t axis_of(const MidiCommon& midi, const std::string& text) {
     const auto quantity = midi::read_quantity(text);
     const bool good = quantity && quantity->unit.empty() && !quantity->negative &&
                       quantity->size.denominator == 1 && quantity->size.numerator <= 127;
-    if (!good) throw UserError(fmt::format("'{}' is no axis: write the address of a module, 0 to 127", text));
+    if (!good)
+        throw UserError(fmt::format("'{}' is no axis: write the address of a module, {} to 127", text,
+                                    is_can(midi) ? 1 : 0));
     return static_cast<std::uint8_t>(quantity->size.numerator);
 }
 
@@ -158,7 +159,7 @@ midi_client::Circle circle_of(const MidiCommon& midi, const CircleOptions& optio
 void circle(const MidiCommon& midi, const CircleOptions& options) {
     const auto words = split(options.axes);
     if (words.size() != 2) throw UserError("--axes: write the addresses of two modules, as 0,1");
-    Job job{.addresses = {axis_of(words[0]), axis_of(words[1])}};
+    Job job{.addresses = {axis_of(midi, words[0]), axis_of(midi, words[1])}};
     if (job.addresses[0] == job.addresses[1]) throw UserError("--axes: they must be two different modules");
     look_at_addresses(midi, job.addresses);
     midi_client::Circle circle = circle_of(midi, options);
@@ -193,7 +194,7 @@ void together(const MidiCommon& midi, const std::vector<std::string>& words) {
         if (position < midi::reg::kMinPosition || position > midi::reg::kMaxPosition)
             throw UserError(fmt::format("'{}' is out of range: {} to {} inc (003 §IV)", word,
                                         midi::reg::kMinPosition, midi::reg::kMaxPosition));
-        targets.push_back({axis_of(word.substr(0, equals)), static_cast<std::int32_t>(position)});
+        targets.push_back({axis_of(midi, word.substr(0, equals)), static_cast<std::int32_t>(position)});
         for (std::size_t i = 0; i + 1 < targets.size(); ++i) {
             if (targets[i].address == targets.back().address)
                 throw UserError(fmt::format("together: address {} stands there twice", targets[i].address));

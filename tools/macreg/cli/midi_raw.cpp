@@ -9,12 +9,12 @@
 namespace nplc::macreg::cli {
 namespace {
 
-struct Options {
+struct MidiRawArguments {
     std::string frame;
     bool force = false;
 };
 
-void raw(const MidiCommon& midi, const Options& options) {
+void raw(const MidiCommon& midi, const MidiRawArguments& options) {
     const auto [request, error] = midi::read_raw(options.frame, is_can(midi));
     if (!error.empty()) throw UserError(error);
     const midi::Scale scale{.model = midi_model(midi)};
@@ -24,6 +24,9 @@ void raw(const MidiCommon& midi, const Options& options) {
         ask(midi.common, fmt::format("{}: {}", what, danger));
     }
     MidiSession session(midi);
+    const bool moves = !request.query && !midi_client::is_stop(request.number) &&
+                       request.number >= midi::reg::WAIT_SYNC && request.number <= midi::reg::PAUSE;
+    if (moves && request.address != session.link().everyone()) session.master().expect_alone(request.address);
     const midi_client::Answer answer = session.master().try_request(request);
     const std::string told = midi::describe_answer(request, answer, scale);
     const std::string heard = session.link().last_heard();
@@ -41,7 +44,7 @@ void raw(const MidiCommon& midi, const Options& options) {
 }  // namespace
 
 void add_midi_raw(arguments::App& app, MidiCommon& midi) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<MidiRawArguments>();
     arguments::App& command = command_line::add_command(
         app, "raw",
         "Send a frame of the expert mode as the maker's tool takes it, and show bytes and meaning both ways: "

@@ -74,6 +74,10 @@ void program_can(MidiSession& session, std::uint8_t address) {
 /// 000 §VI 08h goes to all; said with --address, to that one only.
 void program_line(MidiSession& session, std::uint8_t address, bool to_one) {
     const std::uint8_t to = to_one ? session.address() : session.link().everyone();
+    if (to_one) session.master().expect_alone(to);
+    if (to_one && to != address &&
+        session.master().try_query(address, midi::reg::GET_RELEASE).kind != Answer::Kind::silence)
+        refuse(fmt::format("address {} answers already: each module needs an address of its own", address));
     ask(session.common(),
         to_one ? fmt::format("The module with address {} gets the address {}", to, address)
                : fmt::format(
@@ -85,14 +89,14 @@ void program_line(MidiSession& session, std::uint8_t address, bool to_one) {
 }
 
 void set_address(const MidiCommon& midi, int address) {
-    if (is_can(midi) && address == 0) throw UserError("address 0: modules on CAN have 1 to 127");
-    const bool said = midi.address >= 0 || midi.common.address != 0;
+    look_at_address(midi, "address", address);
+    const bool said = midi.address != MidiCommon::kNotSaid || midi.common.address != 0;
     if (is_can(midi) && said)
         throw UserError("--address: LMT names nobody (003 §V.5); leave one module on the bus, and this out");
     MidiSession session(midi);
     const auto wanted = static_cast<std::uint8_t>(address);
     session.can() != nullptr ? program_can(session, wanted) : program_line(session, wanted, said);
-    const std::string release = midi::release_text(session.master().query(wanted, midi::reg::GET_RELEASE));
+    const std::string release = midi::release_text(session.master().expect_alone(wanted));
     session.tell(fmt::format("address {}: a module of release {} answers", address, release),
                  {{"address", address}});
 }
@@ -130,9 +134,7 @@ void add_midi_service(arguments::App& app, MidiCommon& midi) {
     arguments::App& set_command = command_line::add_command(
         address_command, "set",
         "08h, on CAN the LMT procedure; asks first, and looks whether it answers there");
-    set_command.add_option("new_address", *address, "0 to 127, on CAN 1 to 127")
-        ->required()
-        ->in_range(0, 127);
+    set_command.add_option("new_address", *address, "0 to 127, on CAN 1 to 127")->required();
     set_command.callback([address, &midi] { midi_guard(midi, [&] { set_address(midi, *address); }); });
 
     const auto baud = std::make_shared<std::uint32_t>(0);

@@ -41,8 +41,14 @@ void status(MidiSession& session) {
 }
 
 void why(MidiSession& session) {
-    const midi::Condition condition = midi::read_condition(session.module());
     FindingsReport report("parameters");
+    try {
+        session.master().expect_alone(session.address());
+    } catch (const midi_client::SameAddress&) {
+        report.add(midi::same_address(session.address(), session.link().is_can()), {}, Json::array());
+        return session.tell(report.text(), report.document());
+    }
+    const midi::Condition condition = midi::read_condition(session.module());
     for (const midi::Finding& finding : midi::why(condition)) {
         std::string values;
         Json parameters = Json::array();

@@ -17,7 +17,7 @@
 namespace nplc::macreg::cli {
 namespace {
 
-struct Options {
+struct MonitorArguments {
     std::string protocol = "mactalk";
     std::string from;
     std::string motor_port;
@@ -29,10 +29,10 @@ struct Options {
 
 class Teller {
   public:
-    Teller(const Common& common, const Options& options) : common_(common), options_(options) {}
+    Teller(const Common& common, const MonitorArguments& options) : common_(common), options_(options) {}
 
-    void tell(Monitor& monitor, base::Instant start) const {
-        for (const MonitorEvent& event : monitor.take()) {
+    void tell(Monitor& monitor, base::Instant start) {
+        for (const MonitorEvent& event : order_.take(monitor)) {
             std::string line = line_of(event, start);
             if (options_.bytes && event.flaw.empty()) {
                 if (!event.sent.empty()) line += "   > " + hex_words(event.sent);
@@ -57,7 +57,8 @@ class Teller {
     }
 
     const Common& common_;
-    const Options& options_;
+    const MonitorArguments& options_;
+    InOrder order_;
 };
 
 /// `50 50`, `505050`, `0x50`, or as the manuals write `50h,50h,50h - 08h,F7h`; # and what follows it in a
@@ -91,7 +92,7 @@ std::vector<std::uint8_t> read_hex(const std::string& text, const std::string& n
     return bytes;
 }
 
-bool is_midi(const Options& options) {
+bool is_midi(const MonitorArguments& options) {
     return options.protocol == "midi";
 }
 
@@ -109,7 +110,7 @@ std::unique_ptr<Monitor> make_midi(const Common& common) {
     return make_midi_monitor(how);
 }
 
-std::unique_ptr<Monitor> make(const Common& common, const Options& options) {
+std::unique_ptr<Monitor> make(const Common& common, const MonitorArguments& options) {
     if (is_midi(options)) return make_midi(common);
     MonitorOptions how{.gateway = static_cast<std::uint8_t>(options.gateway), .baud = common.baud};
     if (const auto model = model_option(common)) how.model = *model;
@@ -120,7 +121,7 @@ std::unique_ptr<Monitor> make(const Common& common, const Options& options) {
                                 options.protocol));
 }
 
-Side side_of(const Options& options) {
+Side side_of(const MonitorArguments& options) {
     if (options.from == "motor") return Side::motor;
     if (options.from == "master") return Side::master;
     if (!options.from.empty()) throw UserError(fmt::format("--from {}: write master or motor", options.from));
@@ -129,19 +130,22 @@ Side side_of(const Options& options) {
     return Side::both;
 }
 
-void replay(const Common& common, const Options& options) {
+void replay(const Common& common, const MonitorArguments& options) {
     const auto monitor = make(common, options);
     const Side side = side_of(options);
     const bool standard = options.replay == "-";
     const whole_files::FileText file = standard
                                            ? whole_files::FileText{.text = read_standard_input(), .error = {}}
-                                           : whole_files::read_file(options.replay);
+                                           : whole_files::read_file(options.replay, whole_files::kMostInput);
     if (!file.error.empty()) throw UserError(file.error);
+    const std::string name = standard ? "standard input" : options.replay;
+    const auto bytes = read_hex(file.text, name);
+    if (bytes.empty()) throw UserError(name + ": there are no bytes in it; write two hex digits a byte");
     // A character takes ten bits; a file holds no times.
     const base::Microseconds character{10'000'000 / common.baud};
     base::Instant now{};
-    const Teller teller(common, options);
-    for (const std::uint8_t byte : read_hex(file.text, standard ? "standard input" : options.replay)) {
+    Teller teller(common, options);
+    for (const std::uint8_t byte : bytes) {
         monitor->receive(side, byte, now);
         now += character;
         teller.tell(*monitor, {});
@@ -150,7 +154,7 @@ void replay(const Common& common, const Options& options) {
     teller.tell(*monitor, {});
 }
 
-void listen(const Common& common, const Options& options) {
+void listen(const Common& common, const MonitorArguments& options) {
     const auto monitor = make(common, options);
     struct Line {
         std::unique_ptr<mactalk_client::Wire> wire;
@@ -163,10 +167,11 @@ void listen(const Common& common, const Options& options) {
         second.port = options.motor_port;
         lines.push_back({command_line::open_port(second), Side::motor});
     }
-    const Teller teller(common, options);
+    Teller teller(common, options);
     const base::Instant start = lines.front().wire->now();
     constexpr base::Microseconds kWait{10'000};
     std::array<std::uint8_t, 256> bytes{};
+    bool heard = false;
     while (goes_on() && output_has_reader()) {
         for (Line& line : lines) {
             const auto count = line.wire->read(bytes, kWait);
@@ -176,6 +181,7 @@ void listen(const Common& common, const Options& options) {
                 throw mactalk_client::LineError(mactalk_client::LineError::Kind::port_gone,
                                                 line.wire->name() + ": the other end is gone");
             }
+            heard = heard || *count > 0;
             const base::Instant now = line.wire->now();
             for (std::size_t i = 0; i < *count; ++i) monitor->receive(line.side, bytes[i], now);
             monitor->pass(now);
@@ -184,12 +190,17 @@ void listen(const Common& common, const Options& options) {
     }
     monitor->finish();
     teller.tell(*monitor, start);
+    if (!heard)
+        remark(common,
+               "nothing was heard: a wrong speed would show as noise, so either nobody spoke or the "
+               "receiving wire "
+               "does not lead to the line");
 }
 
 }  // namespace
 
 void add_monitor(arguments::App& app, Common& common) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<MonitorArguments>();
     arguments::App& command = add_command(
         app, "monitor",
         "Tell what others say on a line, decoded; only listens, with an adapter of its own, until Ctrl-C");

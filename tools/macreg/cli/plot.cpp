@@ -13,7 +13,7 @@
 namespace nplc::macreg::cli {
 namespace {
 
-struct Options {
+struct PlotArguments {
     std::string recording;
     std::string output;
     PlotOptions how;
@@ -31,13 +31,13 @@ std::string usual_title(const Recording& recording, const std::string& path) {
     return recording.start.empty() || recording.start == "now" ? title : title + ", " + recording.start;
 }
 
-void plot_file(const Common& common, const Options& options) {
+void plot_file(const Common& common, const PlotArguments& options) {
     const bool png = ends_with(options.output, ".png");
     if (!png && !ends_with(options.output, ".svg"))
         throw UserError(fmt::format("-o {}: the name must end with .svg or .png", options.output));
-    const whole_files::FileText file = options.recording == "-"
-                                           ? whole_files::FileText{.text = read_standard_input(), .error = {}}
-                                           : whole_files::read_file(options.recording);
+    const whole_files::FileText file =
+        options.recording == "-" ? whole_files::FileText{.text = read_standard_input(), .error = {}}
+                                 : whole_files::read_file(options.recording, whole_files::kMostInput);
     if (!file.error.empty()) throw UserError(file.error);
     const RecordingReading reading =
         from_csv(file.text, options.recording == "-" ? "standard input" : options.recording);
@@ -61,7 +61,7 @@ void plot_file(const Common& common, const Options& options) {
 }  // namespace
 
 void add_plot(arguments::App& app, Common& common) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<PlotArguments>();
     arguments::App& command = add_command(app, "plot", "Draw a recording as an SVG or PNG picture");
     command.add_option("recording", options->recording, "CSV of `macreg record`; - is standard input")
         ->required();

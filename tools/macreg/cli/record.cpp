@@ -16,7 +16,7 @@ namespace {
 
 using registers::Register;
 
-struct Options {
+struct RecordArguments {
     std::vector<std::string> registers;
     std::string output = "-";
     std::string rate = "slow";
@@ -26,6 +26,7 @@ struct Options {
     double lasts = 0;
     std::size_t samples = 0;
     bool poll = false;
+    bool force = false;
 };
 
 /// What --move writes: a position or speed, or how far from the one that is set.
@@ -122,9 +123,9 @@ void write_file(const std::string& path, const std::string& content) {
         throw UserError(problem);
 }
 
-void save(Session& session, const Options& options, const Recording& recording) {
+void save(Session& session, const RecordArguments& options, const Recording& recording) {
     const std::string csv = to_csv(recording);
-    const std::string file = output_file(options.output);
+    const std::string file = output_file(options.output, true);
     if (file.empty()) {
         if (!session.json()) return fmt::print("{}", csv);
     } else {
@@ -148,7 +149,7 @@ void save(Session& session, const Options& options, const Recording& recording) 
                  document);
 }
 
-void poll(Session& session, const Options& options, const RecordOptions& how) {
+void poll(Session& session, const RecordArguments& options, const RecordOptions& how) {
     Recording recording;
     try {
         record_polling(session.motor(), how, recording);
@@ -169,7 +170,7 @@ void poll(Session& session, const Options& options, const RecordOptions& how) {
 }
 
 /// What was read of a buffer before it broke off, which no second recording brings back.
-[[noreturn]] void keep_broken(Session& session, const Options& options, const RecordOptions& how,
+[[noreturn]] void keep_broken(Session& session, const RecordArguments& options, const RecordOptions& how,
                               Recording& recording, const std::string& why, int exit_code) {
     session.progress("");
     const std::size_t count = recording.size();
@@ -178,7 +179,7 @@ void poll(Session& session, const Options& options, const RecordOptions& how) {
     recording.incomplete = fmt::format("{} of {} were read: {}", count, counted(how.samples, "sample"),
                                        why.substr(0, why.find('\n')));
     const std::string csv = to_csv(recording);
-    const std::string file = output_file(options.output);
+    const std::string file = output_file(options.output, true);
     const std::string part = file.empty() ? "standard output" : file + ".part";
     if (!file.empty()) {
         if (const std::string problem = whole_files::write_files({{part, csv}}); !problem.empty())
@@ -194,7 +195,7 @@ void poll(Session& session, const Options& options, const RecordOptions& how) {
         {{"incomplete", true}, {"read", count}, {"of", how.samples}, {"file", file.empty() ? "" : part}});
 }
 
-void record_and_save(Session& session, const Options& options, const RecordOptions& how) {
+void record_and_save(Session& session, const RecordArguments& options, const RecordOptions& how) {
     Recording broken;
     try {
         const Recording recording = record_buffer(session.motor(), how, &broken);
@@ -212,8 +213,10 @@ void record_and_save(Session& session, const Options& options, const RecordOptio
     }
 }
 
-RecordOptions how_to(Session& session, const Options& options) {
-    static_cast<void>(output_file(options.output));
+RecordOptions how_to(Session& session, const RecordArguments& options) {
+    const std::string file = output_file(options.output, options.force);
+    if (const std::string why = whole_files::why_not_made(file); !file.empty() && !why.empty())
+        throw UserError(why);
     RecordOptions how;
     how.model_name = session.model_name();
     how.registers = find_registers(session.motor().model(), options.registers);
@@ -240,7 +243,7 @@ RecordOptions how_to(Session& session, const Options& options) {
     return how;
 }
 
-void record(Session& session, const Options& options) {
+void record(Session& session, const RecordArguments& options) {
     RecordOptions how = how_to(session, options);
     Motor& motor = session.motor();
     Move move;
@@ -272,12 +275,13 @@ void record(Session& session, const Options& options) {
 }  // namespace
 
 void add_record(arguments::App& app, Common& common) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<RecordArguments>();
     arguments::App& command = add_command(app, "record", "Record registers over time as CSV");
     command.add_option("registers", options->registers, "Names or numbers, P_IST,V_IST")
         ->required()
         ->delimiter(',');
     command.add_option("-o,--output", options->output, "The file; standard output if not said, or -");
+    command.add_flag("--force", options->force, "Replace a file that is there");
     command
         .add_option("--rate", options->rate,
                     "slow: a sample of the position loop, about 521 Hz; fast: of the current loop, 7812.5 Hz")

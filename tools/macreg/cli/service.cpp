@@ -14,7 +14,7 @@ namespace {
 
 using registers::Model;
 
-struct Options {
+struct ServiceArguments {
     bool stop = false;
     bool unsaved = false;
 };
@@ -41,7 +41,8 @@ void tell_mode(Session& session, const std::string& what) {
     session.tell(fmt::format("{}; the motor is in {}", what, name), {{"mode", mode}, {"mode_name", name}});
 }
 
-void with_service(Session& session, const Options& options, const std::function<void(Service&)>& what) {
+void with_service(Session& session, const ServiceArguments& options,
+                  const std::function<void(Service&)>& what) {
     Service service(session.motor(), goes_on);
     if (options.stop) service.allow_stop();
     const auto give_up = [&](const std::exception& error, int exit_code) {
@@ -66,7 +67,7 @@ void with_service(Session& session, const Options& options, const std::function<
     }
 }
 
-void save(Session& session, const Options& options) {
+void save(Session& session, const ServiceArguments& options) {
     session.ask(fmt::format("The motor's flash is written over with what it has in memory, and it resets: {}",
                             what_a_start_does(session)));
     with_service(session, options, [&](Service& service) {
@@ -79,7 +80,7 @@ void save(Session& session, const Options& options) {
     });
 }
 
-void defaults(Session& session, const Options& options) {
+void defaults(Session& session, const ServiceArguments& options) {
     session.ask(options.unsaved
                     ? "All parameters in the motor's memory become the factory's; its flash stays as it is"
                     : "All parameters of the motor, those in its flash too, become the factory's, and it "
@@ -92,7 +93,7 @@ void defaults(Session& session, const Options& options) {
     });
 }
 
-void reload(Session& session, const Options& options) {
+void reload(Session& session, const ServiceArguments& options) {
     session.ask("What was changed in the motor's memory and not saved is lost");
     with_service(session, options, [&](Service& service) {
         service.reload();
@@ -100,7 +101,7 @@ void reload(Session& session, const Options& options) {
     });
 }
 
-void reset(Session& session, const Options& options) {
+void reset(Session& session, const ServiceArguments& options) {
     session.ask(fmt::format("The motor resets, and what was changed and not saved is lost; {}",
                             what_a_start_does(session)));
     with_service(session, options, [&](Service& service) {
@@ -121,7 +122,7 @@ void put_back(Motor& motor, const registers::Register& reg, std::int64_t raw) {
 
 /// FastMAC and FlexMAC need the user interface set to communication, which counts from a reset on (001
 /// §3.2.36).
-void prepare(Session& session, const Options& options) {
+void prepare(Session& session, const ServiceArguments& options) {
     constexpr std::int64_t kCommunication = 3;
     Motor& motor = session.motor();
     if (motor.model() == Model::mac800)
@@ -166,7 +167,8 @@ void prepare(Session& session, const Options& options) {
 }
 
 arguments::App& add(arguments::App& app, Common& common, const char* name, const char* text,
-                    void (*what)(Session&, const Options&), const std::shared_ptr<Options>& options) {
+                    void (*what)(Session&, const ServiceArguments&),
+                    const std::shared_ptr<ServiceArguments>& options) {
     arguments::App& command = add_command(app, name, text);
     command.add_flag("--stop", options->stop, "Stop the motor first if it is in a mode that moves it");
     command.callback([options, what, &common] {
@@ -184,7 +186,7 @@ arguments::App& add(arguments::App& app, Common& common, const char* name, const
 }  // namespace
 
 void add_service(arguments::App& app, Common& common) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ServiceArguments>();
     arguments::App& flash = add_command(app, "flash", "The parameters in the motor's flash; asks first");
     flash.require_subcommand(1);
     add(flash, common, "save",
@@ -197,7 +199,7 @@ void add_service(arguments::App& app, Common& common) {
     safe.require_subcommand(1);
     add(
         safe, common, "enter", "From INIT_MODE into SAFE_MODE",
-        [](Session& s, const Options& o) {
+        [](Session& s, const ServiceArguments& o) {
             with_service(s, o, [&](Service& service) {
                 service.enter_safe();
                 tell_mode(s, "done");
@@ -206,7 +208,7 @@ void add_service(arguments::App& app, Common& common) {
         options);
     add(
         safe, common, "exit", "From SAFE_MODE into INIT_MODE",
-        [](Session& s, const Options& o) {
+        [](Session& s, const ServiceArguments& o) {
             with_service(s, o, [&](Service& service) {
                 service.exit_safe();
                 tell_mode(s, "done");

@@ -8,6 +8,7 @@
 #include "host/terminal.h"
 #include "macreg/values.h"
 #include "registers/gateway.h"
+#include "whole_files/whole_files.h"
 
 namespace nplc::macreg::cli {
 
@@ -49,8 +50,11 @@ Model find_model(mactalk_client::Master& master, std::uint8_t address, const Com
                         fmt::format("{}: a gateway answers, but its link to the motor does not work; "
                                     "`nanoctl status` tells more",
                                     master.wire().name()));
-    if (!silent || (common.address != 0 && common.address != kEveryone))
-        throw LineError(error.kind(), error.what());
+    if (!silent) throw LineError(error.kind(), error.what());
+    if (common.address != 0 && common.address != kEveryone)
+        throw LineError(
+            error.kind(),
+            fmt::format("{}; `macreg find` shows which addresses answer, and at which speed", error.what()));
     if (master.counters().stray_bytes > 0)
         throw LineError(
             error.kind(),
@@ -173,9 +177,11 @@ void work(Common& common, const std::function<void(Session&)>& what) {
     });
 }
 
-std::string output_file(const std::string& option) {
+std::string output_file(const std::string& option, bool force) {
     if (option.empty()) throw UserError("-o: write a file's name, or - for standard output");
-    return option == "-" ? std::string() : option;
+    if (option == "-") return {};
+    if (const std::string why = whole_files::why_kept(option); !why.empty() && !force) throw UserError(why);
+    return option;
 }
 
 std::string counted(std::size_t count, const std::string& what) {

@@ -77,8 +77,9 @@ void work(Common& common, const std::function<void(Session&)>& what);
 /// The same without a motor.
 void guard(Common& common, const std::function<void()>& what);
 
-/// Of -o: empty for standard output, which is "-"; throws UserError if it names nothing.
-std::string output_file(const std::string& option);
+/// Of -o: empty for standard output, which is "-"; throws UserError if it names nothing or, without
+/// `force`, a file that is there.
+std::string output_file(const std::string& option, bool force);
 
 /// "1 register", "2 registers"
 std::string counted(std::size_t count, const std::string& what);

@@ -7,6 +7,7 @@
 #include "cli/session.h"
 #include "macreg/assignments.h"
 #include "macreg/change.h"
+#include "macreg/limits.h"
 #include "macreg/values.h"
 
 namespace nplc::macreg::cli {
@@ -15,12 +16,19 @@ namespace {
 using registers::Model;
 using registers::Register;
 
-struct Options {
+struct SetArguments {
     std::vector<std::string> words;
     bool force = false;
 };
 
-void look_for_danger(Session& session, const std::vector<Assignment>& all, bool force) {
+RawValues values_of(const std::vector<Assignment>& all) {
+    RawValues values;
+    for (const Assignment& one : all) values[one.reg->number] = one.raw;
+    return values;
+}
+
+void look_for_danger(Session& session, const std::vector<Assignment>& all, bool force,
+                     const std::string& limits) {
     std::map<std::string, std::string> dangers;  // what may happen, and by which registers
     for (const Assignment& one : all) {
         const Model model = session.motor().model();
@@ -36,8 +44,8 @@ void look_for_danger(Session& session, const std::vector<Assignment>& all, bool 
             names += fmt::format("{}{}", names.empty() ? "" : ", ", one.reg->name);
         }
     }
-    if (dangers.empty()) return;
-    std::string text;
+    if (dangers.empty() && limits.empty()) return;
+    std::string text = limits;
     for (const auto& [what, names] : dangers)
         text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", names, what);
     if (!force) throw UserError(text + "; --force if you know that it is right");
@@ -66,11 +74,14 @@ std::string line_of(const Assignment& one, Model model, const Outcome& outcome) 
     throw command_line::Failure(exit_code, text, {{"written", names}, {"of", all.size()}});
 }
 
-void set(Session& session, const Options& options) {
+void set(Session& session, const SetArguments& options) {
     const Model model = session.motor().model();
-    const auto [all, wrong] = read_assignments(model, options.words);
+    auto [all, wrong] = read_assignments(model, options.words);
     if (!wrong.empty()) throw UserError(wrong);
-    look_for_danger(session, all, options.force);
+    const RawValues wanted = values_of(all);
+    const RawValues limits = read_limits(session.motor(), wanted);
+    look_for_danger(session, all, options.force, limits_danger(limits, wanted));
+    order_limits(limits, wanted, all);
     std::string text;
     Json done = Json::array();
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -106,7 +117,7 @@ void set(Session& session, const Options& options) {
 }  // namespace
 
 void add_set(arguments::App& app, Common& common) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<SetArguments>();
     arguments::App& command =
         add_command(app, "set",
                     "Change registers and read them back. A value may have a unit (1500rpm), be raw steps "

@@ -14,7 +14,7 @@ namespace {
 using registers::Model;
 using registers::Register;
 
-struct Options {
+struct WatchArguments {
     std::vector<std::string> names;
     unsigned interval_ms = 200;
     double seconds = 0;
@@ -35,7 +35,7 @@ std::string seconds_text(base::Microseconds time) {
 /// A table that is drawn over, or a line or document at every change.
 class Table {
   public:
-    Table(Session& session, const Options& options, std::vector<const Register*> registers)
+    Table(Session& session, const WatchArguments& options, std::vector<const Register*> registers)
         : session_(session),
           options_(options),
           registers_(std::move(registers)),
@@ -80,7 +80,7 @@ class Table {
     }
 
     Session& session_;
-    const Options& options_;
+    const WatchArguments& options_;
     std::vector<const Register*> registers_;
     Model model_;
     bool drawn_over_;
@@ -88,7 +88,7 @@ class Table {
     std::optional<Snapshot> last_;
 };
 
-void watch(Session& session, const Options& options) {
+void watch(Session& session, const WatchArguments& options) {
     const auto registers =
         find_registers(session.motor().model(), options.names.empty() ? kUsual : options.names);
     Table table(session, options, registers);
@@ -108,7 +108,7 @@ void watch(Session& session, const Options& options) {
 }  // namespace
 
 void add_watch(arguments::App& app, Common& common) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<WatchArguments>();
     arguments::App& command = add_command(
         app, "watch",
         "Registers as they change: a table on a terminal, else a line (or with --json a document) "

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kDigits = 14;
 
-RawFrame wrong(std::string error) {
+RawFrame wrong_frame(std::string error) {
     RawFrame frame;
     frame.error = std::move(error);
     return frame;
@@ -61,11 +61,11 @@ RawFrame read_raw(std::string_view text, bool can) {
     for (const char c : text) {
         if (std::isspace(static_cast<unsigned char>(c)) != 0) continue;
         if (std::isxdigit(static_cast<unsigned char>(c)) == 0)
-            return wrong(fmt::format("'{}': '{}' is no hexadecimal digit", text, c));
+            return wrong_frame(fmt::format("'{}': '{}' is no hexadecimal digit", text, c));
         digits += c;
     }
     if (digits.size() != kDigits)
-        return wrong(
+        return wrong_frame(
             fmt::format("'{}' has {} digits: write 14, as 00150000000320: address 00, index 15, sub-index "
                         "00, parameters 00000320",
                         text, digits.size()));
@@ -75,10 +75,10 @@ RawFrame read_raw(std::string_view text, bool can) {
     const std::uint32_t address = number(0, 2);
     const std::uint32_t index = number(2, 2);
     if (address > 0x7F && (can || address != protocol::midi_v24::kGeneral))
-        return wrong(fmt::format("'{}': address {:02X}: there are 00 to 7F{}", text, address,
-                                 can ? ", and 00 is all" : ", and FF for all"));
+        return wrong_frame(fmt::format("'{}': address {:02X}: there are 00 to 7F{}", text, address,
+                                       can ? ", and 00 is all" : ", and FF for all"));
     if (index > 0x2F)
-        return wrong(fmt::format(
+        return wrong_frame(fmt::format(
             "'{}': index {:02X}: there are 00 to 1F for commands and 20 to 2F for queries", text, index));
     const bool query = index >= protocol::midi_v24::kFirstQuery;
     return {.request = {.address = static_cast<std::uint8_t>(address),
@@ -107,11 +107,11 @@ std::string describe_request(const midi_client::Request& request, const Scale& s
 
 std::string describe_answer(const midi_client::Request& request, const midi_client::Answer& answer,
                             const Scale& scale) {
-    using Kind = midi_client::Answer::Kind;
+    using AnswerKind = midi_client::Answer::Kind;
     switch (answer.kind) {
-        case Kind::accepted:
+        case AnswerKind::accepted:
             return "accepted";
-        case Kind::value: {
+        case AnswerKind::value: {
             const reg::QueryRow* row = reg::find_query(request.number);
             if (row == nullptr) return fmt::format("{:08X}h", answer.value);
             if (row->number == reg::GET_STATUS) {
@@ -122,13 +122,13 @@ std::string describe_answer(const midi_client::Request& request, const midi_clie
             if (row->at_address) return fmt::format("bytes {:08X}h", answer.value);
             return fields_text(row->fields, answer.value, scale);
         }
-        case Kind::refused:
+        case AnswerKind::refused:
             return "refused";
-        case Kind::not_taken:
+        case AnswerKind::not_taken:
             return "not understood (Nack)";
-        case Kind::unclear:
+        case AnswerKind::unclear:
             return "a damaged answer";
-        case Kind::silence:
+        case AnswerKind::silence:
             break;
     }
     return "no answer";

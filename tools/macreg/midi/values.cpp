@@ -57,7 +57,7 @@ std::string bit_words(std::span<const reg::Bit> bits, std::uint32_t value) {
     return text;
 }
 
-TypedValue wrong(std::string error) {
+TypedValue wrong_value(std::string error) {
     TypedValue value;
     value.error = std::move(error);
     return value;
@@ -67,23 +67,23 @@ TypedValue typed_choice(const Parameter& parameter, std::string_view text) {
     for (const Choice& one : parameter.choices) {
         if (text == one.name || text == fmt::format("{}", one.value)) return {.raw = one.value};
     }
-    return wrong(fmt::format("{}: '{}': write {}", parameter.name, text, units_text(parameter)));
+    return wrong_value(fmt::format("{}: '{}': write {}", parameter.name, text, units_text(parameter)));
 }
 
 /// A command's own number.
 TypedValue typed_raw(const Parameter& parameter, std::string_view text) {
     const auto quantity = read_quantity(text);
     if (!quantity || !quantity->unit.empty() || quantity->size.denominator != 1)
-        return wrong(fmt::format("{}: 'raw:{}' is no whole number", parameter.name, text));
+        return wrong_value(fmt::format("{}: 'raw:{}' is no whole number", parameter.name, text));
     return {.raw = quantity->negative ? -quantity->size.numerator : quantity->size.numerator};
 }
 
 /// The next slower one.
 TypedValue typed_unstall(const Parameter& parameter, std::string_view text, const Scale& scale) {
     const TypedNumber rate = typed_rate(text, scale.model, false);
-    if (!rate.error.empty()) return wrong(fmt::format("{}: {}", parameter.name, rate.error));
+    if (!rate.error.empty()) return wrong_value(fmt::format("{}: {}", parameter.name, rate.error));
     const auto raw = reg::unstall_of_speed(static_cast<std::uint32_t>(rate.value));
-    if (!raw) return wrong(fmt::format("{}: '{}': it is 20 to 5000 inc/s", parameter.name, text));
+    if (!raw) return wrong_value(fmt::format("{}: '{}': it is 20 to 5000 inc/s", parameter.name, text));
     const bool exact = rate.exact && rate.value * *raw * reg::kTicksPerLongPeriod == reg::kTicksPerSecond;
     return {.raw = *raw, .rounding = exact ? "" : "not exact"};
 }
@@ -92,16 +92,16 @@ TypedValue typed_ramp(const Parameter& parameter, std::string_view text, const S
     const auto quantity = read_quantity(text);
     const bool is_rate = quantity && quantity->unit.ends_with("/s2");
     if (is_rate && scale.period == 0)
-        return wrong(
+        return wrong_value(
             fmt::format("{}: '{}': an acceleration needs the speed; write inc or rev", parameter.name, text));
     const TypedNumber number =
         is_rate ? typed_rate(text, scale.model, true) : typed_position(text, scale.model);
-    if (!number.error.empty()) return wrong(fmt::format("{}: {}", parameter.name, number.error));
+    if (!number.error.empty()) return wrong_value(fmt::format("{}: {}", parameter.name, number.error));
     if (is_rate) {
         const auto speed = static_cast<std::uint32_t>(reg::kTicksPerSecond / scale.period);
         const auto raw = reg::ramp_of(speed, static_cast<std::uint32_t>(number.value));
         if (!raw)
-            return wrong(
+            return wrong_value(
                 fmt::format("{}: '{}' takes more than the 30600 inc of the longest ramp from SPEED's {}",
                             parameter.name, text, speed_text(scale.period, scale)));
         return {.raw = *raw, .rounding = "not exact"};
@@ -114,17 +114,17 @@ TypedValue typed_ramp(const Parameter& parameter, std::string_view text, const S
 TypedValue typed_torque(const Parameter& parameter, std::string_view text, const Scale& scale) {
     const auto quantity = read_quantity(text);
     if (!quantity || quantity->negative || quantity->unit != "%")
-        return wrong(fmt::format("{}: '{}': write a number and %, or raw:N", parameter.name, text));
+        return wrong_value(fmt::format("{}: '{}': write a number and %, or raw:N", parameter.name, text));
     const Ratio part =
         quantity->size.numerator == 0 ? Ratio{0, 1} : quantity->size * Ratio{scale.imax, 1} / Ratio{100, 1};
     if (part.numerator > scale.imax * part.denominator)
-        return wrong(fmt::format("{}: '{}' is more than all of it", parameter.name, text));
+        return wrong_value(fmt::format("{}: '{}' is more than all of it", parameter.name, text));
     return {.raw = part.numerator / part.denominator, .rounding = part.denominator == 1 ? "" : "not exact"};
 }
 
 TypedValue typed_in_units(const Parameter& parameter, std::string_view text, const Scale& scale) {
     const auto from = [&](const TypedNumber& number) {
-        if (!number.error.empty()) return wrong(fmt::format("{}: {}", parameter.name, number.error));
+        if (!number.error.empty()) return wrong_value(fmt::format("{}: {}", parameter.name, number.error));
         return TypedValue{.raw = number.value, .rounding = number.exact ? "" : "not exact"};
     };
     switch (parameter.sort) {
@@ -142,7 +142,7 @@ TypedValue typed_in_units(const Parameter& parameter, std::string_view text, con
         case Sort::torque:
             return typed_torque(parameter, text, scale);
         default:
-            return wrong(fmt::format("{} is read only", parameter.name));
+            return wrong_value(fmt::format("{} is read only", parameter.name));
     }
 }
 
@@ -215,7 +215,7 @@ std::string value_text(const Parameter& parameter, std::int64_t raw, const Scale
 }
 
 TypedValue typed_value(const Parameter& parameter, std::string_view text, const Scale& scale) {
-    if (!parameter.command) return wrong(fmt::format("{} is read only", parameter.name));
+    if (!parameter.command) return wrong_value(fmt::format("{} is read only", parameter.name));
     TypedValue typed = text.starts_with("raw:") ? typed_raw(parameter, text.substr(4))
                                                 : typed_in_units(parameter, text, scale);
     if (!typed.error.empty()) return typed;
@@ -224,9 +224,9 @@ TypedValue typed_value(const Parameter& parameter, std::string_view text, const 
     const bool fits = typed.raw >= field.min && typed.raw <= most &&
                       reg::pack(row_of(parameter), static_cast<std::int32_t>(typed.raw));
     if (!fits)
-        return wrong(fmt::format("{}: '{}' is out of range: {} to {}", parameter.name, text,
-                                 value_text(parameter, field.min, scale),
-                                 value_text(parameter, most, scale)));
+        return wrong_value(fmt::format("{}: '{}' is out of range: {} to {}", parameter.name, text,
+                                       value_text(parameter, field.min, scale),
+                                       value_text(parameter, most, scale)));
     if (!typed.rounding.empty())
         typed.rounding =
             fmt::format("{}: {} taken as {}", parameter.name, text, value_text(parameter, typed.raw, scale));

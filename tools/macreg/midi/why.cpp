@@ -228,6 +228,18 @@ Condition read_condition(Module& module) {
     return condition;
 }
 
+Finding same_address(std::uint8_t address, bool is_can) {
+    return {"same_address",
+            Severity::stops,
+            fmt::format("More than one module answers to address {}: what moves one moves both, so that "
+                        "commands that move are refused.",
+                        address),
+            {},
+            fmt::format("Switch off all of them but one; `macreg midi {}address set NEW` gives that one "
+                        "an address of its own; then switch on the others.",
+                        is_can ? "" : fmt::format("--address {} ", address))};
+}
+
 std::vector<Finding> why(const Condition& condition) {
     return Facts(condition).judge();
 }

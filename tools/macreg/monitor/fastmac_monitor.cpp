@@ -1,6 +1,7 @@
 // FastMAC and FlexMAC on a line (001 §5.2).
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "macreg/monitor.h"
@@ -130,6 +131,11 @@ class FastMacMonitor final : public Monitor {
         flush(received_, true);
     }
     std::vector<MonitorEvent> take() override { return std::exchange(events_, {}); }
+    std::optional<base::Instant> since() const override {
+        if (sent_.empty() && received_.empty()) return std::nullopt;
+        if (sent_.empty() || received_.empty()) return sent_.empty() ? received_.at : sent_.at;
+        return std::min(sent_.at, received_.at);
+    }
 
   private:
     struct Stray {

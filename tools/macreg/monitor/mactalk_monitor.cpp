@@ -1,7 +1,9 @@
 // MacTalk on a line (001 §5.1): each request with its answer.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 #include "base/bytes.h"
@@ -50,6 +52,15 @@ class MactalkMonitor final : public Monitor {
         give_up();
     }
     std::vector<MonitorEvent> take() override { return std::exchange(events_, {}); }
+    std::optional<base::Instant> since() const override {
+        std::optional<base::Instant> first;
+        if (pending_) first = pending_->event.at;
+        for (const FrameCutter& cutter : cutters_) {
+            const auto begun = cutter.since();
+            if (begun && (!first || *begun < *first)) first = begun;
+        }
+        return first;
+    }
 
   private:
     struct Pending {
@@ -236,6 +247,18 @@ class MactalkMonitor final : public Monitor {
 
 std::unique_ptr<Monitor> make_mactalk_monitor(const MonitorOptions& options) {
     return std::make_unique<MactalkMonitor>(options);
+}
+
+std::vector<MonitorEvent> InOrder::take(Monitor& monitor) {
+    for (MonitorEvent& event : monitor.take()) waiting_.push_back(std::move(event));
+    std::stable_sort(waiting_.begin(), waiting_.end(),
+                     [](const MonitorEvent& a, const MonitorEvent& b) { return a.at < b.at; });
+    const auto since = monitor.since();
+    const auto end = std::find_if(waiting_.begin(), waiting_.end(),
+                                  [&](const MonitorEvent& event) { return since && event.at > *since; });
+    std::vector<MonitorEvent> ready(std::make_move_iterator(waiting_.begin()), std::make_move_iterator(end));
+    waiting_.erase(waiting_.begin(), end);
+    return ready;
 }
 
 std::string line_of(const MonitorEvent& event, base::Instant start) {

@@ -81,6 +81,11 @@ class MidiMonitor final : public Monitor {
         tell_noise();
     }
     std::vector<MonitorEvent> take() override { return std::exchange(events_, {}); }
+    std::optional<base::Instant> since() const override {
+        if (asked_) return asked_->at;
+        const bool noise = !held_.empty() || !unsent_.empty() || !received_.empty();
+        return noise ? std::optional(last_) : std::nullopt;
+    }
 
   private:
     struct Asked {

@@ -26,7 +26,7 @@ namespace {
 
 constexpr int kFiner = 3;
 constexpr double kFontLine = 8.5;  // of the library's letters, in its own steps: as high as a line of size 1
-constexpr std::size_t kColours = 3;
+constexpr std::size_t kChannels = 3;
 
 class Canvas {
   public:
@@ -104,8 +104,9 @@ class Canvas {
             stb_easy_font_print(0, 0, text.data(), nullptr, quads.data(), static_cast<int>(quads.size()));
         const double scale = words.size / kFontLine * kFiner;
         const double width = stb_easy_font_width(text.data()) * scale;
-        using Anchor = Picture::Words::Anchor;
-        const double share = words.anchor == Anchor::start ? 0 : words.anchor == Anchor::middle ? 0.5 : 1;
+        const double share = words.anchor == Picture::Words::Anchor::start    ? 0
+                             : words.anchor == Picture::Words::Anchor::middle ? 0.5
+                                                                              : 1;
         const double left = words.at.x * kFiner - share * width;
         const double top = words.at.y * kFiner - 7 * scale;  // the library's baseline
         for (int i = 0; i < count; ++i) {
@@ -140,8 +141,8 @@ std::string to_png(const Picture& picture) {
     const auto append = [](void* to, void* data, int size) {
         static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
     };
-    stbi_write_png_to_func(append, &out, picture.width, picture.height, kColours, pixels.data(),
-                           picture.width * static_cast<int>(kColours));
+    stbi_write_png_to_func(append, &out, picture.width, picture.height, kChannels, pixels.data(),
+                           picture.width * static_cast<int>(kChannels));
     return out;
 }
 

@@ -26,8 +26,9 @@ std::string escaped(const std::string& text) {
 }
 
 const char* anchor_words(Picture::Words::Anchor anchor) {
-    using Anchor = Picture::Words::Anchor;
-    return anchor == Anchor::start ? "start" : anchor == Anchor::middle ? "middle" : "end";
+    return anchor == Picture::Words::Anchor::start    ? "start"
+           : anchor == Picture::Words::Anchor::middle ? "middle"
+                                                      : "end";
 }
 
 }  // namespace

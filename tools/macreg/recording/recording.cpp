@@ -17,7 +17,7 @@ constexpr std::string_view kFirstLine = "# macreg recording 1";
 constexpr std::string_view kTime = "time_s";
 constexpr std::size_t kMostColumns = 64;
 
-std::string_view trimmed(std::string_view text) {
+std::string_view trimmed_cell(std::string_view text) {
     while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
     while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r'))
         text.remove_suffix(1);
@@ -28,7 +28,7 @@ std::vector<std::string_view> split(std::string_view line, char by) {
     std::vector<std::string_view> parts;
     for (;;) {
         const std::size_t end = line.find(by);
-        parts.push_back(trimmed(line.substr(0, end)));
+        parts.push_back(trimmed_cell(line.substr(0, end)));
         if (end == std::string_view::npos) return parts;
         line.remove_prefix(end + 1);
     }
@@ -49,7 +49,7 @@ class Reader {
     RecordingReading read() {
         while (result_.error.empty() && !text_.empty()) {
             const std::size_t end = std::min(text_.find('\n'), text_.size());
-            take(trimmed(text_.substr(0, end)));
+            take(trimmed_cell(text_.substr(0, end)));
             text_.remove_prefix(std::min(end + 1, text_.size()));
         }
         if (result_.error.empty() && !header_)
@@ -64,7 +64,7 @@ class Reader {
     void take(std::string_view line) {
         ++line_;
         if (line.empty()) return;
-        if (line.front() == '#') return comment(trimmed(line.substr(1)));
+        if (line.front() == '#') return comment(trimmed_cell(line.substr(1)));
         if (header_)
             row(line);
         else
@@ -74,7 +74,7 @@ class Reader {
     void comment(std::string_view line) {
         const auto starts = [&](std::string_view key) {
             if (!line.starts_with(key)) return false;
-            line = trimmed(line.substr(key.size()));
+            line = trimmed_cell(line.substr(key.size()));
             return true;
         };
         Recording& to = result_.recording;
@@ -109,7 +109,7 @@ class Reader {
                     return fail(fmt::format("'{}': the unit's ] is missing", names[i]));
                 unit = names[i].substr(open + 1, names[i].size() - open - 2);
             }
-            const std::string_view name = trimmed(names[i].substr(0, open));
+            const std::string_view name = trimmed_cell(names[i].substr(0, open));
             if (name.empty()) return fail(fmt::format("column {} has no name", i + 1));
             result_.recording.columns.push_back({std::string(name), std::string(unit), {}});
         }

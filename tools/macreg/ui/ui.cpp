@@ -8,6 +8,7 @@
 #include "macreg/change.h"
 #include "macreg/monitor.h"
 #include "macreg/recorder.h"
+#include "macreg/service.h"
 #include "macreg/values.h"
 #include "macreg/words.h"
 #include "registers/gateway.h"
@@ -131,6 +132,11 @@ class App {
                 return try_to([&] { write(*wish.reg, wish.raw); });
             case Wish::Kind::record:
                 return try_to([&] { record(wish.text); });
+            case Wish::Kind::save:
+            case Wish::Kind::reset:
+            case Wish::Kind::enter_safe:
+            case Wish::Kind::exit_safe:
+                return try_to([&] { serve(wish.kind); });
         }
     }
 
@@ -160,6 +166,32 @@ class App {
             return model_.tell(fmt::format("not taken, {} is {}: {}", reg.name, now, outcome.why), true);
         model_.tell(fmt::format("written; {} now reads {}{}{}", reg.name, now,
                                 outcome.remark.empty() ? "" : "; ", outcome.remark));
+    }
+
+    void serve(Wish::Kind kind) {
+        model_.tell("under way ...");
+        show();
+        Service service(*motor_, [] { return Terminal::goes_on(); });
+        try {
+            std::vector<std::string> changed;
+            if (kind == Wish::Kind::save) changed = service.save();
+            if (kind == Wish::Kind::reset) service.reset();
+            if (kind == Wish::Kind::enter_safe) service.enter_safe();
+            if (kind == Wish::Kind::exit_safe) service.exit_safe();
+            model_.store(motor_->read_block(model_.rows()));
+            const std::string mode = mode_text(options_.model, *model_.raw_of(registers::MODE_REG));
+            if (changed.empty()) return model_.tell(fmt::format("done; the motor is in {}", mode));
+            model_.tell(fmt::format("the motor is in {}, but after the reset these have other values: {}",
+                                    mode, fmt::join(changed, ", ")),
+                        true);
+        } catch (const NotDone& error) {
+            model_.tell(fmt::format("{}; {}", error.what(), service.left_behind()), true);
+        } catch (const mactalk_client::Interrupted&) {
+            model_.tell(service.left_behind(), true);
+        } catch (const LineError&) {
+            model_.tell(service.left_behind(), true);
+            throw;
+        }
     }
 
     void record(const std::string& text) {
@@ -221,7 +253,8 @@ class App {
         if (motor_ == nullptr) return reconnect();
         if (model_.prompt().kind != Prompt::Kind::none) return;
         try_to([&] {
-            const Register* state[] = {motor_->find(registers::MODE_REG), motor_->find(registers::ERR_STAT)};
+            const Register* state[] = {motor_->find(registers::MODE_REG), motor_->find(registers::ERR_STAT),
+                                       motor_->find(registers::STARTMODE)};
             if (!model_.is_live() || !model_.trouble().empty() || ++turn_ % 2 == 0) {
                 model_.store(motor_->read_block(state));
             } else {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "macreg/change.h"
+#include "macreg/mactalk_names.h"
 #include "macreg/values.h"
 #include "registers/convert.h"
 
@@ -16,6 +17,8 @@ using registers::Register;
 
 namespace {
 
+constexpr std::int64_t kInit = 0;
+constexpr std::int64_t kSafe = 15;
 constexpr std::size_t kMostLines = 200;
 constexpr std::size_t kLongestInput = 60;
 
@@ -146,6 +149,19 @@ Wish UiModel::browse_letter(char letter) {
         case 'z':
             zoomed_ = !zoomed_;
             break;
+        case 'v':
+            numbers_ = !numbers_;
+            break;
+        case 'F':
+            ask_service(Wish::Kind::save);
+            break;
+        case 'X':
+            ask_service(Wish::Kind::reset);
+            break;
+        case 'P':
+            ask_service(raw_of(registers::MODE_REG) == kSafe ? Wish::Kind::exit_safe
+                                                             : Wish::Kind::enter_safe);
+            break;
         case '?':
         case 'h':
             help_ = true;
@@ -159,6 +175,8 @@ Wish UiModel::browse_letter(char letter) {
 void UiModel::move(int steps) {
     if (panel_ == Panel::bits) {
         field_ = stepped(field_, steps, fields().size());
+    } else if (panel_ == Panel::samples && numbers_) {
+        sample_ = stepped(sample_, steps, recording_.size());
     } else if (panel_ == Panel::samples) {
         curve_ = stepped(curve_, steps, recording_.columns.size());
     } else {
@@ -178,6 +196,26 @@ void UiModel::ask_write() {
         return ask(Prompt::Kind::write, fmt::format("{}.{} := ", reg.name, fields()[field_].name));
     }
     ask(Prompt::Kind::write, fmt::format("{} ({}) := ", reg.name, choice_text(reg, model_)));
+}
+
+/// What acts on the whole motor wants a typed yes, and a motor that stands.
+void UiModel::ask_service(Wish::Kind kind) {
+    const auto mode = raw_of(registers::MODE_REG);
+    if (!mode) return tell("the motor's mode has not been read yet", true);
+    const Register& mode_reg = *registers::find(model_, registers::MODE_REG);
+    if (*mode != kInit && *mode != kSafe)
+        return tell(fmt::format("the motor is in {}: stop it first (w at MODE_REG, INIT_MODE)",
+                                value_text(mode_reg, model_, *mode)),
+                    true);
+    const auto start = raw_of(registers::STARTMODE);
+    const std::string starts =
+        start ? "starts in " + value_text(mode_reg, model_, *start & 0xFF) : std::string("starts anew");
+    const std::string what = kind == Wish::Kind::save         ? "save all memory to flash; resets, " + starts
+                             : kind == Wish::Kind::reset      ? "reset, unsaved values are lost; " + starts
+                             : kind == Wish::Kind::enter_safe ? "SAFE_MODE: passive, deaf to FastMAC"
+                                                              : "leave SAFE_MODE for INIT_MODE";
+    pending_ = {.kind = kind};
+    ask(Prompt::Kind::confirm, what + "; type yes: ");
 }
 
 Wish UiModel::answer_prompt(KeyPress key) {
@@ -227,6 +265,18 @@ Wish UiModel::finish_prompt() {
     return {};
 }
 
+/// As far as they have been read.
+RawValues UiModel::known_limits() const {
+    RawValues known;
+    for (const std::uint8_t number :
+         {registers::MIN_P_IST, registers::MAX_P_IST, registers::P_IST, registers::ERR_STAT}) {
+        const auto value = raw_of(number);
+        if (!value) return {};
+        known[number] = *value;
+    }
+    return known;
+}
+
 Wish UiModel::finish_write() {
     const Register& reg = selected();
     Wish wish{.kind = Wish::Kind::write, .reg = &reg};
@@ -258,7 +308,8 @@ Wish UiModel::finish_write() {
     }
     prompt_ = {};
     const bool overwritten = reg.access == registers::Access::read_only;
-    const std::string harm = danger(model_, reg, wish.raw);
+    const std::string limits = limits_danger(known_limits(), {{reg.number, wish.raw}});
+    const std::string harm = limits.empty() ? danger(model_, reg, wish.raw) : limits;
     if (harm.empty() && !overwritten) return wish;
     pending_ = wish;
     const std::string value = value_text(reg, model_, wish.raw);
@@ -276,7 +327,8 @@ Wish UiModel::finish_confirm() {
     prompt_ = {};
     const Wish wish = std::exchange(pending_, {});
     if (yes) return wish;
-    tell("not confirmed, nothing was written");
+    tell(wish.kind == Wish::Kind::write ? "not confirmed, nothing was written"
+                                        : "not confirmed, nothing was done");
     return {};
 }
 
@@ -298,7 +350,7 @@ void UiModel::search(bool next) {
     const auto name = [](const Register& reg) { return fmt::format("{} {}", reg.number, reg.name); };
     const auto title = [&](const Register& reg) {
         const auto* details = registers::details_of(model_, reg.number);
-        return details != nullptr ? std::string(details->title) : std::string();
+        return fmt::format("{} {}", details != nullptr ? details->title : "", mactalk_name(reg));
     };
     if (look(name) || look(title)) return tell("");
     if (!next) row_ = row_before_search_;
@@ -323,6 +375,7 @@ void UiModel::set_trouble(std::string trouble) {
 void UiModel::set_recording(Recording recording) {
     recording_ = std::move(recording);
     curve_ = stepped(curve_, 0, recording_.columns.size());
+    sample_ = 0;
 }
 
 void UiModel::set_exchange(std::string sent, std::string received, const std::string& line) {

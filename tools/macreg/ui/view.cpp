@@ -220,6 +220,7 @@ class Screen {
             about += fmt::format(" {} of {}, left and right", model_.curve() + 1, recording.columns.size());
         about += fmt::format("; {} samples in {:.3f} s", recording.size(), recording.time_s.back());
         box = heading(Panel::samples, box, about);
+        if (model_.shows_numbers()) return draw_numbers(box, recording);
         const int width = box.columns - kLabelColumns - 1;
         const auto rows = text_curve(column.values, width, box.rows, *least, *most, terminal_.is_utf8());
         for (int i = 0; i < static_cast<int>(rows.size()); ++i)
@@ -227,6 +228,21 @@ class Screen {
                 colour(kPairCurve, A_NORMAL));
         cell(box.top, box.left, kLabelColumns - 1, fmt::format("{:>9.6g}", *most));
         cell(box.top + box.rows - 1, box.left, kLabelColumns - 1, fmt::format("{:>9.6g}", *least));
+    }
+
+    void draw_numbers(Box box, const Recording& recording) {
+        const auto line = [&](int y, const std::string& time, const auto& text_of) {
+            std::string text = fmt::format("{:>9}", time);
+            for (const auto& column : recording.columns) text += fmt::format(" {:>12}", text_of(column));
+            cell(box.top + y, box.left, box.columns, text);
+        };
+        line(0, "s", [](const auto& column) { return column.name; });
+        for (int y = 1; y < box.rows; ++y) {
+            const std::size_t i = model_.sample() + static_cast<std::size_t>(y) - 1;
+            if (i >= recording.size()) break;
+            line(y, fmt::format("{:.4f}", recording.time_s[i]),
+                 [&](const auto& column) { return fmt::format("{:.8g}", column.values[i]); });
+        }
     }
 
     void draw_line(Box box) {
@@ -276,10 +292,12 @@ class Screen {
             "  a                               read all the time, or only by r",
             "  w, Enter                        write: a number with or without unit, 0x1F,",
             "                                  a name such as P_MODE; in the bits panel one bit.",
-            "                                  It is read back. Registers marked ! ask first.",
+            "                                  It is read back. What is marked ! asks first.",
             "  s                               record samples and show them",
             "  c                               clear the samples; the motor does not notice",
             "  left, right                     the next of the recorded registers",
+            "  v                               the samples as numbers, or as a curve",
+            "  F   X   P                       save to flash; reset; SAFE_MODE, in and out; all ask",
             "  /   n                           search names and titles; the next one",
             "  z, Esc                          the panel on the whole screen, and back",
             "  q                               quit; the motor stays as it is",

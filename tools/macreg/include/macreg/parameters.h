@@ -39,7 +39,8 @@ ParameterSet read_everything(Motor& motor, const Received& received, const std::
 std::string header_text(Motor& motor, std::string_view model_name, std::string_view date);
 /// A line of the file: "V_SOLL = 762.94 rpm   # 5, raw 1600: ...". What is no parameter becomes a comment.
 std::string value_line(registers::Model model, const registers::Register& reg, std::int64_t raw);
-/// What stands at the end of a whole file. One without it counts as incomplete: it may be cut short.
+/// What stands at the end of a whole file. One without it, or with another number of registers, counts as
+/// incomplete.
 std::string end_text(std::size_t registers);
 /// What stands at the end of a file that is not whole.
 std::string incomplete_text(std::string_view why);

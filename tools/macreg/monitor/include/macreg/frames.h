@@ -38,6 +38,10 @@ class FrameCutter {
     /// Nothing more will come.
     void finish();
     std::vector<Frame> take();
+    /// Since when something is under way.
+    std::optional<base::Instant> since() const {
+        return times_.empty() ? std::nullopt : std::optional(times_.front());
+    }
 
   private:
     enum class State : std::uint8_t { hunting, message, broken };

@@ -41,8 +41,19 @@ class Monitor {
     virtual void pass(base::Instant now) = 0;
     /// The end of the line: whatever is under way is told.
     virtual void finish() = 0;
-    /// In the order in which they are complete.
+    /// In the order in which they are complete: a request with its answer, what came meanwhile before it.
     virtual std::vector<MonitorEvent> take() = 0;
+    /// Since when something is under way: no event that is still to come is older.
+    virtual std::optional<base::Instant> since() const = 0;
+};
+
+/// What a monitor tells, by the time: an event waits until no older one can come.
+class InOrder {
+  public:
+    std::vector<MonitorEvent> take(Monitor& monitor);
+
+  private:
+    std::vector<MonitorEvent> waiting_;
 };
 
 struct MonitorOptions {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "macreg/limits.h"
 #include "macreg/motor.h"
 #include "macreg/recording.h"
 #include "registers/details.h"
@@ -45,7 +46,18 @@ struct KeyPress {
 
 /// What a key asks of the line.
 struct Wish {
-    enum class Kind : std::uint8_t { none, read, read_all, write, record, quit } kind = Kind::none;
+    enum class Kind : std::uint8_t {
+        none,
+        read,
+        read_all,
+        write,
+        record,
+        save,  ///< to the flash; the motor resets
+        reset,
+        enter_safe,
+        exit_safe,
+        quit,
+    } kind = Kind::none;
     const registers::Register* reg = nullptr;
     std::int64_t raw = 0;
     std::string text{};  ///< record: "P_IST,V_IST slow"
@@ -96,6 +108,9 @@ class UiModel {
     const std::string& progress() const { return progress_; }
     const Recording& recording() const { return recording_; }
     std::size_t curve() const { return curve_; }
+    /// The samples as a table, from this row on.
+    bool shows_numbers() const { return numbers_; }
+    std::size_t sample() const { return sample_; }
     const std::string& sent() const { return sent_; }
     const std::string& received() const { return received_; }
     const std::deque<std::string>& lines() const { return lines_; }
@@ -111,12 +126,14 @@ class UiModel {
     Wish browse_letter(char letter);
     Wish answer_prompt(KeyPress key);
     Wish finish_prompt();
+    RawValues known_limits() const;
     Wish finish_write();
     Wish finish_confirm();
     void move(int steps);
     void search(bool next);
     void ask(Prompt::Kind kind, std::string label, std::string text = {});
     void ask_write();
+    void ask_service(Wish::Kind kind);
 
     registers::Model model_;
     std::vector<const registers::Register*> rows_;
@@ -124,6 +141,8 @@ class UiModel {
     std::size_t row_ = 0;
     std::size_t field_ = 0;
     std::size_t curve_ = 0;
+    std::size_t sample_ = 0;
+    bool numbers_ = false;
     std::size_t page_ = 10;
     Panel panel_ = Panel::parameters;
     bool zoomed_ = false;

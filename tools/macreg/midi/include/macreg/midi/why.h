@@ -26,6 +26,9 @@ struct Condition {
 /// 200 ms apart.
 Condition read_condition(Module& module);
 
+/// Two modules answer to one address. Nothing else can be judged then.
+Finding same_address(std::uint8_t address, bool is_can);
+
 /// What to mend first in front. Pure; never empty.
 std::vector<Finding> why(const Condition& condition);
 
