@@ -32,6 +32,29 @@ void emit_all(const std::vector<LoweredTerm>& terms, const Plan& plan, Compilati
     }
 }
 
+/// What is sent takes a term each, and what does not send still takes one; branches may share them.
+std::size_t fewest_terms(const Plan& plan) {
+    std::size_t sum = 0;
+    for (const StepPlan& step : plan.steps) {
+        std::size_t most = 0;
+        for (const Rule& rule : step.rules) most = std::max({most, std::size_t{1}, rule.action.sends.size()});
+        sum += most + step.terms.size();
+    }
+    return sum;
+}
+
+/// Said before the terms are made, which would take long.
+void check_fewest_terms(const Plan& plan, Span span, Report& report) {
+    const std::size_t fewest = fewest_terms(plan);
+    std::size_t written = 0;
+    for (const StepPlan& step : plan.steps) written += step.terms.size();
+    if (fewest == written || fewest < kTermsEverywhere) return;
+    report.error(
+        "E086", span,
+        fmt::format("at least {} terms: a gateway need not hold more than {}", fewest + 1, kTermsEverywhere),
+        "simplify conditions or join steps");
+}
+
 /// The end term counts too. TERMs alone may be as many as one likes: such a table exists already.
 void check_length(std::size_t in_steps, const Plan& plan, Span span, Report& report) {
     const bool has_end = !plan.terms.empty() && sequencer::is_end(plan.terms.back().bytes);
@@ -77,6 +100,7 @@ Compilation compile(std::string_view source) {
     for (const StepPlan& step : plan.steps) result.steps.push_back({step.number, step.span, step.outputs});
     std::sort(result.steps.begin(), result.steps.end(),
               [](const StepOrigin& a, const StepOrigin& b) { return a.number < b.number; });
+    if (syntax_sound && !checks.has_errors()) check_fewest_terms(plan, program.name.span, checks);
     if (syntax_sound && !checks.has_errors()) {
         check_motor_state(plan, result.symbols.motor, checks);
         check_invisible_limits(plan, result.symbols.motor, checks);

@@ -14,33 +14,31 @@
 namespace nplc::seqc::cli {
 namespace {
 
-using Options = BuildOptions;
-
 constexpr const char* kJsonHelp = "Print the diagnostics as JSON on standard output";
 
-std::string written(const Options& options, const BuildTargets& targets, const Compilation& compilation,
+std::string written(const BuildOptions& options, const BuildTargets& targets, const Compilation& compilation,
                     const std::string& source) {
     if (!has_room(targets, compilation.table.size()))
         return fmt::format("--base-address {}: the table would end beyond 4 GiB", options.base_address);
     return whole_files::write_files(files_of(targets, options, compilation, source));
 }
 
-int problem(const Options& options, const std::string& message) {
+int problem(const BuildOptions& options, const std::string& message) {
     return options.json ? print_json(problem_document(options.source, message), kUsageOrFile)
                         : file_problem(message);
 }
 
-int report(const Options& options, const Compilation& compilation, const std::string& source) {
+int report(const BuildOptions& options, const Compilation& compilation, const std::string& source) {
     const int exit_code = compilation.ok ? kOk : kProgramHasErrors;
     if (options.json) return print_json(diagnostics_document(compilation, source, options.source), exit_code);
     print_diagnostics(compilation, source, options.source);
     return exit_code;
 }
 
-int build(const Options& options) {
+int build(const BuildOptions& options) {
     const BuildTargets targets = targets_of(options);
     if (!targets.problem.empty()) return problem(options, targets.problem);
-    const auto source = whole_files::read_file(options.source);
+    const auto source = whole_files::read_text(options.source);
     if (!source.error.empty()) return problem(options, source.error);
     const Compilation compilation = compile(source.text);
     const std::string unwritten =
@@ -54,8 +52,8 @@ int build(const Options& options) {
     return std::fflush(stdout) == 0 ? exit_code : file_problem("cannot write to standard output");
 }
 
-int check(const Options& options) {
-    const auto source = whole_files::read_file(options.source);
+int check(const BuildOptions& options) {
+    const auto source = whole_files::read_text(options.source);
     if (!source.error.empty()) return problem(options, source.error);
     return report(options, compile(source.text), source.text);
 }
@@ -63,7 +61,7 @@ int check(const Options& options) {
 }  // namespace
 
 void add_build(arguments::App& app, int& exit_code) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<BuildOptions>();
     arguments::App& command = *app.add_subcommand("build", "Compile a program into a table");
     command.add_option("program", options->source, "The program, F.seq")->required();
     command.add_option("-o,--output", options->output,
@@ -82,7 +80,7 @@ void add_build(arguments::App& app, int& exit_code) {
 }
 
 void add_check(arguments::App& app, int& exit_code) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<BuildOptions>();
     arguments::App& command = *app.add_subcommand("check", "Report errors and warnings, write nothing");
     command.add_option("program", options->source, "The program, F.seq")->required();
     command.add_flag("--json", options->json, kJsonHelp);

@@ -10,6 +10,7 @@
 #include "formats/symbols_format.h"
 #include "host/paths.h"
 #include "intel_hex/intel_hex.h"
+#include "meaning/model.h"
 #include "seqc/symbol_file.h"
 #include "sequencer/term.h"
 
@@ -17,8 +18,6 @@ namespace nplc::seqc::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kMostSteps = 61;
 
 /// Decimal, or hexadecimal with 0x.
 std::optional<std::uint32_t> address_of(std::string_view text) {
@@ -138,7 +137,7 @@ std::string summary(const BuildTargets& targets, const Compilation& compilation)
     const bool has_power_up = compilation.symbols.steps[0] == "POWER_UP";
     if (!compilation.steps.empty()) {
         const std::size_t named = compilation.steps.size() - (has_power_up ? 1 : 0);
-        text += fmt::format("{} of {}, ", counted(named, "step"), kMostSteps);
+        text += fmt::format("{} of {}, ", counted(named, "step"), has_power_up ? kMostSteps : kMostSteps + 1);
     }
     const std::size_t bytes = compilation.table.size();
     text += fmt::format("{}, {} bytes", counted(bytes / sequencer::kTermBytes, "term"), bytes);

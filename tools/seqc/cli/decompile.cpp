@@ -13,13 +13,13 @@
 namespace nplc::seqc::cli {
 namespace {
 
-struct Options {
+struct DecompileArguments {
     InputFile table;
     std::string output;
     std::string motor;
 };
 
-int decompile(const Options& options) {
+int decompile(const DecompileArguments& options) {
     DecompileOptions wanted;
     wanted.origin = host::name_of(host::path_of(options.table.file).filename());
     if (!options.motor.empty()) {
@@ -41,7 +41,7 @@ int decompile(const Options& options) {
 }  // namespace
 
 void add_decompile(arguments::App& app, int& exit_code) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<DecompileArguments>();
     arguments::App& command = *app.add_subcommand(
         "decompile", "Turn a table into a readable program that compiles to the same bytes");
     command

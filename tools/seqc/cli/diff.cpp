@@ -12,14 +12,14 @@ namespace {
 
 constexpr int kDifferent = 1;
 
-struct Options {
+struct DiffArguments {
     std::string before;
     std::string now;
     bool json = false;
 };
 
 /// A program with errors is trouble here: 1 says "different".
-int diff(const Options& options) {
+int diff(const DiffArguments& options) {
     const Input before = read_for_view({options.before, {}});
     const Input now = before.exit_code == kOk ? read_for_view({options.now, {}}) : Input();
     if (before.exit_code != kOk || now.exit_code != kOk) return kUsageOrFile;
@@ -32,7 +32,7 @@ int diff(const Options& options) {
 }  // namespace
 
 void add_diff(arguments::App& app, int& exit_code) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<DiffArguments>();
     arguments::App& command = *app.add_subcommand(
         "diff", "What B does otherwise than A, in words. Exit code 0: nothing, 1: something");
     command.add_option("A", options->before, "The older program or table")->required();

@@ -10,12 +10,12 @@
 namespace nplc::seqc::cli {
 namespace {
 
-struct Options {
+struct DisasmArguments {
     InputFile table;
     std::string output;
 };
 
-int disasm(const Options& options) {
+int disasm(const DisasmArguments& options) {
     const Input input = read_input(options.table);
     if (input.exit_code != kOk) return input.exit_code;
     if (!options.output.empty() && is_same_file(options.output, input.file))
@@ -28,7 +28,7 @@ int disasm(const Options& options) {
 }  // namespace
 
 void add_disasm(arguments::App& app, int& exit_code) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<DisasmArguments>();
     arguments::App& command =
         *app.add_subcommand("disasm", "Print a table as a program of TERM lines, each explained");
     command

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct ExplainArguments {
     std::string code;
     bool json = false;
 };
@@ -76,7 +76,7 @@ std::string nearest_codes(std::string_view wanted, std::vector<CodeInfo> all) {
     return fmt::format("; near it are {}, {} and {}", all[0].code, all[1].code, all[2].code);
 }
 
-int unknown(const Options& options, const std::vector<CodeInfo>& all) {
+int unknown(const ExplainArguments& options, const std::vector<CodeInfo>& all) {
     const std::string problem = fmt::format("there is no code '{}'{} (seqc explain lists all)",
                                             options.code.substr(0, 40), nearest_codes(options.code, all));
     if (!options.json) return file_problem(problem);
@@ -98,7 +98,7 @@ int list(const std::vector<CodeInfo>& all, bool json) {
     return print_or_write(text, {});
 }
 
-int explain(const Options& options) {
+int explain(const ExplainArguments& options) {
     const std::vector<CodeInfo> all = catalog();
     if (options.code.empty()) return list(all, options.json);
     const auto found = std::find_if(all.begin(), all.end(),
@@ -110,7 +110,7 @@ int explain(const Options& options) {
 }  // namespace
 
 void add_explain(arguments::App& app, int& exit_code) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ExplainArguments>();
     arguments::App& command = *app.add_subcommand(
         "explain", "Tell what an error or warning means, with a wrong and a right program");
     command.add_option("code", options->code, "Such as E012 or W004; without one all are listed");

@@ -13,7 +13,7 @@
 namespace nplc::seqc::cli {
 namespace {
 
-struct Options {
+struct FmtArguments {
     std::vector<std::string> programs;
     std::string output;
     bool in_place = false;
@@ -35,7 +35,7 @@ Program read_and_format(const std::string& file) {
     Program program;
     program.name = is_standard_input(file) ? "<stdin>" : file;
     whole_files::FileText text =
-        is_standard_input(file) ? whole_files::read_standard_input() : whole_files::read_file(file);
+        is_standard_input(file) ? whole_files::read_standard_input() : whole_files::read_text(file);
     if (!text.error.empty()) {
         program.exit_code = file_problem(text.error);
         return program;
@@ -67,7 +67,7 @@ int list_if_different(const Program& program) {
     return kProgramHasErrors;
 }
 
-std::string usage_problem(const Options& options) {
+std::string usage_problem(const FmtArguments& options) {
     const std::vector<std::string>& files = options.programs;
     const bool reads_input = std::any_of(files.begin(), files.end(), is_standard_input);
     if (options.in_place && reads_input)
@@ -81,7 +81,7 @@ std::string usage_problem(const Options& options) {
     return {};
 }
 
-int format_files(const Options& options) {
+int format_files(const FmtArguments& options) {
     if (const std::string problem = usage_problem(options); !problem.empty()) return file_problem(problem);
     int exit_code = kOk;
     for (const std::string& file : options.programs) {
@@ -100,7 +100,7 @@ int format_files(const Options& options) {
 }  // namespace
 
 void add_fmt(arguments::App& app, int& exit_code) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<FmtArguments>();
     arguments::App& command =
         *app.add_subcommand("fmt", "Lay a program out in the one style, comments included");
     command.add_option("programs", options->programs, "The programs, F.seq; - is standard input")->required();

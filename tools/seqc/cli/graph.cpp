@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array kFormats{"svg", "dot", "pdf", "png"};
 
-struct Options {
+struct GraphArguments {
     InputFile table;
     std::string output;
     std::string format;
@@ -27,14 +27,14 @@ bool is_format(const std::string& name) {
 }
 
 /// Said with --format, or by the output's name; "" if that says nothing known.
-std::string format_of(const Options& options) {
+std::string format_of(const GraphArguments& options) {
     if (!options.format.empty()) return options.format;
     if (options.output.empty() || options.output == "-") return "svg";
     const std::string extension = host::name_of(host::path_of(options.output).extension());
     return !extension.empty() && is_format(extension.substr(1)) ? extension.substr(1) : "";
 }
 
-int graph(const Options& options) {
+int graph(const GraphArguments& options) {
     const std::string format = format_of(options);
     if (format.empty()) {
         return file_problem(
@@ -57,7 +57,7 @@ int graph(const Options& options) {
 }  // namespace
 
 void add_graph(arguments::App& app, int& exit_code) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<GraphArguments>();
     arguments::App& command = *app.add_subcommand("graph", "Draw a program or table, with Graphviz");
     command.add_option("file", options->table.file, "A program, F.seq, or a table")->required();
     add_symbols_option(command, options->table);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <span>
 
@@ -34,6 +35,14 @@ void compile_into(Input& input, const std::string& text) {
     input.program = std::move(compilation);
 }
 
+/// A table has zeros, of its end term at least.
+bool is_text(const std::string& text) {
+    return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return byte == '\t' || byte == '\r' || byte == '\n' || (byte >= ' ' && byte != 0x7F);
+    });
+}
+
 /// The bytes up to and including the end term; nothing if there is none.
 std::size_t table_length(std::span<const std::uint8_t> bytes) {
     for (std::size_t at = 0; at + kTermBytes <= bytes.size(); at += kTermBytes) {
@@ -56,6 +65,11 @@ bool take_bytes(Input& input, const std::string& text, std::vector<std::uint8_t>
 void read_table_into(Input& input, const std::string& text) {
     std::vector<std::uint8_t> bytes;
     if (!take_bytes(input, text, bytes)) return;
+    if (is_text(text) && !intel_hex::is_file(input.file, text)) {
+        input.exit_code = file_problem(
+            fmt::format("{}: is a text and no sequence table; a program's name ends in .seq", input.file));
+        return;
+    }
     const std::size_t length = table_length(bytes);
     if (length == 0) {
         input.exit_code = file_problem(fmt::format(
@@ -95,7 +109,8 @@ void read_symbols_into(Input& input, const std::string& asked_for) {
 Input read_input(const InputFile& named) {
     Input input;
     input.file = named.file;
-    const whole_files::FileText text = whole_files::read_file(named.file);
+    const whole_files::FileText text =
+        is_program(named.file) ? whole_files::read_text(named.file) : whole_files::read_file(named.file);
     if (!text.error.empty()) {
         input.exit_code = file_problem(text.error);
     } else if (is_program(named.file)) {

@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
         "Exit codes: 0 done (warnings do not count), 1 the program has errors and nothing was written,\n"
         "2 wrong usage or a file that cannot be read, written or understood.\n"
         "`seqc explain E012` tells more about a code.\n"
-        "The language is described in tools/seqc/README.md; examples are in tools/seqc/examples.");
+        "The language is described in tools/seqc/LANGUAGE.md; examples are in tools/seqc/examples.");
     add_colour_option(app);
     int exit_code = kOk;
     add_build(app, exit_code);
@@ -59,6 +59,8 @@ int main(int argc, char** argv) {
             return file_problem(fmt::format("{} (see seqc --help)", outcome.error));
     } catch (const std::filesystem::filesystem_error& error) {
         return file_problem(error.what());
+    } catch (const std::bad_alloc&) {
+        return file_problem("not enough memory for a file of this size");
     } catch (const std::system_error& error) {
         return file_problem(fmt::format("cannot write to standard output: {}", error.code().message()));
     }

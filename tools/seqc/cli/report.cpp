@@ -11,7 +11,7 @@
 namespace nplc::seqc::cli {
 namespace {
 
-struct Options {
+struct ReportArguments {
     InputFile table;
     std::string output;
     bool json = false;
@@ -19,7 +19,7 @@ struct Options {
     std::uint32_t baud = 19'200;
 };
 
-int report(const Options& options) {
+int report(const ReportArguments& options) {
     const Input input = read_for_view(options.table);
     if (input.exit_code != kOk) return input.exit_code;
     if (!options.output.empty() && is_same_file(options.output, options.table.file))
@@ -35,7 +35,7 @@ int report(const Options& options) {
 void add_report(arguments::App& app, int& exit_code) {
     constexpr std::uint32_t kSlowest = 300;
     constexpr std::uint32_t kFastest = 4'000'000;
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ReportArguments>();
     arguments::App& command = *app.add_subcommand(
         "report", "What a program or table uses, and how long its switches keep the motor's line");
     command.add_option("file", options->table.file, "A program, F.seq, or a table")->required();

@@ -3,7 +3,7 @@
 namespace nplc::seqc::codes {
 namespace {
 
-constexpr CodeInfo kAll[] = {
+constexpr CodeInfo kCommandsCodes[] = {
     {"E050", "a command with the wrong registers",
      R"(INIT, VELOCITY and POSITION each take the registers to select, at most one of a kind: POSITION(P2, V1, A1). Those that can
 be selected are P1..P8, V1..V8, A1..A4, T1..T4, L1..L4 and Z1..Z4 (001 §5.2.1.4). USE_SET takes a number 1..4, all other commands
@@ -75,6 +75,6 @@ END_PROGRAM
 
 }  // namespace
 
-const std::span<const CodeInfo> kCommands = kAll;
+const std::span<const CodeInfo> kCommands = kCommandsCodes;
 
 }  // namespace nplc::seqc::codes

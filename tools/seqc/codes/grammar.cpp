@@ -3,7 +3,7 @@
 namespace nplc::seqc::codes {
 namespace {
 
-constexpr CodeInfo kAll[] = {
+constexpr CodeInfo kGrammarCodes[] = {
     {"E010", "something else is expected here",
      R"(The program does not follow the grammar at the marked place: a word is missing, misspelt or stands in the wrong
 order. The message says what could stand there. Often the mistake is just before it: a forgotten semicolon, THEN or END_IF.)",
@@ -108,6 +108,6 @@ END_PROGRAM
 
 }  // namespace
 
-const std::span<const CodeInfo> kGrammar = kAll;
+const std::span<const CodeInfo> kGrammar = kGrammarCodes;
 
 }  // namespace nplc::seqc::codes

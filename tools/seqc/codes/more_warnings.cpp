@@ -3,7 +3,7 @@
 namespace nplc::seqc::codes {
 namespace {
 
-constexpr CodeInfo kAll[] = {
+constexpr CodeInfo kMoreWarningsCodes[] = {
     {"W009", "a TERM that a gateway refuses",
      R"(A gateway checks a table before it takes it. It refuses a next step of 63 and a write to register 0; the whole table then does
 not run.)",
@@ -246,6 +246,6 @@ END_PROGRAM
 
 }  // namespace
 
-const std::span<const CodeInfo> kMoreWarnings = kAll;
+const std::span<const CodeInfo> kMoreWarnings = kMoreWarningsCodes;
 
 }  // namespace nplc::seqc::codes

@@ -3,7 +3,7 @@
 namespace nplc::seqc::codes {
 namespace {
 
-constexpr CodeInfo kAll[] = {
+constexpr CodeInfo kMotorCodes[] = {
     {"E030", "an unknown motor",
      R"(MOTOR names the motor whose registers the program uses: MAC50, MAC95, MAC140, MAC141 or MAC800. The MAC800 numbers and
 scales many registers in another way, so the name must be right. MAC23 and MAC34 (MAC34_1, MAC34_2) are drives of MIDI
@@ -163,6 +163,6 @@ END_PROGRAM
 
 }  // namespace
 
-const std::span<const CodeInfo> kMotor = kAll;
+const std::span<const CodeInfo> kMotor = kMotorCodes;
 
 }  // namespace nplc::seqc::codes

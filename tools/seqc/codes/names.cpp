@@ -3,7 +3,7 @@
 namespace nplc::seqc::codes {
 namespace {
 
-constexpr CodeInfo kAll[] = {
+constexpr CodeInfo kNamesCodes[] = {
     {"E020", "declared twice",
      R"(A name can stand for one thing only, and MOTOR, SCALE, ON ERROR and POWER_UP can be given once. Upper and lower case
 are the same: Pump and PUMP are one name. The note shows the first place.)",
@@ -86,6 +86,6 @@ END_PROGRAM
 
 }  // namespace
 
-const std::span<const CodeInfo> kNames = kAll;
+const std::span<const CodeInfo> kNames = kNamesCodes;
 
 }  // namespace nplc::seqc::codes

@@ -3,7 +3,7 @@
 namespace nplc::seqc::codes {
 namespace {
 
-constexpr CodeInfo kAll[] = {
+constexpr CodeInfo kProgramCodes[] = {
     {"E080", "a step that does not say what happens on ERROR",
      R"(Every term compares ERROR (001 §6.1.5), and a condition that does not name it means NOT ERROR. When the motor shows an error,
 a step without a word about it would therefore stand still for ever. ON ERROR NEXT := Fault; at the top covers all steps; a step
@@ -115,6 +115,6 @@ END_PROGRAM
 
 }  // namespace
 
-const std::span<const CodeInfo> kProgram = kAll;
+const std::span<const CodeInfo> kProgram = kProgramCodes;
 
 }  // namespace nplc::seqc::codes

@@ -3,7 +3,7 @@
 namespace nplc::seqc::codes {
 namespace {
 
-constexpr CodeInfo kAll[] = {
+constexpr CodeInfo kRawCodes[] = {
     {"E090", "bytes that are no term",
      R"(A term is eight bytes: STATE, INPUT, CARE, NEXT_STATE and four that depend on the format (001 §6.1.4). Each is 0..255 or
 16#00..16#FF.)",
@@ -146,6 +146,6 @@ until it is mended write the step in another way, with fewer branches.)",
 
 }  // namespace
 
-const std::span<const CodeInfo> kRaw = kAll;
+const std::span<const CodeInfo> kRaw = kRawCodes;
 
 }  // namespace nplc::seqc::codes

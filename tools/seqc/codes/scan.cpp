@@ -3,7 +3,7 @@
 namespace nplc::seqc::codes {
 namespace {
 
-constexpr CodeInfo kAll[] = {
+constexpr CodeInfo kScanCodes[] = {
     {"E060", "a command that would be sent in every scan",
      R"(A term acts in every scan in which it holds, not only once. A command, a preset or a count in a branch that stays in its step
 would be repeated hundreds of times a second. Go on to another step with NEXT; or write EVERY_SCAN if the repetition is meant.)",
@@ -121,6 +121,6 @@ END_PROGRAM
 
 }  // namespace
 
-const std::span<const CodeInfo> kScan = kAll;
+const std::span<const CodeInfo> kScan = kScanCodes;
 
 }  // namespace nplc::seqc::codes

@@ -3,7 +3,7 @@
 namespace nplc::seqc::codes {
 namespace {
 
-constexpr CodeInfo kAll[] = {
+constexpr CodeInfo kTermsCodes[] = {
     {"E070", "two IFs that can hold together",
      R"(All terms that hold act in the same scan. Two IFs beside each other that do different things would both act where both hold:
 all their commands would go out, and the later one would decide the next step. The message shows a case. Join them with ELSIF,
@@ -85,6 +85,6 @@ END_PROGRAM
 
 }  // namespace
 
-const std::span<const CodeInfo> kTerms = kAll;
+const std::span<const CodeInfo> kTerms = kTermsCodes;
 
 }  // namespace nplc::seqc::codes

@@ -3,10 +3,11 @@
 namespace nplc::seqc::codes {
 namespace {
 
-constexpr CodeInfo kAll[] = {
+constexpr CodeInfo kTextCodes[] = {
     {"E001", "characters that mean nothing",
      R"(A program is made of words, numbers, the signs := : ; , ( ) . = + - / and comments. Letters with accents,
-quotation marks and the like may stand in comments only. A file of more than 16 MiB is refused with this code too.)",
+quotation marks and the like may stand in comments only. A file of more than 16 MiB or
+four million words and signs is refused with this code too.)",
      R"(PROGRAM P
 STEP S:
     OWN ERROR;
@@ -82,6 +83,6 @@ END_PROGRAM
 
 }  // namespace
 
-const std::span<const CodeInfo> kText = kAll;
+const std::span<const CodeInfo> kText = kTextCodes;
 
 }  // namespace nplc::seqc::codes

@@ -3,7 +3,7 @@
 namespace nplc::seqc::codes {
 namespace {
 
-constexpr CodeInfo kAll[] = {
+constexpr CodeInfo kWarningsCodes[] = {
     {"W001", "a branch that is never taken",
      R"(Either the condition contradicts itself, or the branches before it take every case that it could have. Mostly an input is
 mistaken or the branches are in the wrong order.)",
@@ -186,6 +186,6 @@ END_PROGRAM
 
 }  // namespace
 
-const std::span<const CodeInfo> kWarnings = kAll;
+const std::span<const CodeInfo> kWarnings = kWarningsCodes;
 
 }  // namespace nplc::seqc::codes

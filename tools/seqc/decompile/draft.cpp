@@ -118,6 +118,7 @@ Draft Drafter::draft(const Bans& bans) {
         return this->draft(more);
     }
     find_entries(bans, draft);
+    take_entry_from_values(draft);
     note_outputs(draft);
     return draft;
 }
@@ -155,7 +156,8 @@ void Drafter::find_shapes(const Bans& bans, Draft& draft) {
 
 std::vector<const Action*> Drafter::ways_into(std::uint8_t step, const Draft& draft) const {
     std::vector<const Action*> ways;
-    if (draft.power_up && draft.power_up->action.next == step) ways.push_back(&draft.power_up->action);
+    if (draft.power_up && draft.power_up->action.next == step)
+        ways.push_back(draft.around.fault ? &draft.power_up->commands : &draft.power_up->action);
     // A TERM says all that it does.
     const auto add_terms = [&](const Terms& terms, std::size_t first) {
         for (std::size_t i = first; i < terms.size(); ++i) {
@@ -196,6 +198,14 @@ void Drafter::find_entries(const Bans& bans, Draft& draft) const {
         if (stays || ways.empty()) continue;
         draft.entries[step] = ways.size() > 1 ? common_tail(ways) : moves_at_the_end(*ways.front());
     }
+}
+
+/// Without ON ERROR it makes no difference what POWER_UP writes as a value; what ENTRY writes is none.
+void Drafter::take_entry_from_values(Draft& draft) const {
+    if (!draft.power_up || draft.around.fault) return;
+    PowerUp& power_up = *draft.power_up;
+    const std::size_t entry = draft.entries[*power_up.action.next].sends.size();
+    power_up.values = std::min(power_up.values, power_up.action.sends.size() - entry);
 }
 
 /// OUT is not written where terms disagree about it and no branch goes by it.

@@ -45,6 +45,7 @@ class Drafter {
     const std::optional<Shape>& shape_of(std::size_t index, const Surroundings& around);
     void find_entries(const Bans& bans, Draft& draft) const;
     std::vector<const Action*> ways_into(std::uint8_t step, const Draft& draft) const;
+    void take_entry_from_values(Draft& draft) const;
     void note_outputs(Draft& draft) const;
 
     const Layout& layout_;

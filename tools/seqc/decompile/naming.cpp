@@ -90,6 +90,14 @@ Naming naming_of(const Symbols* given, const std::string& program, registers::Mo
         keep_addresses(symbols.inputs, given->inputs, "IN", naming.declared_inputs);
         keep_addresses(symbols.outputs, given->outputs, "OUT", naming.declared_outputs);
     }
+    if (given != nullptr) {
+        symbols.scale = given->scale;
+        for (const MotorName& one : given->motor_names) {
+            if (!usable(one.name) || signals.has(one.name) || registers::find(motor, one.number) == nullptr)
+                continue;
+            if (naming.registers.try_emplace(one.number, one.name).second) signals.take(one.name);
+        }
+    }
     std::copy(symbols.inputs.begin(), symbols.inputs.end(), naming.bits.begin());
     naming.bits[kInPosBit] = "INPOS";
     naming.bits[kErrorBit] = "ERROR";
@@ -102,6 +110,7 @@ std::string Naming::value_name(std::string_view reg) const {
     Names signals;
     for (const std::string& name : symbols.inputs) signals.take(name);
     for (const std::string& name : symbols.outputs) signals.take(name);
+    for (const auto& [number, name] : registers) signals.take(name);
     return signals.take(fmt::format("{}_Value", reg));
 }
 

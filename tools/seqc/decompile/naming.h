@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -17,9 +19,10 @@ struct Naming {
     BitNames bits;                          ///< the inputs as in `symbols`, INPOS and so on
     std::array<bool, 6> declared_inputs{};  ///< a name of its own, so it must be declared if it is used
     std::array<bool, 4> declared_outputs{};
-    bool made_up = false;  ///< steps, inputs and outputs have no given names
+    std::map<std::uint8_t, std::string> registers{};  ///< given names of VAR_MOTOR, by number
+    bool made_up = false;                             ///< steps, inputs and outputs have no given names
 
-    /// A name for a variable that holds the start value of a register.
+    /// A name for a variable that holds the start value of a register without a given one.
     std::string value_name(std::string_view reg) const;
 };
 

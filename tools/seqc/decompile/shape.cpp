@@ -232,7 +232,7 @@ std::optional<PowerUp> find_power_up(const Part& part, const std::vector<Group>&
         if (group.when == truth_of_bit(kErrorBit)) error = &group;
     }
     if (start == nullptr || (error == nullptr) == around.fault.has_value()) return std::nullopt;
-    PowerUp result{start->action, leading_values(start->action.sends)};
+    PowerUp result{start->action, leading_values(start->action.sends), start->action};
     StepPlan plan;
     plan.own_error = true;
     plan.rules.push_back({start->when, result.action});
@@ -244,8 +244,12 @@ std::optional<PowerUp> find_power_up(const Part& part, const std::vector<Group>&
         fault.sends.insert(fault.sends.begin(), result.action.sends.begin(),
                            result.action.sends.begin() + static_cast<std::ptrdiff_t>(result.values));
         plan.rules.push_back({error->when, fault});
-        if (result.action.next == fault.next && !ends_with(result.action, *around.fault)) return std::nullopt;
     }
+    std::vector<Send>& commands = result.commands.sends;
+    commands.erase(commands.begin(), commands.begin() + static_cast<std::ptrdiff_t>(result.values));
+    if (error != nullptr && result.action.next == around.fault->next &&
+        !ends_with(result.commands, *around.fault))
+        return std::nullopt;
     return makes(plan, part, part.terms.size(), around) ? std::optional(result) : std::nullopt;
 }
 

@@ -50,6 +50,7 @@ std::optional<Shape> find_shape(const Part& part, const std::vector<Group>& grou
 struct PowerUp {
     Action action;
     std::size_t values = 0;  ///< how many of its first sends are VAR_MOTOR's values
+    Action commands;         ///< the action without them
 };
 std::optional<PowerUp> find_power_up(const Part& part, const std::vector<Group>& groups,
                                      const Surroundings& around);

@@ -29,17 +29,23 @@ int rank(const SelectCommand& select) {
     return select.selection.group == RegisterGroup::v && select.mode == Mode::velocity ? 0 : 1;
 }
 
-/// "V1" of "INIT(V1)".
-std::string argument(std::uint8_t command) {
+/// "V1" of "INIT(V1)", or the name that the register has.
+std::string argument(std::uint8_t command, const Naming& naming) {
     const std::string text = describe_command(command);
     const std::size_t open = text.find('(');
-    return text.substr(open + 1, text.size() - open - 2);
+    std::string name = text.substr(open + 1, text.size() - open - 2);
+    // Those that are selected have one number in all motors.
+    const registers::Register* reg = registers::find(registers::Model::mac140, name);
+    const auto given = reg != nullptr ? naming.registers.find(reg->number) : naming.registers.end();
+    return given != naming.registers.end() ? given->second : name;
 }
 
-SelectedText selection_at(const std::vector<Send>& sends, std::size_t at) {
+SelectedText selection_at(const std::vector<Send>& sends, std::size_t at, const Naming& naming) {
     SelectedText result{describe_command(sends[at].command), 1};
     const auto first = select_command(sends[at].command);
     if (!first) return result;
+    result.text = fmt::format("{}({})", result.text.substr(0, result.text.find('(')),
+                              argument(sends[at].command, naming));
     std::vector<SelectCommand> taken = {*first};
     result.text.pop_back();
     for (std::size_t i = at + 1; i < sends.size() && sends[i].reg == nullptr; ++i) {
@@ -50,7 +56,7 @@ SelectedText selection_at(const std::vector<Send>& sends, std::size_t at) {
         });
         if (again) break;
         taken.push_back(*next);
-        result.text += ", " + argument(sends[i].command);
+        result.text += ", " + argument(sends[i].command, naming);
         ++result.count;
     }
     result.text += ")";
@@ -65,7 +71,7 @@ std::string time_text(std::uint16_t milliseconds) {
 }
 
 Line write_line(const Send& send, const Speech& speech) {
-    const ValueText value = value_text(*send.reg, send.value, speech.motor);
+    const ValueText value = value_text(*send.reg, send.value, speech.naming.symbols);
     return {fmt::format("{} := {};", register_text(*send.reg, speech), value.text), value.comment};
 }
 
@@ -76,8 +82,13 @@ std::string condition_text(const sequencer::TermBytes& bytes, const Speech& spee
 
 }  // namespace
 
-/// Up to 88 the names that commands know too: V1, not the MAC800's VEL0.
 std::string register_text(const registers::Register& reg, const Speech& speech) {
+    const auto given = speech.naming.registers.find(reg.number);
+    return given != speech.naming.registers.end() ? given->second : register_address(reg, speech);
+}
+
+/// Up to 88 the names that commands know too: V1, not the MAC800's VEL0.
+std::string register_address(const registers::Register& reg, const Speech& speech) {
     const bool shared = reg.number <= kLastCommonRegister;
     const registers::Register* common =
         shared ? registers::find(registers::Model::mac140, reg.number) : nullptr;
@@ -95,7 +106,7 @@ std::vector<Line> statements_of(const Action& action, const Speech& speech) {
             lines.push_back(write_line(action.sends[i++], speech));
             continue;
         }
-        const SelectedText selection = selection_at(action.sends, i);
+        const SelectedText selection = selection_at(action.sends, i, speech.naming);
         lines.push_back({selection.text + ";", {}});
         i += selection.count;
     }

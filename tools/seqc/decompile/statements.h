@@ -32,7 +32,10 @@ std::string next_text(std::uint8_t step, const Speech& speech);
 /// "OUT Grip, Lamp;"; `outputs` is not 0.
 std::string outputs_text(std::uint8_t outputs, const Naming& naming);
 
+/// "Place", if it has a given name; else as below.
 std::string register_text(const registers::Register& reg, const Speech& speech);
+/// "P2", or "REG(200)".
+std::string register_address(const registers::Register& reg, const Speech& speech);
 
 /// The line of one term: in symbols, or as bytes with the reason and the meaning in a comment. `inside`: in
 /// its step, so that it needs no name.

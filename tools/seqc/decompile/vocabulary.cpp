@@ -78,6 +78,23 @@ std::string bits_text(const Register& reg, std::uint32_t bits) {
     return registers::is_32_bit(reg.format) ? fmt::format("16#{:08X}", bits) : fmt::format("16#{:04X}", bits);
 }
 
+/// "60 mm", the shortest that is this number of counts; empty without a scale, or if none is short.
+std::string length_text(const Register& reg, std::int64_t number, const Symbols& symbols) {
+    if (!symbols.scale || (reg.unit != Unit::counts && reg.unit != Unit::counts_16)) return {};
+    const Scale& scale = *symbols.scale;
+    const LengthUnit unit{scale.unit, scale.length / scale.revolutions};
+    const auto steps = raw_per_unit(reg, symbols.motor, unit, scale.unit);
+    if (!steps) return {};
+    constexpr int kMostDigits = 8;
+    for (int digits = 1; digits <= kMostDigits; ++digits) {
+        const std::string value = fmt::format("{:.{}g}", static_cast<double>(number) / *steps, digits);
+        const bool is_plain = value.find('e') == std::string::npos;
+        if (is_plain && std::llround(std::stod(value) * *steps) == number)
+            return fmt::format("{} {}", value, scale.unit);
+    }
+    return {};
+}
+
 }  // namespace
 
 std::string_view obstacle(sequencer::TermView bytes, Model model) {
@@ -93,8 +110,10 @@ Send send_of(const Term& term, Model model) {
     return {registers::find(model, term.flex.reg), 0, bits_of(term.flex), {}};
 }
 
-ValueText value_text(const Register& reg, std::uint32_t bits, Model model) {
+ValueText value_text(const Register& reg, std::uint32_t bits, const Symbols& symbols) {
+    const Model model = symbols.motor;
     const std::int64_t number = number_of(reg, bits);
+    if (const std::string length = length_text(reg, number, symbols); !length.empty()) return {length, {}};
     const double steps_in_one = raw_per_unit(reg, model, std::nullopt, {}).value_or(1);
     if (steps_in_one != 1) {
         const double value = static_cast<double>(number) / steps_in_one;

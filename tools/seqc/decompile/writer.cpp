@@ -44,6 +44,8 @@ class Writer {
         result_.text = head;
         line(0, "PROGRAM " + names().program);
         if (needs_motor()) line(0, fmt::format("MOTOR {};", motor_name(names())));
+        if (const auto& scale = names().scale)
+            line(0, fmt::format("SCALE {} rev = {} {};", scale->revolutions, scale->length, scale->unit));
         end_passage(Kind::rest);
         write_signals();
         write_values();
@@ -117,19 +119,32 @@ class Writer {
     }
 
     void write_values() {
-        if (!draft_.power_up) return;
         std::vector<std::string> lines;
-        for (std::size_t i = 0; i < draft_.power_up->values; ++i) {
+        auto unsaid = speech_.naming.registers;
+        const std::size_t values = draft_.power_up ? draft_.power_up->values : 0;
+        for (std::size_t i = 0; i < values; ++i) {
             const Send& send = draft_.power_up->action.sends[i];
-            const std::string reg = register_text(*send.reg, speech_);
-            const std::string name = reg.starts_with("REG(") ? fmt::format("R{}", send.reg->number) : reg;
-            const ValueText value = value_text(*send.reg, send.value, speech_.motor);
+            const ValueText value = value_text(*send.reg, send.value, names());
             lines.push_back(
-                commented({fmt::format("{} AT {} := {};", speech_.naming.value_name(name), reg, value.text),
-                           value.comment}));
+                commented({fmt::format("{} := {};", declared(*send.reg), value.text), value.comment}));
+            unsaid.erase(send.reg->number);
         }
+        for (const auto& [number, name] : unsaid)
+            lines.push_back(declared(*registers::find(speech_.motor, number)) + ";");
+        if (!draft_.power_up && lines.empty()) return;
         write_variables("VAR_MOTOR", lines);
         end_passage(Kind::values);
+    }
+
+    /// "Place AT P2"
+    std::string declared(const registers::Register& reg) const {
+        const std::string address = register_address(reg, speech_);
+        const auto given = speech_.naming.registers.find(reg.number);
+        const std::string name = address.starts_with("REG(") ? fmt::format("R{}", reg.number) : address;
+        return fmt::format(
+            "{} AT {}",
+            given != speech_.naming.registers.end() ? given->second : speech_.naming.value_name(name),
+            address);
     }
 
     /// What a branch says itself: not what ENTRY of the step it enters says.

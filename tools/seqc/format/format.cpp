@@ -1,6 +1,7 @@
 #include "seqc/format.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "format/layout.h"
 #include "format/lines.h"
@@ -27,18 +28,21 @@ bool is_same(const Item& a, const Item& b) {
     return a.is_comment() ? a.text == b.text : same_name(a.text, b.text);
 }
 
-bool has_same_items(const Lexed& a, const Lexed& b) {
-    const Document before = document_of(a.source, a.tokens, a.comments);
-    const Document after = document_of(b.source, b.tokens, b.comments);
+bool has_same_items(std::string_view source, const Lexed& formatted) {
+    Report ignored;
+    const Lexed lexed(source, ignored);
+    const Document before = document_of(lexed.source, lexed.tokens, lexed.comments);
+    const Document after = document_of(formatted.source, formatted.tokens, formatted.comments);
     return std::equal(before.items.begin(), before.items.end(), after.items.begin(), after.items.end(),
                       is_same);
 }
 
 }  // namespace
 
-std::string lay_out(std::string_view source, const std::vector<Token>& tokens,
-                    const std::vector<Token>& comments) {
+std::string lay_out(std::string_view source, std::vector<Token> tokens, std::vector<Token> comments) {
     Document document = document_of(source, tokens, comments);
+    tokens = {};
+    comments = {};
     spell(document);
     shape(document);
     std::vector<Line> lines = lines_of(document);
@@ -49,13 +53,11 @@ std::string lay_out(std::string_view source, const std::vector<Token>& tokens,
 }
 
 std::string fault_between(std::string_view source, std::string_view text) {
-    Report before_report;
-    Report after_report;
-    const Lexed before(source, before_report);
-    const Lexed after(text, after_report);
-    if (after_report.has_errors() || !has_same_items(before, after))
+    Report report;
+    Lexed after(text, report);
+    if (report.has_errors() || !has_same_items(source, after))
         return "the formatted program would not be the same program";
-    if (lay_out(text, after.tokens, after.comments) != text)
+    if (lay_out(text, std::move(after.tokens), std::move(after.comments)) != text)
         return "formatting the formatted program would change it again";
     return {};
 }
@@ -77,13 +79,13 @@ Formatted format_program(std::string_view source) {
     Formatted result;
     Report report;
     if (source.size() > kLongestSource) {
-        report.error("E003", {}, "the file is larger than 16 MiB: this is no program");
+        report.error("E001", {}, "the file is larger than 16 MiB: this is no program");
         result.diagnostics = report.take();
         return result;
     }
     std::vector<Token> comments;
-    const std::vector<Token> tokens = tokens_of(source, report, &comments);
-    Parser(source, tokens, report).parse();
+    Parser parser(source, tokens_of(source, report, &comments), report);
+    parser.parse();
     const bool was_read_whole = !report.full();
     result.more_diagnostics = report.has_more();
     std::vector<Diagnostic> found = report.take();
@@ -91,9 +93,9 @@ Formatted format_program(std::string_view source) {
         result.diagnostics = std::move(found);
         return result;
     }
-    std::string text = layout::lay_out(source, tokens, comments);
+    std::string text = layout::lay_out(source, parser.take_tokens(), std::move(comments));
     if (text.size() > kLongestSource) {
-        report.error("E003", {}, "the formatted program would be larger than 16 MiB");
+        report.error("E001", {}, "the formatted program would be larger than 16 MiB");
         result.diagnostics = report.take();
         return result;
     }

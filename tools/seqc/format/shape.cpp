@@ -97,8 +97,9 @@ class Shaper {
     /// Exactly one statement between two tokens, and no IF with more than one branch.
     bool is_single(std::size_t from, std::size_t to) const {
         while (from < to && tokens_.is_symbol(from, ";")) ++from;
+        if (from >= to) return false;
         std::size_t end = end_of_statement(from);
-        if (from >= to || has_branches(from, end)) return false;
+        if (has_branches(from, end)) return false;
         while (end < to && tokens_.is_symbol(end, ";")) ++end;
         return end >= to;
     }

@@ -37,8 +37,8 @@ std::string laid_out(const Json& object) {
     return text + "\n}\n";
 }
 
-Position place(Span span, std::string_view source) {
-    return span.length == 0 ? Position{0, 0} : position_of(source, span.offset);
+Position place(Span span, const Positions& positions) {
+    return span.length == 0 ? Position{0, 0} : positions.of(span.offset);
 }
 
 Json registers_of(const Symbols& symbols) {
@@ -51,21 +51,21 @@ Json registers_of(const Symbols& symbols) {
     return list;
 }
 
-Json steps_of(const Compilation& compilation, std::string_view source) {
+Json steps_of(const Compilation& compilation, const Positions& positions) {
     Json list = Json::array();
     for (const StepOrigin& step : compilation.steps) {
         list.push_back({{"number", step.number},
                         {"name", compilation.symbols.steps[step.number]},
-                        {"line", place(step.span, source).line},
+                        {"line", place(step.span, positions).line},
                         {"outputs", step.outputs}});
     }
     return list;
 }
 
-Json terms_of(const Compilation& compilation, std::string_view source) {
+Json terms_of(const Compilation& compilation, const Positions& positions) {
     Json list = Json::array();
     for (const TermOrigin& origin : compilation.origins) {
-        const Position at = place(origin.span, source);
+        const Position at = place(origin.span, positions);
         list.push_back({{"line", at.line}, {"column", at.column}});
     }
     return list;
@@ -76,6 +76,7 @@ Json terms_of(const Compilation& compilation, std::string_view source) {
 std::string write_symbols(const Compilation& compilation, std::string_view source,
                           std::string_view file_name) {
     const Symbols& symbols = compilation.symbols;
+    const Positions positions(source);
     Json file = {{"format", kSymbolsFormat},
                  {"version", kSymbolsVersion},
                  {"program", symbols.program},
@@ -89,11 +90,11 @@ std::string write_symbols(const Compilation& compilation, std::string_view sourc
     file["table"] = {{"bytes", compilation.table.size()},
                      {"terms", compilation.table.size() / sequencer::kTermBytes},
                      {"crc32", fmt::format("{:08X}", base::crc32(compilation.table))}};
-    file["steps"] = steps_of(compilation, source);
+    file["steps"] = steps_of(compilation, positions);
     file["inputs"] = symbols.inputs;
     file["outputs"] = symbols.outputs;
     file["registers"] = registers_of(symbols);
-    file["terms"] = terms_of(compilation, source);
+    file["terms"] = terms_of(compilation, positions);
     return laid_out(file);
 }
 

@@ -118,13 +118,26 @@ void ActionBuilder::add_assignment(const Statement& statement, const registers::
                                    std::string_view shown) {
     if (reg == nullptr) return;
     if (const auto bits = scope_.value(statement.value, *reg, shown.empty() ? reg->name : shown)) {
-        action_.sends.push_back({reg, 0, *bits, statement.span});
+        add_send({reg, 0, *bits, statement.span});
     }
 }
 
 void ActionBuilder::add_send(const Statement& statement, std::uint8_t command) {
     const Send send{nullptr, command, 0, statement.span};
-    if (scope_.is_for_drive(send)) action_.sends.push_back(send);
+    if (scope_.is_for_drive(send)) add_send(send);
+}
+
+/// Each takes a term at the least.
+void ActionBuilder::add_send(const Send& send) {
+    if (action_.sends.size() + 1 < kTermsEverywhere) {
+        action_.sends.push_back(send);
+    } else if (!scope_.report().has("E086")) {
+        scope_.report().error("E086", send.span,
+                              fmt::format("more than {} commands and values in one scan: a gateway need not "
+                                          "hold more than {} terms",
+                                          kTermsEverywhere - 1, kTermsEverywhere),
+                              "send less, or spread it over several steps");
+    }
 }
 
 void ActionBuilder::add_command(const Statement& statement) {

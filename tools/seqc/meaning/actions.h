@@ -33,6 +33,7 @@ class ActionBuilder {
     void add_counter(const ast::Statement& statement);
     std::optional<std::uint16_t> milliseconds(const ast::Value& value);
     void add_send(const ast::Statement& statement, std::uint8_t command);
+    void add_send(const Send& send);
     bool once(bool already, const ast::Statement& statement, const char* what, Span& place);
 
     Scope& scope_;

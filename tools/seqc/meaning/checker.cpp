@@ -8,6 +8,7 @@
 
 #include "meaning/actions.h"
 #include "meaning/motors.h"
+#include "meaning/seen_branches.h"
 #include "meaning/single_term.h"
 #include "registers/midi_motor.h"
 #include "sequencer/term.h"
@@ -17,7 +18,6 @@ namespace nplc::seqc {
 namespace {
 
 constexpr std::uint8_t kPowerUp = 0;
-constexpr std::uint8_t kLastNamed = sequencer::kLastStep - 1;
 
 Truth error_cases() {
     return truth_of_bit(kErrorBit);
@@ -77,11 +77,6 @@ class Checker {
     }
 
   private:
-    struct Seen {
-        Rule rule;
-        std::size_t choice;
-    };
-
     void build_entries() {
         for (std::size_t i = 0; i < scope_.steps().size(); ++i) {
             ActionBuilder builder(scope_);
@@ -194,7 +189,7 @@ class Checker {
         plan.number = number;
         plan.own_error = written.own_error;
         add_outputs(written, plan);
-        std::vector<Seen> seen;
+        SeenBranches seen;
         for (std::size_t i = 0; i < written.choices.size(); ++i)
             add_choice(written.choices[i], i, plan, seen);
         if (!written.own_error) {
@@ -252,7 +247,7 @@ class Checker {
             plan.conditional.push_back({plan.outputs, always()});
     }
 
-    void add_choice(const ast::Choice& choice, std::size_t index, StepPlan& plan, std::vector<Seen>& seen) {
+    void add_choice(const ast::Choice& choice, std::size_t index, StepPlan& plan, SeenBranches& seen) {
         Truth taken;
         std::vector<Rule> before;
         for (const ast::Branch& branch : choice.branches) {
@@ -276,18 +271,22 @@ class Checker {
         return branch.condition ? branch.condition->span : branch.span;
     }
 
+    /// Notes which branches take its cases, each case once.
     void warn_never(const ast::Branch& branch, const Truth& own, const std::vector<Rule>& up_to_it) {
         if (own.none()) {
             report_.warning("W001", place_of(branch), "this branch is never taken",
                             "its condition contradicts itself: mend it, or take the branch out");
             return;
         }
+        const bool is_dropped = report_.full();
         Diagnostic& d = report_.warning("W001", place_of(branch), "this branch is never taken",
                                         "the branches before it take every case: put it before them, or "
                                         "take it out");
-        for (std::size_t i = 0; i + 1 < up_to_it.size(); ++i) {
-            if ((up_to_it[i].when & own).any())
-                d.notes.push_back({up_to_it[i].condition, "this one comes first"});
+        Truth left = own;
+        for (std::size_t i = 0; left.any() && !is_dropped; ++i) {
+            if ((up_to_it[i].when & left).none()) continue;
+            d.notes.push_back({up_to_it[i].condition, "this one comes first"});
+            left &= ~up_to_it[i].when;
         }
     }
 
@@ -336,29 +335,36 @@ class Checker {
 
     /// Branches with the same effect become one rule.
     void add_rule(Rule rule, const ast::Branch& branch, std::size_t choice, StepPlan& plan,
-                  std::vector<Seen>& seen) {
-        for (const Seen& earlier : seen) {
-            if (report_.full()) break;
-            const Truth both = earlier.rule.when & rule.when;
-            if (earlier.choice == choice || both.none() || earlier.rule.action.same_effect(rule.action))
-                continue;
+                  SeenBranches& seen) {
+        if (report_.full_of_errors()) return;
+        const auto same = std::find_if(plan.rules.begin(), plan.rules.end(), [&](const Rule& earlier) {
+            return earlier.action.same_effect(rule.action);
+        });
+        const auto number = static_cast<std::size_t>(same - plan.rules.begin());
+        if (seen.claim(rule.when, number)) report_contested(rule, branch, choice, number, seen);
+        seen.list.push_back({rule.when, rule.condition, choice, number});
+        if (same == plan.rules.end()) {
+            plan.rules.push_back(std::move(rule));
+            return;
+        }
+        if (!depends_on(same->when, kInPosBit) && depends_on(rule.when, kInPosBit))
+            same->condition = rule.condition;
+        same->when |= rule.when;
+    }
+
+    void report_contested(const Rule& rule, const ast::Branch& branch, std::size_t choice, std::size_t number,
+                          const SeenBranches& seen) {
+        for (const SeenBranches::Branch& earlier : seen.list) {
+            if (report_.full_of_errors()) return;
+            const Truth both = earlier.when & rule.when;
+            if (earlier.choice == choice || earlier.rule == number || both.none()) continue;
             report_
                 .error("E070", branch.condition ? rule.condition : rule.action.span,
                        fmt::format("this and an earlier IF can hold together: {}",
-                                   example_of(both, earlier.rule.when, rule.when, symbols_)),
+                                   example_of(both, earlier.when, rule.when, symbols_)),
                        "join them with ELSIF, or make the conditions exclude each other")
-                .notes.push_back(
-                    {earlier.rule.condition, "the earlier one is here, and does something else"});
+                .notes.push_back({earlier.condition, "the earlier one is here, and does something else"});
         }
-        seen.push_back({rule, choice});
-        for (Rule& earlier : plan.rules) {
-            if (!earlier.action.same_effect(rule.action)) continue;
-            if (!depends_on(earlier.when, kInPosBit) && depends_on(rule.when, kInPosBit))
-                earlier.condition = rule.condition;
-            earlier.when |= rule.when;
-            return;
-        }
-        plan.rules.push_back(std::move(rule));
     }
 
     /// `inside`: the step it stands in, if any.

@@ -17,6 +17,7 @@ namespace nplc::seqc {
 inline constexpr std::size_t kTermsEverywhere =
     1024;                                      ///< a gateway holds so many at the least, the end included
 inline constexpr std::size_t kMostSteps = 61;  ///< with names; POWER_UP comes on top
+inline constexpr std::uint8_t kLastNamed = sequencer::kLastStep - 1;  ///< no NEXT can name step 62
 
 /// What goes to the motor: a FastMAC command or a register value.
 struct Send {

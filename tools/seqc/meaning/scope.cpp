@@ -96,14 +96,12 @@ void Scope::declare_scale(const ast::Program& program) {
 void Scope::declare_steps(const ast::Program& program) {
     steps_missing_ = program.steps_missing;
     for (const ast::Step& step : program.steps) {
-        const auto earlier = std::find_if(steps_.begin(), steps_.end(), [&](const ast::Step* s) {
-            return same_name(s->name.text, step.name.text);
-        });
-        if (earlier != steps_.end()) {
+        const auto [earlier, is_new] = step_places_.try_emplace(upper(step.name.text), steps_.size());
+        if (!is_new) {
             report_
                 .error("E020", step.name.span, fmt::format("step '{}' stands twice", step.name.text),
                        "give one of them another name")
-                .notes.push_back({(*earlier)->name.span, "the first one is here"});
+                .notes.push_back({steps_[earlier->second]->name.span, "the first one is here"});
             continue;
         }
         steps_.push_back(&step);
@@ -119,7 +117,7 @@ bool Scope::is_new_name(const ast::Name& name) {
             fmt::format("'{}' has a meaning already: {}", text,
                         registers::find(model_, text) ? "it is a register of the motor" : "it is an address"),
             "choose another name");
-        faulty_.push_back(text);
+        faulty_.insert(upper(text));
         return false;
     }
     for (const auto* variables : {&inputs_, &outputs_, &motor_variables_}) {
@@ -144,7 +142,7 @@ void Scope::declare_io(const std::vector<ast::Variable>& declared, std::vector<V
                           fmt::format("'{}' is not an {}", variable.address.text,
                                       direction == 'I' ? "input" : "output"),
                           fmt::format("there are {}", addresses(direction, count)));
-            faulty_.push_back(variable.name.text);
+            faulty_.insert(upper(variable.name.text));
             continue;
         }
         const auto earlier = std::find_if(variables.begin(), variables.end(),
@@ -155,7 +153,7 @@ void Scope::declare_io(const std::vector<ast::Variable>& declared, std::vector<V
                        fmt::format("'{}' has a name already", variable.address.text),
                        fmt::format("use '{}'", earlier->name))
                 .notes.push_back({earlier->span, "declared here"});
-            faulty_.push_back(variable.name.text);
+            faulty_.insert(upper(variable.name.text));
         } else if (is_new_name(variable.name)) {
             variables.push_back({variable.name.text, variable.name.span, *number, nullptr});
         }
@@ -166,7 +164,7 @@ void Scope::declare_motor_variables(const ast::Program& program) {
     for (const ast::Variable& variable : program.motor_variables) {
         const registers::Register* target =
             variable.register_number ? reg(*variable.register_number) : reg(variable.address);
-        if (target == nullptr) faulty_.push_back(variable.name.text);
+        if (target == nullptr) faulty_.insert(upper(variable.name.text));
         if (!is_new_name(variable.name) || target == nullptr) continue;
         const std::string_view shown = variable.register_number ? target->name : variable.address.text;
         const auto earlier = std::find_if(motor_variables_.begin(), motor_variables_.end(),
@@ -176,7 +174,7 @@ void Scope::declare_motor_variables(const ast::Program& program) {
                 .error("E022", variable.name.span, fmt::format("{} has a name already", shown),
                        fmt::format("use '{}', or another register", earlier->name))
                 .notes.push_back({earlier->span, "declared here"});
-            faulty_.push_back(variable.name.text);
+            faulty_.insert(upper(variable.name.text));
             continue;
         }
         motor_variables_.push_back({variable.name.text, variable.name.span, 0, target});
@@ -194,19 +192,19 @@ void Scope::declare_motor_variables(const ast::Program& program) {
 }
 
 bool Scope::is_faulty(std::string_view name) {
-    const bool known = std::any_of(faulty_.begin(), faulty_.end(),
-                                   [&](std::string_view faulty) { return same_name(faulty, name); });
+    const bool known = faulty_.contains(upper(name));
     if (known) ++faulty_names_met_;
     return known;
 }
 
 std::optional<std::uint8_t> Scope::step(const ast::Name& name) {
+    const auto place = step_places_.find(upper(name.text));
+    if (place != step_places_.end()) return numbers_[place->second];
+    if (steps_missing_) return std::nullopt;
     std::vector<std::string_view> names;
     for (std::size_t i = 0; i < steps_.size(); ++i) {
-        if (same_name(steps_[i]->name.text, name.text)) return numbers_[i];
-        names.push_back(steps_[i]->name.text);
+        if (numbers_[i] <= kLastNamed) names.push_back(steps_[i]->name.text);
     }
-    if (steps_missing_) return std::nullopt;
     std::string help = suggestion(name.text, names);
     if (help.empty())
         help = fmt::format("write STEP {}: ... END_STEP, or name one of the steps there are", name.text);

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "meaning/model.h"
@@ -104,12 +107,13 @@ class Scope {
     std::optional<LengthUnit> length_;
     Span scale_span_;
     std::vector<const ast::Step*> steps_;
+    std::unordered_map<std::string, std::size_t> step_places_;  ///< in `steps_`, by upper-case name
     std::vector<std::uint8_t> numbers_;
     bool steps_missing_ = false;
     std::vector<Variable> inputs_;
     std::vector<Variable> outputs_;
     std::vector<Variable> motor_variables_;
-    std::vector<std::string_view> faulty_;  ///< declared, but with a mistake
+    std::unordered_set<std::string> faulty_;  ///< declared, but with a mistake; upper case
     std::size_t faulty_names_met_ = 0;
     std::vector<Send> initial_values_;
 };

@@ -10,7 +10,6 @@
 namespace nplc::seqc {
 namespace {
 
-constexpr std::uint8_t kLastNamed = sequencer::kLastStep - 1;  // no NEXT can name step 62
 constexpr std::uint8_t kNone = sequencer::kLastStep;
 
 }  // namespace

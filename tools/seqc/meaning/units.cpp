@@ -21,7 +21,7 @@ std::string without_blanks(std::string_view text) {
 }
 
 /// `mm/s` begins with `mm`; `m/s` and `mmx` do not.
-bool begins_with(std::string_view unit, std::string_view length) {
+bool is_length_or_rate(std::string_view unit, std::string_view length) {
     if (!same_name(unit.substr(0, length.size()), length)) return false;
     return unit.size() == length.size() || unit[length.size()] == '/';
 }
@@ -32,7 +32,7 @@ std::optional<double> raw_per_unit(const Register& reg, Model model, const std::
                                    std::string_view written) {
     std::string unit = without_blanks(written);
     double units_per_rev = 1;
-    if (length && begins_with(unit, length->name)) {
+    if (length && is_length_or_rate(unit, length->name)) {
         unit.replace(0, length->name.size(), "rev");
         units_per_rev = length->per_revolution;
     }

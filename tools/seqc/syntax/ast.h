@@ -1,13 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "seqc/diagnostic.h"
 
-/// The program as written, names not yet resolved. All text points into the source.
+/// The program as written, names not yet resolved. All text points into the source or `Program::texts`.
 namespace nplc::seqc::ast {
 
 struct Name {
@@ -136,6 +138,7 @@ struct Program {
     std::vector<Step> steps;
     bool steps_missing = false;  ///< some could not be read: an unknown name may be one of them
     std::vector<RawTerm> terms;
+    std::deque<std::string> texts;  ///< of units that are written with blanks or comments in them
 };
 
 }  // namespace nplc::seqc::ast

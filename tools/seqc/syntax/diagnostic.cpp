@@ -10,6 +10,7 @@ namespace {
 constexpr std::size_t kShown = 100;
 constexpr std::size_t kShownBefore = 40;
 constexpr std::size_t kLongestMessage = 400;
+constexpr std::size_t kBetweenMarks = 256;  // bytes
 
 bool continues_character(char c) {
     return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
@@ -18,6 +19,17 @@ bool continues_character(char c) {
 std::uint32_t characters(std::string_view text) {
     return static_cast<std::uint32_t>(
         std::count_if(text.begin(), text.end(), [](char c) { return !continues_character(c); }));
+}
+
+Position behind(Position at, std::string_view text) {
+    for (char c : text) {
+        if (c == '\n') {
+            at = {at.line + 1, 1};
+        } else if (!continues_character(c)) {
+            ++at.column;
+        }
+    }
+    return at;
 }
 
 struct Line {
@@ -140,6 +152,20 @@ Position position_of(std::string_view source, std::uint32_t offset) {
     const std::size_t at = std::min<std::size_t>(offset, source.size());
     return {static_cast<std::uint32_t>(1 + std::count(source.begin(), end, '\n')),
             1 + characters(source.substr(line.start, at - line.start))};
+}
+
+Positions::Positions(std::string_view source) : source_(source) {
+    marks_.reserve(source.size() / kBetweenMarks + 1);
+    marks_.push_back({});
+    for (std::size_t at = kBetweenMarks; at <= source.size(); at += kBetweenMarks)
+        marks_.push_back(behind(marks_.back(), source.substr(at - kBetweenMarks, kBetweenMarks)));
+}
+
+Position Positions::of(std::uint32_t offset) const {
+    const std::size_t at = std::min<std::size_t>(offset, source_.size());
+    const std::size_t mark = at / kBetweenMarks;
+    const std::size_t from = mark * kBetweenMarks;
+    return behind(marks_[mark], source_.substr(from, at - from));
 }
 
 std::string render(const Diagnostic& diagnostic, std::string_view source, std::string_view file_name,

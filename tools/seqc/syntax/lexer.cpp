@@ -32,7 +32,16 @@ class Lexer {
 
     std::vector<Token> run() {
         if (source_.starts_with("\xEF\xBB\xBF")) at_ = 3;
-        while (skip_blanks_and_comments(), at_ < source_.size()) lex_token();
+        while (skip_blanks_and_comments(), at_ < source_.size()) {
+            if (tokens_.size() == kMostTokens) {
+                report_.error("E001", {static_cast<std::uint32_t>(at_), 1},
+                              fmt::format("more than {} words and signs: this is no program", kMostTokens),
+                              "name the program's text, a .seq file");
+                tokens_.clear();
+                break;
+            }
+            lex_token();
+        }
         add(TokenKind::end, at_);
         return std::move(tokens_);
     }
@@ -118,7 +127,7 @@ class Lexer {
     }
 
     void lex_number(std::size_t start) {
-        while (is_digit(peek()) || (peek() == '_' && is_digit(peek(1)))) ++at_;
+        while (is_digit(peek()) || peek() == '_') ++at_;
         if (peek() == '#') {
             ++at_;
             while (is_word(peek())) ++at_;
@@ -127,7 +136,7 @@ class Lexer {
         }
         if (peek() == '.' && is_digit(peek(1))) {
             ++at_;
-            while (is_digit(peek()) || (peek() == '_' && is_digit(peek(1)))) ++at_;
+            while (is_digit(peek()) || peek() == '_') ++at_;  // the parser refuses the latter
         }
         add(TokenKind::number, start);
     }

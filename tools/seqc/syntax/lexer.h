@@ -10,9 +10,11 @@
 namespace nplc::seqc {
 
 inline constexpr std::size_t kLongestSource = 16U << 20;
+inline constexpr std::size_t kMostTokens = 4'000'000;
 
-/// The tokens of `source`, an end token last. They point into `source`. Comments go to `comments`, if it is
-/// given: with their marks, a line comment without its line end.
+/// The tokens of `source`, an end token last; no more than kMostTokens, which is an error. They point into
+/// `source`. Comments go to `comments`, if it is given: with their marks, a line comment without its line
+/// end.
 std::vector<Token> tokens_of(std::string_view source, Report& report, std::vector<Token>* comments = nullptr);
 
 }  // namespace nplc::seqc

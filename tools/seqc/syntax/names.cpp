@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 
 namespace nplc::seqc {
 namespace {
@@ -13,18 +15,19 @@ char upper_char(char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
 
-/// Levenshtein's distance, with two neighbours swapped as one change.
+/// Levenshtein's distance, with two neighbours swapped as one change. Both have at most kLongestName.
 std::size_t distance(std::string_view a, std::string_view b) {
-    std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-    for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
-    for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+    std::array<std::array<std::uint8_t, kLongestName + 1>, kLongestName + 1> d;
+    for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = static_cast<std::uint8_t>(i);
+    for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = static_cast<std::uint8_t>(j);
     for (std::size_t i = 1; i <= a.size(); ++i) {
         for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t change = upper_char(a[i - 1]) == upper_char(b[j - 1]) ? 0 : 1;
-            d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + change});
+            const int change = upper_char(a[i - 1]) == upper_char(b[j - 1]) ? 0 : 1;
+            d[i][j] = static_cast<std::uint8_t>(
+                std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + change}));
             if (i > 1 && j > 1 && upper_char(a[i - 1]) == upper_char(b[j - 2]) &&
                 upper_char(a[i - 2]) == upper_char(b[j - 1])) {
-                d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+                d[i][j] = std::min<std::uint8_t>(d[i][j], d[i - 2][j - 2] + 1);
             }
         }
     }
@@ -55,7 +58,9 @@ std::string_view nearest(std::string_view name, const std::vector<std::string_vi
     std::string_view best;
     std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;
     for (std::string_view candidate : candidates) {
-        if (candidate.size() > kLongestName) continue;
+        const std::size_t longer = std::max(candidate.size(), name.size());
+        const std::size_t shorter = std::min(candidate.size(), name.size());
+        if (candidate.size() > kLongestName || longer - shorter >= best_distance) continue;
         const std::size_t d = distance(name, candidate);
         if (d < best_distance && d < candidate.size()) {
             best = candidate;

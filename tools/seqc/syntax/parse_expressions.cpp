@@ -53,7 +53,7 @@ bool Parser::parse_primary(Expression& result) {
     const bool before_operand = is_word_at(1) || (token(1).kind == TokenKind::symbol && token(1).text == "(");
     if (before_operand) mend({"NOT"}, "a condition");
     const Token first = token();
-    if (depth_ >= kDeepest) {
+    if (depth_ == kDeepest && (at("NOT") || at_symbol("("))) {
         report_.error("E013", first.span, "this condition is nested too deeply",
                       "split it with ELSIF or more steps");
         return false;

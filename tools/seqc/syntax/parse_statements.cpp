@@ -19,7 +19,10 @@ std::string without_underscores(std::string_view text) {
     return digits;
 }
 
+/// Digits and underscores, then perhaps a point and digits.
 bool to_number(std::string_view text, double& number) {
+    const std::size_t point = text.find('.');
+    if (point != text.npos && text.find('_', point) != text.npos) return false;
     const std::string digits = without_underscores(text);
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
     return error == std::errc() && end == digits.data() + digits.size();
@@ -46,15 +49,17 @@ double milliseconds_of(std::string_view unit) {
     return 0;
 }
 
+bool is_digit_of_time(char c) {
+    return c >= '0' && c <= '9';
+}
 bool is_number_char(char c) {
-    return (c >= '0' && c <= '9') || c == '.';
+    return is_digit_of_time(c) || c == '.' || c == '_';
 }
 
 }  // namespace
 
 bool parse_time(std::string_view text, double& milliseconds) {
-    const std::string digits = without_underscores(text.substr(text.find('#') + 1));
-    std::string_view rest = digits;
+    std::string_view rest = text.substr(text.find('#') + 1);
     milliseconds = 0;
     double previous_unit = 1e12;
     while (!rest.empty()) {
@@ -64,7 +69,8 @@ bool parse_time(std::string_view text, double& milliseconds) {
         while (letters < rest.size() && !is_number_char(rest[letters])) ++letters;
         double number = 0;
         const double unit = milliseconds_of(rest.substr(count, letters - count));
-        if (count == 0 || unit == 0 || unit >= previous_unit || !to_number(rest.substr(0, count), number))
+        if (!is_digit_of_time(rest.front()) || unit == 0 || unit >= previous_unit ||
+            !to_number(rest.substr(0, count), number))
             return false;
         milliseconds += number * unit;
         previous_unit = unit;
@@ -238,6 +244,8 @@ bool Parser::parse_value(ast::Value& value) {
                       literal.kind == TokenKind::time ? "write times as T#500ms or T#1s500ms"
                       : literal.kind == TokenKind::based
                           ? "write 16#C0, 8#300 or 2#1100_0000, up to 32 bits, no sign"
+                      : literal.text.find('.') < literal.text.find('_')
+                          ? "write 1_000.5: underscores stand before the point"
                           : "no register takes a number of this size");
         return false;
     }
@@ -258,9 +266,13 @@ void Parser::parse_unit(ast::Value& value) {
     }
     if (first.kind != TokenKind::identifier || is_reserved(first.text)) return;
     ++at_;
-    while (at_symbol("/") && token(1).kind == TokenKind::identifier) at_ += 2;
+    std::string written(first.text);
+    for (; at_symbol("/") && token(1).kind == TokenKind::identifier; at_ += 2)
+        written.append("/").append(token(1).text);
     value.unit.span = span_since(first);
     value.unit.text = source_.substr(value.unit.span.offset, value.unit.span.length);
+    if (value.unit.text.size() == written.size()) return;
+    value.unit.text = texts_.emplace_back(std::move(written));
 }
 
 bool Parser::parse_raw_term(std::vector<ast::RawTerm>& terms) {

@@ -10,9 +10,10 @@ bool Parser::at_symbolic_term() const {
 bool Parser::parse_symbolic_term(const Token& first, std::vector<ast::RawTerm>& terms) {
     ast::RawTerm term;
     ast::SymbolicTerm& symbols = term.symbols.emplace();
+    bool has_name = true;
     if (!at("IF")) {
-        if (!expect_name(symbols.step, "the name of a step")) return false;
-        ++at_;
+        has_name = expect_name(symbols.step, "the name of a step");
+        at_ += has_name ? 1 : 2;
     }
     const Span opened = token().span;
     if (!expect("IF", "after the step's name, as in TERM Idle: IF Start THEN ... END_IF;")) return false;
@@ -29,7 +30,7 @@ bool Parser::parse_symbolic_term(const Token& first, std::vector<ast::RawTerm>& 
     }
     end_block("END_IF", opened);
     term.span = span_since(first);
-    terms.push_back(std::move(term));
+    if (has_name) terms.push_back(std::move(term));
     return true;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "syntax/names.h"
 
 namespace nplc::seqc {
@@ -23,6 +25,7 @@ ast::Program Parser::parse() {
     }
     while (token().kind != TokenKind::end && !at("END_PROGRAM") && !report_.full()) parse_item(program);
     end_block("END_PROGRAM", opened);
+    program.texts = std::move(texts_);
     if (token().kind != TokenKind::end && !report_.full()) {
         report_.error("E010", token().span, fmt::format("{} stands after END_PROGRAM", shown(token())),
                       "a file holds one program");

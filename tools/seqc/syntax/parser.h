@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,9 @@ class Parser {
           comment_is_open_(report.has("E002")) {}
 
     ast::Program parse();
+
+    /// The tokens back, after parse(); misspelt keywords are mended in them.
+    std::vector<Token> take_tokens() { return std::move(tokens_); }
 
   private:
     // parse_tokens.cpp
@@ -94,6 +98,7 @@ class Parser {
     Report& report_;
     std::size_t at_ = 0;
     int depth_ = 0;
+    std::deque<std::string> texts_;
     bool comment_is_open_;
     bool end_reported_ = false;
 };

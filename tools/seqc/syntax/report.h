@@ -22,6 +22,8 @@ class Report {
     bool has_errors() const { return errors_ > 0; }
     std::size_t error_count() const { return errors_; }
     bool full() const { return diagnostics_.size() >= kMost; }
+    /// Further errors would be dropped; as long as it does not hold, an error takes a warning's place.
+    bool full_of_errors() const { return errors_ >= kMost; }
     /// Some were dropped, here or in a report whose diagnostics were added.
     bool has_more() const { return more_; }
     void note_more() { more_ = true; }

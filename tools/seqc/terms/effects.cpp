@@ -27,7 +27,8 @@ int effect_for(std::vector<Effect>& list, const Action* action, std::uint8_t out
 
 }  // namespace
 
-Effects effects_of(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of) {
+Effects effects_of(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of, Outputs outputs) {
+    constexpr std::size_t kZeros = std::size_t{1} << kTimerZero | std::size_t{1} << kCounterZero;
     Effects effects;
     effects.target.fill(-1);
     effects.resting.fill(step.outputs);
@@ -40,9 +41,10 @@ Effects effects_of(const StepPlan& step, const std::vector<std::uint8_t>& output
         const bool leaves = rule.action.next && *rule.action.next != step.number;
         const std::size_t next = rule.action.next.value_or(step.number);
         const std::uint8_t entered = next < outputs_of.size() ? outputs_of[next] : std::uint8_t{0};
+        const bool apart = outputs == Outputs::apart && (!rule.action.sends.empty() || rule.action.presets());
         for (std::size_t c = rule.when._Find_first(); c < kCases; c = rule.when._Find_next(c)) {
-            effects.target[c] =
-                effect_for(effects.list, &rule.action, leaves ? entered : effects.resting[c], step);
+            const std::uint8_t resting = effects.resting[apart ? c & ~kZeros : c];
+            effects.target[c] = effect_for(effects.list, &rule.action, leaves ? entered : resting, step);
         }
     }
     if (step.conditional.empty()) return effects;

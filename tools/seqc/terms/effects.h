@@ -36,7 +36,14 @@ struct Effects {
     std::array<std::uint8_t, kCases> resting{};  ///< outputs while the step stays
 };
 
-Effects effects_of(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of);
+/// How outputs that follow the timer or the counter go with what a branch sends while the step stays.
+enum class Outputs : std::uint8_t {
+    along,  ///< an effect for each
+    apart,  ///< one effect, with the outputs of a timer and a counter that run; later terms mend them
+};
+
+Effects effects_of(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of,
+                   Outputs outputs = Outputs::along);
 
 /// The terms that carry one effect under one condition: commands in order, each FastMAC-format one with the
 /// same next step and outputs, since the last of them wins.

@@ -20,10 +20,6 @@ constexpr std::uint8_t kAnyNamed = kNamed | kNamedTimer | kNamedCounter;
 constexpr std::uint8_t kAnyTimer = kNamedTimer | kUnnamedTimer;
 constexpr std::uint8_t kAnyCounter = kNamedCounter | kUnnamedCounter;
 
-bool at_most_one(OpenBits bits) {
-    return (bits & (bits - 1)) == 0;
-}
-
 /// Inlined where it is asked for every cube.
 inline std::uint8_t kinds_in(OpenBits open, const OpenLayout& layout, bool unnamed_help) {
     if (!at_most_one(open & layout.outputs)) return 0;

@@ -12,10 +12,6 @@ constexpr std::size_t kRemembered = 1'024;
 constexpr std::size_t kShallow = 2;
 constexpr std::size_t kMostClasses = 16;
 
-bool at_most_one(OpenBits bits) {
-    return (bits & (bits - 1)) == 0;
-}
-
 }  // namespace
 
 LabelSearch::LabelSearch(const Half& half, const OrderPlan& plan)

@@ -11,6 +11,10 @@ namespace nplc::seqc {
 /// What is still open in a case, a bit for each next step, output byte, timer value and counter value.
 using OpenBits = std::uint64_t;
 
+inline bool at_most_one(OpenBits bits) {
+    return (bits & (bits - 1)) == 0;
+}
+
 /// A term as the search places it, from the last term of the table to the first.
 struct PlacedTerm {
     Region region;

@@ -2,6 +2,7 @@
 #include <bit>
 
 #include "terms/cover.h"
+#include "terms/least_list.h"
 #include "terms/ternary.h"
 #include "terms/variables.h"
 
@@ -177,6 +178,16 @@ class PartitionSearch {
     int steps_ = 0;
 };
 
+/// The least number, over few variables; `least` is one that no answer goes below.
+void shorten_small(std::vector<Cube>& cubes, const Points& need, std::size_t least, std::size_t variables) {
+    if (cubes.size() == least) return;
+    const auto set = static_cast<SmallSet>((need & Points(0xFFFFFFFFU)).to_ulong());
+    const auto fewer = least_partition(set, SmallCubes::of(variables, 0), cubes.size());
+    if (fewer.empty()) return;
+    cubes.clear();
+    for (const SmallCubes::Entry* cube : fewer) cubes.push_back({cube->value, cube->care});
+}
+
 }  // namespace
 
 std::vector<Cube> disjoint_cover(const Points& need) {
@@ -186,8 +197,11 @@ std::vector<Cube> disjoint_cover(const Points& need) {
     const Variables variables({&need});
     const Points narrow = variables.narrowed(need);
     std::vector<Cube> cubes = Tree(narrow, variables.count()).leaves();
-    if (cubes.size() > overlapping.size())
+    if (variables.count() <= SmallCubes::kMostVariables) {
+        shorten_small(cubes, narrow, overlapping.size(), variables.count());
+    } else if (cubes.size() > overlapping.size()) {
         cubes = PartitionSearch(std::move(cubes), overlapping.size(), variables.count()).run(narrow);
+    }
     for (Cube& cube : cubes) cube = variables.widened(cube);
     return cubes;
 }

@@ -16,6 +16,16 @@ using sequencer::Condition;
 
 constexpr int kNobody = -1;
 
+/// What may be done to the counter: nothing, clear, count down, both.
+const std::array<Action, 4> kCounting = [] {
+    std::array<Action, 4> actions;
+    for (std::size_t i = 0; i < actions.size(); ++i) {
+        actions[i].clears_counter = (i & 1U) != 0;
+        actions[i].counts_down = (i & 2U) != 0;
+    }
+    return actions;
+}();
+
 /// Timer and counter zero as a layer: bit 0 the timer, bit 1 the counter. A term of a layer also holds in
 /// every layer that has at least its bits.
 enum Layer : std::size_t { kNeither, kTimer, kCounter, kBoth, kLayers };
@@ -51,6 +61,7 @@ class Lowering {
         place_outputs();
         place_layer(kNeither);
         if (needs_zeros()) place_zeros();
+        if (!step_.conditional.empty()) mend_outputs();
         std::vector<LoweredTerm> terms;
         for (const Placed& placed : placed_) {
             append_terms(effects_.list[static_cast<std::size_t>(placed.effect)], placed.condition, terms);
@@ -201,6 +212,52 @@ class Lowering {
         }
     }
 
+    bool leaves(const Effect& effect) const { return effect.next() && *effect.action->next != step_.number; }
+
+    /// What must be written in a case: outputs in bits 0..3, what the action does to the counter above them.
+    static unsigned counting(const Effect& effect) {
+        const Action* action = effect.action;
+        return action == nullptr ? 0U : (action->clears_counter ? 1U : 0U) + (action->counts_down ? 2U : 0U);
+    }
+    unsigned wanted_byte(std::size_t c) {
+        const Effect& target = effect(effects_.target[c]);
+        return (leaves(target) ? target.outputs : effects_.resting[c]) + counting(target) * 16U;
+    }
+    unsigned written_byte(std::size_t c) {
+        const Effect& owner = effect(owner_[c]);
+        return owner.outputs + counting(owner) * 16U;
+    }
+
+    /// Terms that only write, where a timer or counter at zero changes the outputs beside what is sent.
+    void mend_outputs() {
+        const std::size_t layers = needs_zeros() ? kLayers : kNeither + 1;
+        for (std::size_t layer = kNeither; layer < layers; ++layer) {
+            for (bool error : {false, true}) mend_outputs_in(layer, error);
+        }
+    }
+
+    void mend_outputs_in(std::size_t layer, bool error) {
+        std::array<Points, 64> need;
+        std::array<Points, 64> allowed;
+        for (std::size_t point = 0; point < kPoints; ++point) {
+            const std::size_t c = case_of(point, error, layer);
+            allowed[wanted_byte(c)].set(point);
+            if (written_byte(c) != wanted_byte(c)) need[wanted_byte(c)].set(point);
+        }
+        for (unsigned byte = 0; byte < need.size(); ++byte) {
+            if (need[byte].none()) continue;
+            Effect written;
+            written.action = &kCounting[byte / 16];
+            written.outputs = static_cast<std::uint8_t>(byte % 16);
+            written.own_step = step_.number;
+            written.writes_outputs = true;
+            written.span = step_.span;
+            effects_.list.push_back(written);
+            const int index = static_cast<int>(effects_.list.size()) - 1;
+            for (Cube cube : minimal_cover(need[byte], allowed[byte])) place(index, cube, error, layer);
+        }
+    }
+
     /// Effect `index`, which has no next step of its own, must name one where another effect held before it.
     void take_over(int index, int owner, std::size_t layer, std::size_t where) {
         override_owner(owner, layer, where, index);
@@ -290,7 +347,11 @@ class Lowering {
 
 std::vector<LoweredTerm> plain_terms(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of,
                                      Report& report) {
-    return Lowering(step, effects_of(step, outputs_of), report).run();
+    if (step.conditional.empty()) return Lowering(step, effects_of(step, outputs_of), report).run();
+    Report along;
+    std::vector<LoweredTerm> terms = Lowering(step, effects_of(step, outputs_of), along).run();
+    if (!along.has_errors()) return terms;
+    return Lowering(step, effects_of(step, outputs_of, Outputs::apart), report).run();
 }
 
 }  // namespace nplc::seqc

@@ -2,6 +2,7 @@
 
 #include "terms/effects.h"
 #include "terms/label_search.h"
+#include "terms/least_list.h"
 #include "terms/order_plan.h"
 
 namespace nplc::seqc {
@@ -60,6 +61,40 @@ LoweredTerm lowered(const PlacedTerm& placed, const Half& half) {
     return {sequencer::encode(term), span_of(placed, half)};
 }
 
+/// What all cases do that do not stay as they are, if that is one switch without orders and presets.
+const Behaviour* only_switch(const Half& half) {
+    const Behaviour* only = nullptr;
+    for (const Behaviour& behaviour : half.behaviours) {
+        if (behaviour.action == nullptr && !behaviour.writes) continue;
+        const bool is_switch = behaviour.action != nullptr && behaviour.leaves && behaviour.sends() == 0 &&
+                               !behaviour.action->presets();
+        if (!is_switch || only != nullptr) return nullptr;
+        only = &behaviour;
+    }
+    return only;
+}
+
+/// The terms of a half that is one switch over few variables; empty if there are none of fewer.
+std::vector<LoweredTerm> least_switch(const Half& half, std::size_t fewer_than) {
+    const Behaviour* wanted = only_switch(half);
+    if (wanted == nullptr || half.bits.size() > SmallCubes::kMostVariables) return {};
+    SmallSet set = 0;
+    for (std::size_t c = 0; c < half.cases(); ++c) set |= &half.at(c) == wanted ? SmallSet{1} << c : 0;
+    const SmallCubes& cubes = SmallCubes::of(half.bits.size(), half.bits.size() - half.inputs);
+    std::vector<LoweredTerm> terms;
+    for (const ListedCube& listed : least_list(set, cubes, fewer_than)) {
+        const std::size_t inputs = (std::size_t{1} << half.inputs) - 1;
+        PlacedTerm term;
+        term.region = {static_cast<std::uint8_t>(listed.cube->value & inputs),
+                       static_cast<std::uint8_t>(listed.cube->care & inputs),
+                       static_cast<std::uint8_t>(listed.cube->value >> half.inputs)};
+        term.next = listed.in ? wanted->next : half.step->number;
+        term.output_byte = listed.in ? wanted->output_byte() : half.step->outputs;
+        terms.push_back(lowered(term, half));
+    }
+    return terms;
+}
+
 }  // namespace
 
 std::vector<LoweredTerm> shorten(const Half& half, std::size_t fewer_than) {
@@ -75,7 +110,8 @@ std::vector<LoweredTerm> shorten(const Half& half, std::size_t fewer_than) {
         for (const PlacedTerm& placed : *found) best.push_back(lowered(placed, half));
         fewer_than = best.size();
     }
-    return best;
+    const std::vector<LoweredTerm> least = least_switch(half, fewer_than);
+    return least.empty() ? best : least;
 }
 
 }  // namespace nplc::seqc

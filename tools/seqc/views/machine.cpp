@@ -7,8 +7,6 @@ namespace {
 
 using sequencer::TermView;
 
-constexpr std::uint8_t kAllOutputs = 0x0F;
-
 std::vector<TermView> terms_of(std::span<const std::uint8_t> table) {
     std::vector<TermView> terms;
     for (std::size_t at = 0; at + sequencer::kTermBytes <= table.size(); at += sequencer::kTermBytes) {

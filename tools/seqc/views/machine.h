@@ -14,6 +14,8 @@ namespace nplc::seqc {
 
 inline constexpr std::size_t kStepNumbers = 64;  // 63 only as the target of a term that a gateway refuses
 
+inline constexpr std::uint8_t kAllOutputs = 0x0F;
+
 /// What is certain of the four outputs.
 struct KnownOutputs {
     std::uint8_t known = 0;  ///< which bits

@@ -5,8 +5,6 @@
 namespace nplc::seqc {
 namespace {
 
-constexpr std::uint8_t kAllOutputs = 0x0F;
-
 /// What of an outcome makes a reaction different from others.
 Reaction reaction_for(const Machine& machine, std::uint8_t step, const Outcome& outcome) {
     Reaction reaction{.when = {}, .outcome = outcome};

@@ -34,9 +34,12 @@ struct Side {
     }
 
     /// Outputs that are the step's own affair: what a step that follows is entered with, or what a step that
-    /// stays always has.
+    /// stays always has. A step that is never reached may enter it with others.
     std::uint8_t settled(std::uint8_t step, const Outcome& outcome) const {
-        return outcome.next == step ? machine.held[step].known : machine.entered_with[outcome.next].known;
+        const KnownOutputs& always =
+            outcome.next == step ? machine.held[step] : machine.entered_with[outcome.next];
+        const KnownOutputs after = outputs_after(step, outcome);
+        return static_cast<std::uint8_t>(always.known & after.known & ~(always.value ^ after.value));
     }
     KnownOutputs outputs_after(std::uint8_t step, const Outcome& outcome) const {
         constexpr std::uint8_t kAll = 0x0F;

@@ -14,7 +14,7 @@ namespace nplc::seqc {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Step = TableReport::Step;
+using ReportStep = TableReport::Step;
 using Transition = TableReport::Transition;
 
 constexpr std::size_t kNamedAsWorst = 3;
@@ -42,15 +42,15 @@ std::string condition_of(const Transition& transition, const TableReport& report
 
 const std::string& name_of(const TableReport& report, std::uint8_t step) {
     static const std::string kNone = "step 63";
-    for (const Step& known : report.steps) {
+    for (const ReportStep& known : report.steps) {
         if (known.number == step) return known.name;
     }
     return kNone;
 }
 
-std::vector<Step> worst_first(std::vector<Step> steps) {
+std::vector<ReportStep> worst_first(std::vector<ReportStep> steps) {
     std::stable_sort(steps.begin(), steps.end(),
-                     [](const Step& a, const Step& b) { return a.terms > b.terms; });
+                     [](const ReportStep& a, const ReportStep& b) { return a.terms > b.terms; });
     return steps;
 }
 
@@ -65,7 +65,7 @@ std::string room_text(const TableReport& report) {
         text += fmt::format("       {} free\n", free_terms(report));
     }
     std::string worst;
-    for (const Step& step : worst_first(report.steps)) {
+    for (const ReportStep& step : worst_first(report.steps)) {
         if (step.terms == 0) break;
         append(worst, fmt::format("{} {}", step.name, step.terms), ", ");
         if (static_cast<std::size_t>(std::count(worst.begin(), worst.end(), ',')) + 1 == kNamedAsWorst) break;
@@ -76,7 +76,7 @@ std::string room_text(const TableReport& report) {
 
 std::string steps_text(const TableReport& report) {
     std::string text = "\n step  terms  name\n";
-    for (const Step& step : report.steps) {
+    for (const ReportStep& step : report.steps) {
         text += fmt::format("{:5}  {:5}  {}{}\n", step.number, step.terms, step.name,
                             step.reachable ? "" : " (never reached)");
     }
@@ -200,7 +200,7 @@ std::string json_of(const TableReport& report) {
               {"baud", report.settings.baud},
               {"safe_communication", report.settings.safe_communication}};
     json["steps"] = Json::array();
-    for (const Step& step : report.steps) {
+    for (const ReportStep& step : report.steps) {
         json["steps"].push_back({{"number", step.number},
                                  {"name", step.name},
                                  {"terms", step.terms},

@@ -37,6 +37,17 @@ struct Position {
 
 Position position_of(std::string_view source, std::uint32_t offset);
 
+/// The positions of many places in one text, which must stay alive.
+class Positions {
+  public:
+    explicit Positions(std::string_view source);
+    Position of(std::uint32_t offset) const;
+
+  private:
+    std::string_view source_;
+    std::vector<Position> marks_;  ///< of every 256th byte
+};
+
 /// Whether a text carries a terminal's colours. They add to it and change nothing else.
 enum class Colour : std::uint8_t { off, on };
 
