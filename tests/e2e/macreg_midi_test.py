@@ -16,6 +16,7 @@ import threading
 import unittest
 
 import device_case
+import shared_line
 from device_case import LONG
 
 MACREG = MIDISIM = ""
@@ -114,12 +115,18 @@ class Values(Case):
         result = subprocess.run([MACREG, "--port", self.endpoint, "midi", "--model", "MAC99", "status"],
                                 capture_output=True, text=True, check=False)
         self.assertEqual((result.returncode, result.stderr.count("\n")), (2, 1))
+        for wrong in ("128", "-1"):
+            self.told(2, f"{wrong}: modules on a serial line have the addresses 0 to 127", f"--address={wrong}", "status")
         self.endpoint = "can:"
         self.told(2, "interface's name", "status")
         self.endpoint = "can:none0"
         self.told(3, "can:none0: ", "status")
         self.told(2, "LMT names nobody", "--address", "5", "address", "set", "7")
         # 003 §V.8: 0 is every module on the bus.
+        for wrong in ("0", "128", "-1"):
+            self.told(2, f"{wrong}: modules on CAN have the addresses 1 to 127", f"--address={wrong}", "status")
+        for wrong in ("0", "128"):
+            self.told(2, f"{wrong}: modules on CAN have the addresses 1 to 127", "address", "set", wrong)
         with open(self.path("path.csv"), "w", encoding="ascii") as file:
             file.write("time,0 [inc],1 [inc]\n0,0,0\n1,100,100\n")
         for arguments in (("together", "0=2rev", "1=5000"), ("path", self.path("path.csv")),
@@ -335,6 +342,69 @@ class SeveralAxes(Case):
         self.assertEqual(result.returncode, 1)
         self.assertIn("would run out of segments", result.stderr)
         self.assertEqual(self.places(), [0, 0])
+
+
+class SameAddress(Case):
+    """Two modules at one address on one line, and a third at its own."""
+
+    def setUp(self):
+        super().setUp()
+        self.patience = "500"
+        self.line = shared_line.SharedLine(self.path("line"))
+        self.addCleanup(self.line.close)
+        self.endpoint = "unix:" + self.path("a")
+        self.modules("--speed", "20", "--eeprom", self.path("a.eeprom"))
+        self.endpoint = "unix:" + self.path("c")
+        self.modules("--speed", "20", "--address", "3")
+        for name in "ac":
+            self.line.join(self.path(name))
+        self.endpoint = "pty:" + self.path("line")
+
+    def second(self):
+        self.endpoint = "unix:" + self.path("b")
+        process = self.modules("--speed", "20")
+        self.line.join(self.path("b"))
+        self.endpoint = "pty:" + self.path("line")
+        return process
+
+    def test_what_moves_is_refused_and_why_names_it(self):
+        self.second()
+        for arguments in (("move", "1rev"), ("jog", "60rpm", "--for", "1s"), ("power", "on"), ("together", "0=1rev", "3=1rev"),
+                          ("circle", "--axes", "0,3", "--radius", "1000", "--speed", "1000inc/s"),
+                          ("--address", "0", "address", "set", "9")):
+            result = self.call(*arguments) if "set" not in arguments else subprocess.run(
+                [*self.command("--yes"), *("midi", *arguments)], capture_output=True, text=True, timeout=4 * LONG, check=False)
+            self.assertNotEqual(result.returncode, 0, arguments)
+            self.assertRegex(result.stderr, "more than one module answers to address 0|two modules have this address", arguments)
+        findings = self.reg("why")["findings"]
+        self.assertEqual([one["code"] for one in findings], ["same_address"])
+        self.assertIn("address set", findings[0]["remedy"])
+        self.patience = "100"  # of each address that nobody has
+        self.assertEqual([(one["address"], one.get("several")) for one in self.reg("find", "--this-speed")["modules"]],
+                         [(0, True), (3, None)])
+        self.patience = "500"
+        self.reg("--address", "3", "move", "0.5rev")
+        self.assertFalse(os.path.exists(self.path("a.eeprom")) and self.position_kept() != 0)
+
+    def position_kept(self):
+        with open(self.path("a.eeprom"), encoding="utf-8") as file:
+            return int(next(line for line in file if line.startswith("position = ")).split("=")[1])
+
+    def test_a_taken_address_is_not_given_again(self):
+        result = subprocess.run([*self.command("--yes"), "midi", "--address", "3", "address", "set", "0"], capture_output=True,
+                                text=True, timeout=4 * LONG, check=False)
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("address 0 answers already", result.stderr)
+
+    def test_one_that_joins_ends_a_jog(self):
+        # pylint: disable-next=consider-using-with
+        jog = subprocess.Popen(self.command("midi", "jog", "60rpm", "--for", "60s"), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, text=True)
+        self.second()
+        _, said = jog.communicate(timeout=4 * LONG)
+        self.assertNotEqual(jog.returncode, 0)
+        self.assertRegex(said, "more than one module answers|two modules have this address|no clear answer|its first")
+        self.assertEqual(self.reg("--address", "3", "status")["turns"], False)
 
 
 class Service(Case):

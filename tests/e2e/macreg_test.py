@@ -111,6 +111,28 @@ class Registers(Case):
                 self.refused(2, part, "set", "P_HOME", "7", *values)
         self.assertEqual(self.value("P_HOME"), 0)
 
+    def test_limits_that_shut_the_shaft_out_want_force_and_a_yes(self):
+        self.motor()
+        for part, words in (("not below MAX_P_IST", "MIN_P_IST 500 MAX_P_IST -500"), ("LOW MAX_P_IST HIGH", "MIN_P_IST 500"),
+                            ("P_IST (0) is then outside of 500 to 900", "MIN_P_IST 500 MAX_P_IST 900")):
+            self.refused(2, part, "set", *words.split())
+            self.refused(2, "say --yes", "set", *words.split(), "--force")
+        # Inside 1000 to 5000 the lower limit alone, beside an upper one of 0, would shut 3000 out, and the other way round.
+        for words in ("P_IST 3000", "MIN_P_IST 1000 MAX_P_IST 5000", "MIN_P_IST 0 MAX_P_IST 0", "P_IST -3000",
+                      "MIN_P_IST -5000 MAX_P_IST -1000"):
+            self.reg("set", *words.split())
+        self.assertEqual(self.value("ERR_STAT") & 0x80, 0)  # PLIM_ERR
+        self.reg("set", "MIN_P_IST", "500", "MAX_P_IST", "-500", "--force", "--yes")
+        self.assertEqual(self.reg("why")["findings"][0]["code"], "limits_swapped")
+        self.reg("dump", "-o", self.path("reversed.txt"))
+        self.reg("set", "MIN_P_IST", "0", "MAX_P_IST", "0")
+        self.refused(2, "not below MAX_P_IST", "load", self.path("reversed.txt"))
+
+    def test_names_of_the_program_mactalk_are_found(self):
+        for name, wanted, model in (("max velocity", "V_SOLL", "MAC140"), ("motor load", "I2T", "MAC140"),
+                                    ("Zero search speed", "V_HOME", "MAC800")):
+            self.assertIn(wanted, self.call("--model", model, "list", name, port="unix:/nowhere").stdout)
+
     def test_dangerous_registers_want_force_and_a_yes(self):
         self.motor()
         before = self.value("KFF3")
@@ -196,8 +218,9 @@ class Files(Case):
                            ("MAC800", "model = MAC800\nV_SOLL = 7\n"), ("incomplete", head + "incomplete = lost\n"),
                            ("holds no register", "model = MAC140\n"), ("--skip-dangerous", head + "KFF3 = 1\n"),
                            ("type 99", head + "motor_type = 99\n")):
+            registers = sum(line[0].isupper() for line in text.splitlines())
             with self.subTest(part):
-                self.refused(2, part, "load", self.write("bad.txt", text + ("" if "incomplete" in text else "end = 2\n")))
+                self.refused(2, part, "load", self.write("bad.txt", text + ("" if "incomplete" in text else f"end = {registers}\n")))
         three = self.write("bad.txt", head + "A_SOL = 5\nT_SOLL = x\nT_SOLL = 7\nP_IST = 1\nend = 5\n")
         result = self.call("load", three)
         self.assertEqual(result.returncode, 2)
@@ -341,6 +364,7 @@ class Service(Case):
 
     def test_find_tells_motors_apart(self):
         self.motor("--unit", "MAC800:20")
+        self.refused(3, "`macreg find`", "--address", "77", "get", "P_IST", patience=50)
         units = self.reg("find", patience=45)["units"]
         self.assertEqual([(one["address"], one["family"]) for one in units], [(8, "MAC50-141"), (20, "MAC800")])
         self.refused(3, "--address", "get", "V_SOLL", patience=20)

@@ -190,6 +190,43 @@ class Screen(Case):
         self.keys("q")
         self.assert_ended(0)
 
+    def test_saves_resets_and_goes_into_safe_mode_and_out(self):
+        self.start()
+        self.select("GEARF2")
+        self.keys("w")
+        self.until("GEARF2 (")
+        self.keys("7", "Enter")
+        self.until("GEARF2 now reads 7")
+        for key, question, answer, then in (("X", "unsaved values are lost; starts in INIT_MODE", "no", "nothing was done"),
+                                            ("F", "save all memory to flash; resets", "yes", "done; the motor is in INIT_MODE"),
+                                            ("P", "SAFE_MODE: passive, deaf to FastMAC", "yes", "the motor is in SAFE_MODE"),
+                                            ("P", "leave SAFE_MODE", "yes", "done; the motor is in INIT_MODE"),
+                                            ("X", "unsaved values are lost", "yes", "done; the motor is in INIT_MODE")):
+            self.keys(key)
+            self.until(question, "type yes:")
+            self.type(answer)
+            self.keys("Enter")
+            self.until(then)
+        self.select("GEARF2")
+        self.keys("r")
+        self.until("GEARF2 = 7")  # saved before the reset
+        self.keys("q")
+        self.assert_ended(0)
+
+    def test_samples_as_numbers(self):
+        self.start()
+        self.keys("s")
+        self.until("slow or fast): P_IST,V_IST slow")
+        self.keys("Enter")
+        self.until("895 samples in 1.716 s")
+        self.keys("v")
+        # 001 §3.2.112: 520.83 Hz, 1.92 ms between two.
+        self.until("P_IST", "V_IST", "0.0000            0            0", "0.0019            0            0")
+        self.keys("Tab", "Tab", "End")
+        self.until("1.7165")
+        self.keys("q")
+        self.assert_ended(0)
+
     def test_without_colours_and_braille(self):
         self.start(locale="C", term="vt100")
         self.keys("s")

@@ -155,6 +155,10 @@ class Monitors(Case):
         self.assertIn("cut off after 2 bytes: 50 50", text)
         document = json.loads(self.good("--json", "monitor", "--replay", "-", input=READ))
         self.assertEqual((document["register"], document["answer"]), (10, "no answer"))
+        # A byte that no message has, while the request waits for its answer.
+        text = self.good("monitor", "--replay", "-", input=f"{READ} 42 42 {READ} {READ_REPLY}")
+        times = [float(line.split()[0]) for line in text.splitlines()]
+        self.assertEqual((len(times), times), (3, sorted(times)), text)
         self.refused(2, "standard input:2: '5G' is no byte", "monitor", "--replay", "-", input="50\n5G\n")
 
     def test_listens_until_it_is_ended(self):
@@ -170,6 +174,13 @@ class Monitors(Case):
         self.assertIn("-> motor 8: read P_IST (10)   <- 00001234 = 4660 counts", process.stdout.readline())
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(LONG), 0)
+        self.assertEqual(process.stderr.read(), "")
+        process = subprocess.Popen([MACREG, "--port", "unix:" + self.path("line"), "monitor"], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        self.running.append(process)
+        listener.accept()[0].detach()
+        process.send_signal(signal.SIGINT)
+        self.assertIn("nothing was heard", process.communicate(timeout=LONG)[1])
         line.close()
         listener.close()
 

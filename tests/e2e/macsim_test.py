@@ -184,8 +184,8 @@ class Mistakes(Case):
         self.refused("--flash", self.path("none/flash"), "--mactalk", "pty:" + self.path("x"), says="none/flash")
         self.refused("--model", "MAC800", "--flash", self.path("flash"), "--mactalk", "pty:" + self.path("x"),
                      says="MAC800")
-        self.start("--mactalk", "unix:" + self.path("socket"))
-        self.refused("--mactalk", "unix:" + self.path("socket"), says="another program")
+        first, _ = self.start("--mactalk", "unix:" + self.path("socket"))
+        self.refused("--mactalk", "unix:" + self.path("socket"), says=f"macsim (process {first.pid}) already serves there")
 
     def test_help_is_there(self):
         done = subprocess.run([PROGRAM, "--help"], capture_output=True, timeout=LONG, check=False, text=True)

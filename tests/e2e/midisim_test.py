@@ -193,7 +193,9 @@ class Mistakes(Case):
         self.refused("--can", "can0", *end, says="not both")
         self.refused("--can", "can0", "--baud", "9600", says="--v24")
         self.refused("--can", "can0", "--model", "MAC23", says="MAC34-1")
-        self.refused("--can", "can0", "--address", "0", says="1 to 127")
+        for wrong in ("0", "128"):
+            self.refused("--can", "can0", "--address", wrong, says="1 to 127")
+            self.refused("--unit", "MAC34-1:" + wrong, "--can", "can0", says="1 to 127")
         self.refused("--can", "nocan77", says="nocan77")
         self.assertEqual(os.listdir(self.folder.name), [])
 

@@ -4,12 +4,14 @@
 usage: nanoplc_midi_test.py NANOPLC MACSIM NANOCTL MACREG SEQC MENDING.seq MIDISIM
 """
 
+import os
 import re
 import subprocess
 import sys
 import unittest
 
 import service_case
+import shared_line
 import simulator
 from service_case import LONG, ServiceCase
 
@@ -80,8 +82,48 @@ class Running(Case):
                        "STEP T: OWN ERROR; IF IN1 THEN NEXT := S; END_IF END_STEP\nEND_PROGRAM\n")
         subprocess.run([service_case.SEQC, "build", self.path("home.seq"), "--quiet", "-o", self.path("home.bin")], check=True)
         service = self.start(self.write(self.axis(table=self.path("home.bin"))))
-        self.assertEqual(self.end(service), 3)
-        self.assertRegex(service.said(), r"home.bin: term \d+: ")
+        status = self.ctl("status")
+        self.assertEqual((status["state"], status["safe_reason"]), ("stopped", "bad table"))
+        self.assertRegex(service.said(), r"home.bin: term \d+: the motor does not have an order of the table; upload another")
+        self.assertEqual(self.end(service), 0)
+
+
+class TwoAtOneAddress(Case):
+    """Two modules on one line, real processes and a real terminal."""
+
+    TOLD = "x: ERROR: more than one MIDI drive answers to this address"
+
+    def setUp(self):
+        super().setUp()
+        self.line = shared_line.SharedLine(self.path("motor"))
+        self.addCleanup(self.line.close)
+
+    def plug_in(self, name="a", model="MAC34-1", address="0"):
+        process, _ = simulator.start(MIDISIM, "--model", model, "--address", address, "--v24", "unix:" + self.path(name),
+                                     "--eeprom", self.path(name + ".eeprom"))
+        self.motors[name] = process
+        self.line.join(self.path(name))
+
+    def has_moved(self, name):
+        return os.path.exists(self.path(name + ".eeprom")) and self.position(name) != 0
+
+    def test_nothing_moves_when_both_are_there_at_the_start(self):
+        self.plug_in("a")
+        self.plug_in("b")
+        service = self.start(self.write(self.axis(table=self.table)), self.TOLD)
+        self.assertIn("macreg midi address set", service.said())
+        self.until(lambda: "no link to the motor on address 0" in service.said(), service)
+        self.assertFalse(self.has_moved("a") or self.has_moved("b"))
+        self.pull_out("b")
+        self.until(lambda: "the motor answers on address 0" in service.said(), service)
+
+    def test_one_that_joins_stops_the_run(self):
+        self.plug_in("a")
+        service = self.start(self.write(self.axis(table=self.table)))
+        self.moves()
+        self.plug_in("b")
+        self.until(lambda: self.TOLD in service.said() or "came damaged" in service.said(), service)
+        self.until(lambda: "SAFE: " in service.said(), service)
 
 
 class Refusing(Case):

@@ -7,6 +7,7 @@ usage: nanoplc_sim_test.py PROGRAM
 import csv
 import os
 import pty
+import re
 import signal
 import subprocess
 import sys
@@ -358,6 +359,47 @@ STEP Lit: OUT Lamp; IF NOT Go THEN NEXT := Off; END_IF END_STEP
 STEP Fault: OWN ERROR; IF ANY ERROR AND Go THEN RESET_ERROR; NEXT := Off; END_IF END_STEP
 END_PROGRAM
 """
+
+
+MANY = """PROGRAM Many
+MOTOR MAC140;
+VAR_MOTOR Slow AT V1 := 10 rpm; Fast AT V2 := 20 rpm; END_VAR
+ON ERROR NEXT := Fault;
+POWER_UP INIT(Slow); INIT(Fast); NEXT := A; END_POWER_UP
+STEP A: VELOCITY(Slow); NEXT := B; END_STEP
+STEP B: VELOCITY(Fast); NEXT := A; END_STEP
+STEP Fault: OWN ERROR; END_STEP
+END_PROGRAM
+"""
+
+
+class LongRuns(Case):
+    def run_many(self, length, *options):
+        """Orders without a pause for so long: what it says at the end, and its memory in KiB."""
+        # What a sanitizer keeps of freed memory is not the program's.
+        environment = {**os.environ, "ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "") + ":quarantine_size_mb=0"}
+        with open(self.path("said"), "w+", encoding="utf-8") as said:
+            process = subprocess.Popen([PROGRAM, "run", self.write("many.seq", MANY), "--quiet", "--baud", "115200", "--for", length,
+                                        *options], stdin=subprocess.DEVNULL, stdout=said, stderr=subprocess.DEVNULL, env=environment)
+            _, status, usage = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+            self.assertEqual(process.returncode, 0)
+            said.seek(0)
+            return said.read(), usage.ru_maxrss
+
+    def test_a_million_orders_are_compared_in_the_memory_of_a_few(self):
+        _, few = self.run_many("10s")
+        text, many = self.run_many("400s")
+        self.assertGreater(int(re.search(r"orders: (\d+) executed", text).group(1)), 1_000_000)
+        self.assertIn("the motor executed what was ordered, and nothing else", text)
+        self.assertNotIn("not executed:", text)
+        self.assertLess(many, few + 1024)
+
+    def test_a_disturbed_line_does_not_cost_memory_either(self):
+        _, few = self.run_many("2s", "--damage", "1%", "--rapid")
+        text, many = self.run_many("60s", "--damage", "1%", "--rapid")
+        self.assertRegex(text, r"executed and not ordered: .* and \d+ more")
+        self.assertLess(many, few + 2048)
 
 
 class Source(Case):

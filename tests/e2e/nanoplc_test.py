@@ -4,10 +4,12 @@
 usage: nanoplc_test.py NANOPLC MACSIM NANOCTL MACREG SEQC MENDING.seq EXAMPLE.toml SLOW_DISK.so
 """
 
+import grp
 import os
 import re
 import signal
 import socket
+import stat
 import subprocess
 import sys
 import time
@@ -71,23 +73,6 @@ class Running(ServiceCase):
         self.assertEqual(self.end(service, signal.SIGSEGV), -signal.SIGSEGV)
         self.start(config)
         self.assertEqual(self.ctl("status")["safe_reason"], "watchdog")
-
-    def test_a_start_that_failed_is_no_crash_and_hides_none(self):
-        self.plug_in("one")
-        self.plug_in("two")
-        config = self.write(self.axis("a", "one", table=self.table), self.axis("b", "two"))
-        for killed_before, reason in ((False, ""), (True, "watchdog")):
-            if killed_before:
-                os.remove(self.path("b"))  # the socket that the killed one left
-            with open(self.path("b"), "w", encoding="utf-8"):
-                self.assertEqual(self.end(self.start(config)), 3, "a file where b's socket should be")
-            os.remove(self.path("b"))
-            service = self.start(config)
-            if killed_before:
-                self.assertEqual(self.ctl("status", port="a")["safe_reason"], reason)
-            else:
-                self.moves("a")
-            self.end(service, signal.SIGKILL)
 
     def test_the_configured_table_runs_while_none_is_stored(self):
         self.plug_in()
@@ -250,6 +235,27 @@ port = "tcp:0.0.0.0:2000"
             self.assertTrue(line.startswith(f"{number}: {key}: "), f"{line} is not of {number}: {key}")
             self.assertIn(text, line)
 
+    def test_whose_a_socket_is(self):
+        axis = '[[axis]]\nname = "x"\n[axis.motor]\nport = "/dev/null"\n[axis.user]\nport = "{}"\n{}\n'
+        for port, key, text in (("unix:/tmp/x", 'socket_mode = "660"', "is no mode"),
+                                ("unix:/tmp/x", 'socket_mode = "04755"', "is no mode"),
+                                ("tcp:127.0.0.1:2000", 'socket_mode = "0660"', "is for a port unix:PATH"),
+                                ("pty:/tmp/x", 'socket_group = "root"', "is for a port unix:PATH")):
+            code, lines = self.check(axis.format(port, key), "--no-devices")
+            self.assertEqual((code, len(lines)), (2, 1), lines)
+            self.assertIn(f"7: axis[x].user.{key.split()[0]}: {text}", lines[0])
+        _, lines = self.check(axis.format("unix:/tmp/x", 'socket_group = "nosuchgroup"'))
+        self.assertTrue(any("7: axis[x].user.socket_group: there is no group nosuchgroup" in line for line in lines), lines)
+
+    def test_a_socket_has_the_mode_and_the_group_of_the_configuration(self):
+        self.plug_in()
+        group = next(group for group in grp.getgrall() if group.gr_gid in os.getgroups() + [os.getgid()])
+        keys = f'"\nsocket_mode = "0600"\nsocket_group = "{group.gr_name}'
+        self.start(self.write(self.axis(port="unix:" + self.path("x") + keys)))
+        status = os.stat(self.path("x"))
+        self.assertEqual((stat.S_IMODE(status.st_mode), status.st_gid), (0o600, group.gr_gid))
+        self.assertEqual(self.ctl("status")["state"], "stopped")
+
     def test_what_is_no_toml_has_a_line(self):
         code, lines = self.check('[service]\nlog_level = "info\n')
         self.assertEqual((code, len(lines)), (2, 1))
@@ -260,29 +266,6 @@ port = "tcp:0.0.0.0:2000"
         self.assertEqual(code, 3)
         self.assertIn("3: axis[x].table: there is no file /no/table.bin", lines[0])
         self.assertIn("5: axis[x].motor.port: there is no /dev/no-such-port; plug the adapter in", lines[1])
-
-    def test_a_gpio_chip_that_is_not_there(self):
-        self.plug_in()
-        config = self.write(self.axis(more='[axis.outputs]\nOUT0 = "gpiochip97:3"\n'))
-        service = self.start(config)
-        self.assertEqual(self.end(service), 3)
-        self.assertIn("there is no /dev/gpiochip97", service.said())
-
-    def test_a_store_that_another_one_uses(self):
-        self.plug_in("one")
-        self.plug_in("two")
-        self.start(self.write(self.axis("x", "one")))
-        second = self.start(self.write(self.axis("x", "two", port="unix:" + self.path("other"))))
-        self.assertEqual(self.end(second), 3)
-        self.assertIn("another program uses this memory", second.said())
-
-    def test_a_table_that_is_none(self):
-        self.plug_in()
-        with open(self.path("bad.bin"), "wb") as file:
-            file.write(b"\x00" * 12)
-        service = self.start(self.write(self.axis(table=self.path("bad.bin"))))
-        self.assertEqual(self.end(service), 3)
-        self.assertIn("make it with `seqc build`", service.said())
 
     def test_a_table_in_intel_hex(self):
         # C0h 01h 01h 01h 80h 05h 00 00 (001 §6.1.5) makes 148h with its length 08h: checksum 100h - 50h = B0h.

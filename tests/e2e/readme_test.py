@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""The programs and the scenario printed in tools/seqc/README.md work as printed.
+"""What README.md and tools/seqc/README.md print: programs work as printed, and programs print what is printed there.
 
-usage: readme_test.py SEQC NANOPLC_SIM README
+usage: readme_test.py SEQC NANOPLC_SIM ROOT
 """
 
+import json
 import os
 import re
 import subprocess
@@ -11,17 +12,28 @@ import sys
 import tempfile
 import unittest
 
-SEQC = NANOPLC_SIM = README = ""
+SEQC = NANOPLC_SIM = ROOT = ""
+EXAMPLE = "tools/seqc/examples/pick_and_place"
+
+
+def read(path):
+    with open(os.path.join(ROOT, path), encoding="utf-8") as file:
+        return file.read()
 
 
 def unindented(block):
     return "\n".join(line[4:] for line in block.split("\n"))
 
 
+def block_after(text, words):
+    """The first indented block behind `words`."""
+    block = re.search(r"(?m)^    .*\n((?:    .*\n|\n(?=    ))*)", text[text.index(words):])
+    return unindented(block.group(0)).rstrip("\n")
+
+
 class Readme(unittest.TestCase):
     def setUp(self):
-        with open(README, encoding="utf-8") as file:
-            self.text = file.read()
+        self.text = read("tools/seqc/README.md")
         self.folder = tempfile.TemporaryDirectory()
 
     def tearDown(self):
@@ -33,6 +45,11 @@ class Readme(unittest.TestCase):
             file.write(text)
         return path
 
+    def run_program(self, *command):
+        return subprocess.run(command, capture_output=True, text=True, timeout=60, check=False, cwd=self.folder.name)
+
+
+class Tutorial(Readme):
     def programs(self):
         return [unindented(block) + "\n"
                 for block in re.findall(r"(?ms)^(    PROGRAM \w+$.*?^    END_PROGRAM)$", self.text)]
@@ -41,21 +58,108 @@ class Readme(unittest.TestCase):
         programs = self.programs()
         self.assertGreaterEqual(len(programs), 2)
         for program in programs:
-            done = subprocess.run([SEQC, "check", self.write("p.seq", program)], capture_output=True, text=True,
-                                  timeout=60, check=False)
+            done = self.run_program(SEQC, "check", self.write("p.seq", program))
             self.assertEqual((done.returncode, done.stderr), (0, ""), program)
 
     def test_the_scenario_holds(self):
         scenario = re.search(r"(?m)^    # feeder\.scn\n((?:    .*\n)+)", self.text).group(1)
-        done = subprocess.run([NANOPLC_SIM, "run", self.write("feeder.seq", self.programs()[-1]), "--scenario",
-                               self.write("feeder.scn", unindented(scenario))],
-                              capture_output=True, text=True, timeout=60, check=False)
+        done = self.run_program(NANOPLC_SIM, "run", self.write("feeder.seq", self.programs()[-1]), "--scenario",
+                                self.write("feeder.scn", unindented(scenario)))
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn("3 passed, 0 failed", done.stdout)
 
+    def test_what_build_says_of_it(self):
+        said = re.search(r"says in one line what it wrote \(`([^`]+)`\)", self.text).group(1)
+        done = self.run_program(SEQC, "build", self.write("feeder.seq", self.programs()[-1]), "-o", "F.bin")
+        self.assertEqual((done.stdout + done.stderr).strip(), said)
+
+
+class FrontPage(Readme):
+    def setUp(self):
+        super().setUp()
+        self.front = read("README.md")
+
+    def test_the_part_of_the_example(self):
+        self.assertIn(block_after(self.front, "A part of `tools/seqc/examples/pick_and_place.seq`:"),
+                      read(EXAMPLE + ".seq"))
+
+    def test_the_timeline(self):
+        done = self.run_program(NANOPLC_SIM, "run", os.path.join(ROOT, EXAMPLE + ".seq"), "--scenario",
+                                os.path.join(ROOT, EXAMPLE + ".scn"))
+        printed = [line.rstrip() for line in done.stdout.split("\n")]
+        shown = block_after(self.front, "What `tools/demo` prints of it").split("\n")
+        now = [line for line in printed if re.match(r" +\d+\.\d{3}  ", line)]
+        at = next(number for number, line in enumerate(now) if "Idle -> Travel" in line)
+        self.assertEqual(now[at:at + len(shown)], shown)
+
+    def test_the_picture_of_its_trace(self):
+        done = self.run_program(NANOPLC_SIM, "run", os.path.join(ROOT, EXAMPLE + ".seq"), "--scenario",
+                                os.path.join(ROOT, EXAMPLE + ".scn"), "--trace", "trace.csv", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        drawing = [os.path.join(ROOT, "tools/plot_trace"), "trace.csv", "-o", "trace.svg",
+                   "--title", "pick_and_place.seq on a virtual MAC140",
+                   "--steps", "POWER_UP,Idle,Travel,Hold,Return,Fault,Cleared",
+                   "--names", "IN0=Start,IN1=Guard,IN2=Ack,OUT0=Grip,OUT3=Lamp"]
+        self.assertEqual(self.run_program(*drawing).returncode, 0)
+        drawn = read(os.path.join(self.folder.name, "trace.svg"))
+        self.assertTrue(drawn == read(EXAMPLE + ".svg"), "draw it anew: " + " ".join(drawing))
+
+    def test_the_drawing_is_of_this_table(self):
+        self.run_program(SEQC, "build", os.path.join(ROOT, "tools/seqc/examples/indexing_table.seq"), "-o", "t.bin")
+        with open(os.path.join(self.folder.name, "t.sym"), encoding="utf-8") as file:
+            crc = json.load(file)["table"]["crc32"]
+        self.assertIn(crc.upper(), read("tools/seqc/examples/indexing_table.svg").upper())
+
+    def test_how_many_examples_there_are(self):
+        names = [n for n in os.listdir(os.path.join(ROOT, "tools/seqc/examples")) if n.endswith(".seq")]
+        number = re.search(r"(\w+) example machines", self.front).group(1)
+        self.assertEqual(["seven", "eight", "nine", "ten", "eleven", "twelve"].index(number) + 7, len(names))
+        for name in names:
+            self.assertIn(f"`{name[:-4]}`", self.text)
+
+
+class Outputs(Readme):
+    def test_codes(self):
+        listed = re.findall(r"(?m)^\| ([EW]\d{3}) \| (.*) \|$", self.text)
+        done = self.run_program(SEQC, "explain")
+        self.assertEqual([tuple(line.split("  ", 1)) for line in done.stdout.strip().split("\n")], listed)
+
+    def test_json(self):
+        shown = json.loads(block_after(self.text, "print one JSON document"))
+        self.write("a.seq", "PROGRAM P\nSTEP s: OWN ERROR; END_STEP\nSTEP s: OWN ERROR; END_STEP\nEND_PROGRAM\n")
+        self.assertEqual(json.loads(self.run_program(SEQC, "check", "--json", "a.seq").stdout), shown)
+
+    def test_diff(self):
+        before = read(EXAMPLE + ".seq")
+        after = before
+        for old, new in (("1500 rpm;", "1000 rpm;"), ("OUT Grip;", "OUT Grip, Lamp;"),
+                         ("ENTRY STOP;", "ENTRY STOP; ENTRY CLEAR_IN_POS;")):
+            self.assertIn(old, after)
+            after = after.replace(old, new, 1)
+        self.assertEqual(self.diff(before, after), block_after(self.text, "or what is different:").split("\n")[:3])
+
+    def test_diff_of_a_branch(self):
+        before = read(EXAMPLE + ".seq")
+        after = before.replace("IF Guard THEN\n        NEXT", "IF Guard THEN\n        HOME;\n        NEXT", 1)
+        self.assertEqual(self.diff(before, after), block_after(self.text, "or what is different:").split("\n")[3:])
+
+    def diff(self, before, after):
+        done = self.run_program(SEQC, "diff", self.write("A.seq", before), self.write("B.seq", after))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        return [line.rstrip() for line in done.stdout.strip().split("\n")]
+
+    def test_time_on_the_line(self):
+        said = re.search(r"`V1 := 1500 rpm` takes.*?, ([\d.]+) ms at 19200 baud, of\s+which (\d+) are ours", self.text,
+                         re.DOTALL)
+        self.write("v.seq", "PROGRAM P\nMOTOR MAC140;\n"
+                            "STEP S: OWN ERROR; IF IN0 THEN V1 := 1500 rpm; NEXT := T; END_IF END_STEP\n"
+                            "STEP T: OWN ERROR; END_STEP\nEND_PROGRAM\n")
+        done = self.run_program(SEQC, "report", "--json", "--baud", "19200", "v.seq")
+        switch = json.loads(done.stdout)["transitions"][0]
+        self.assertEqual(switch["characters"], int(said.group(2)))
+        self.assertEqual(f"{switch['until_done_ms']:.1f}", said.group(1))
+
 
 if __name__ == "__main__":
-    README = sys.argv.pop(3)
-    NANOPLC_SIM = sys.argv.pop(2)
-    SEQC = sys.argv.pop(1)
+    ROOT, NANOPLC_SIM, SEQC = (os.path.abspath(sys.argv.pop()) for _ in range(3))
     unittest.main(verbosity=2)

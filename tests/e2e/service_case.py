@@ -21,9 +21,9 @@ LONG = 60  # seconds until something that must come is given up
 class Service:
     """A nanoplc under way, and what it has said."""
 
-    def __init__(self, config, **environment):
+    def __init__(self, config, inside=(), **environment):
         # pylint: disable-next=consider-using-with
-        self.process = subprocess.Popen([NANOPLC, "--config", config], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE,
+        self.process = subprocess.Popen([*inside, NANOPLC, "--config", config], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE,
                                         text=True, env={**os.environ, **environment})
         self.lines = []
         self.reader = threading.Thread(target=lambda: self.lines.extend(iter(self.process.stderr.readline, "")))

@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""Who serves at a name: every program that offers a terminal or a socket, twice on one name, killed and started again.
+
+usage: names_test.py MACSIM MIDISIM NANOPLC_SIM [NANOPLC]
+"""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+import program_case
+
+LONG = 60  # seconds until something that must come is given up
+MACSIM = MIDISIM = NANOPLC_SIM = NANOPLC = ""
+
+
+def identity(place):
+    status = os.lstat(place)
+    return status.st_ino, status.st_ctime_ns
+
+
+class Names(program_case.ProgramCase):
+    def nanoplc(self, endpoint, number):
+        """Its own state folder: a second one that took the first one's would be refused for that."""
+        config = self.path(f"nanoplc{number}.toml")
+        ends = os.openpty()
+        for end in ends:
+            self.addCleanup(os.close, end)
+        with open(config, "w", encoding="utf-8") as file:
+            file.write(f'[service]\nstate_directory = "{self.path("state" + str(number))}"\n[[axis]]\nname = "x"\ntable = "none"\n'
+                       f'[axis.motor]\nport = "{os.ttyname(ends[1])}"\n[axis.user]\nport = "{endpoint}"\n')
+        return [NANOPLC, "--config", config]
+
+    def commands(self, endpoint, number=1):
+        """Name and command line of each program that serves there."""
+        table = self.path("table.bin")
+        with open(table, "wb") as file:
+            file.write(bytes.fromhex("C000003E80010000 3F00000000000000"))
+        commands = {
+            "macsim": [MACSIM, "--mactalk", endpoint],
+            "midisim": [MIDISIM, "--model", "MAC34-1", "--v24", endpoint],
+            "nanoplc-sim": [NANOPLC_SIM, "run", table, "--realtime", "--mactalk", endpoint],
+        }
+        if NANOPLC:
+            commands["nanoplc"] = self.nanoplc(endpoint, number)
+        return commands
+
+    def begin(self, command):
+        """A program that serves there, known by its lock."""
+        with open(self.path("log"), "w", encoding="utf-8") as log:
+            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log)
+        self.running.append(process)
+        return process
+
+    def serve(self, command, place, before=None):
+        """Until it has made its name."""
+        process = self.begin(command)
+        self.until(lambda: process.poll() is not None or (os.path.lexists(place) and identity(place) != before))
+        self.assertIsNone(process.poll(), f"{command}: {self.log()}")
+        return process
+
+    def until(self, come):
+        end = time.monotonic() + LONG
+        while not come():
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.01)
+
+    def log(self):
+        with open(self.path("log"), encoding="utf-8") as log:
+            return log.read()
+
+    def kinds(self):
+        for kind in ("pty:", "unix:"):
+            for program in self.commands("none"):
+                yield kind, program, self.path(f"{kind[:-1]}-{program}")
+
+    def refusal(self, name, command):
+        """What it says; nanoplc stays, with that axis stopped, and tries again."""
+        with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as second:
+            said = ""
+            while name == "nanoplc" and "already serves" not in said:
+                said += second.stderr.readline()
+            if name == "nanoplc":
+                second.send_signal(signal.SIGTERM)
+            rest = second.communicate(timeout=LONG)[1]
+            self.assertIn(second.returncode, (0,) if name == "nanoplc" else (2, 3), said + rest)
+            return said + rest
+
+    def test_a_second_program_is_refused_and_the_first_stays(self):
+        for kind, program, place in self.kinds():
+            first = self.serve(self.commands(kind + place)[program], place)
+            before = identity(place)
+            for name, second in self.commands(kind + place, 2).items():
+                self.assertIn(f"{kind}{place}: {program} (process {first.pid}) already serves there; end it, or name another path",
+                              self.refusal(name, second))
+                self.assertEqual(identity(place), before, second)
+            self.assertIsNone(first.poll())
+            first.send_signal(signal.SIGTERM)
+            self.assertEqual(first.wait(LONG), 0)
+            self.assertEqual([name for name in os.listdir(self.folder.name) if os.path.basename(place) in name], [], program)
+
+    def test_the_name_of_a_killed_program_is_taken_over(self):
+        for kind, program, place in self.kinds():
+            first = self.serve(self.commands(kind + place)[program], place)
+            before = identity(place)
+            first.kill()
+            first.wait(LONG)
+            self.assertTrue(os.path.lexists(place), program)
+            second = self.serve(self.commands(kind + place)[program], place, before)
+            second.send_signal(signal.SIGTERM)
+            self.assertEqual(second.wait(LONG), 0, self.log())
+            self.assertFalse(os.path.lexists(place), program)
+
+    def test_a_program_is_started_right_after_another_was_killed(self):
+        for kind in ("pty:", "unix:"):
+            place = self.path(kind[:-1])
+            command = [MACSIM, "--mactalk", kind + place]
+            process = self.serve(command, place)
+            for _ in range(20):
+                before = identity(place)
+                process.kill()  # and is not waited for
+                process = self.serve(command, place, before)
+
+    def test_of_many_that_start_at_once_one_serves(self):
+        for kind in ("pty:", "unix:"):
+            place = self.path(kind[:-1])
+            for _ in range(3):  # the second and third time in the place of one that was killed
+                all_of_them = [self.begin([MACSIM, "--mactalk", kind + place]) for _ in range(6)]
+                self.until(lambda some=all_of_them: sum(process.poll() is None for process in some) == 1)
+                left = [process for process in all_of_them if process.poll() is None]
+                self.assertTrue(os.path.lexists(place))
+                left[0].kill()
+                left[0].wait(LONG)
+
+
+if __name__ == "__main__":
+    MACSIM, MIDISIM, NANOPLC_SIM, NANOPLC = (sys.argv[1:] + [""])[:4]
+    unittest.main(argv=sys.argv[:1])

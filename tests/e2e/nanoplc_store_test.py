@@ -1,0 +1,358 @@
+#!/usr/bin/env python3
+"""What nanoplc has stored is damaged, missing, or cannot be written: nothing starts by itself, and every port says why.
+
+usage: nanoplc_store_test.py NANOPLC MACSIM NANOCTL MACREG SEQC MENDING.seq
+"""
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import unittest
+import zlib
+
+import service_case
+from service_case import LONG, ServiceCase
+
+# firmware/store: two table slots of five blocks, two settings slots of one, a header of 24 bytes and a mark of 8.
+BLOCK = 2048
+TABLES, SETTINGS = (0, 5 * BLOCK), (10 * BLOCK, 11 * BLOCK)
+
+
+class Stored(ServiceCase):
+    def setUp(self):
+        super().setUp()
+        self.plug_in()
+        self.store, self.mark = self.path("state/x/store.bin"), self.path("state/x/running")
+
+    def change(self, path, offset, change):
+        with open(path, "r+b") as file:
+            file.seek(offset)
+            old = file.read(1)[0]
+            file.seek(offset)
+            file.write(bytes([change(old)]))
+
+    def flip(self, path, offset, bit=0):
+        self.change(path, offset, lambda byte: byte ^ 1 << bit)
+
+    def erase(self, offset, byte=0xFF):
+        with open(self.store, "r+b") as file:
+            file.seek(offset)
+            file.write(bytes([byte]) * BLOCK)
+
+    def expect_waits(self, config, reason, said):
+        """It does not start by itself, and says why everywhere."""
+        service = self.start(config)
+        self.until(lambda: said in service.said(), service)
+        status = self.ctl("status")
+        self.assertEqual((status["state"], status["safe_reason"]), ("stopped", reason), service.said())
+        return service, status
+
+    def expect_refuses(self):
+        """Neither run nor stop and run, step or reset get round it."""
+        for commands in (["run"], ["stop", "run"], ["step"]):
+            for command in commands[:-1]:
+                self.ctl(command)
+            self.ctl(commands[-1], exit_code=1)
+        self.assertEqual(self.ctl("status")["state"], "stopped")
+
+    def stored_run(self, more=""):
+        """A table that starts by itself is stored, and the service has ended."""
+        config = self.write(self.axis(more=more))
+        service = self.start(config)
+        self.ctl("upload", "--only-store", self.table)
+        self.assertEqual(self.end(service), 0)
+        return config
+
+
+class Mark(Stored):
+    def crash(self, config):
+        service = self.start(config)
+        self.moves()
+        self.end(service, signal.SIGKILL)
+
+    def test_of_a_size_from_the_beginning(self):
+        config = self.stored_run()
+        size = os.path.getsize(self.mark)
+        self.crash(config)
+        self.assertEqual(os.path.getsize(self.mark), size)
+
+    def test_any_flipped_bit_after_a_crash_leaves_it_stopped(self):
+        config = self.stored_run()
+        self.crash(config)
+        for offset, reason in ((0, "bad run mark"), (8, "bad run mark"), (52, "bad run mark")):
+            self.flip(self.mark, offset)
+            service, _ = self.expect_waits(config, reason, "nobody knows whether the last run ended in order")
+            self.ctl("run")
+            self.moves()
+            self.end(service, signal.SIGKILL)
+
+    def test_missing_after_a_crash(self):
+        config = self.stored_run()
+        self.crash(config)
+        os.remove(self.mark)
+        self.expect_waits(config, "bad run mark", "nobody knows")
+        self.ctl("run")
+        self.moves()
+
+    def test_empty_or_something_else(self):
+        config = self.stored_run()
+        for make in (lambda: open(self.mark, "w", encoding="utf-8").close(), lambda: os.mkfifo(self.mark),
+                     lambda: os.symlink("/dev/full", self.mark)):
+            os.remove(self.mark)
+            make()
+            service, _ = self.expect_waits(config, "bad run mark", "nobody knows")
+            self.ctl("run")
+            self.moves()
+            self.end(service)
+            self.end(self.start(config))  # it has been written anew
+
+    def test_a_folder_in_its_place(self):
+        config = self.stored_run()
+        os.remove(self.mark)
+        os.makedirs(self.mark + "/in_the_way")
+        service, status = self.expect_waits(config, "bad run mark", self.mark + ": cannot be written: ")
+        self.assertFalse(status["enabled"])
+        self.expect_refuses()
+        self.ctl("reset")
+        self.until_status(lambda status: status["state"] == "stopped" and status["safe_reason"] == "bad run mark")
+        self.expect_refuses()
+        self.end(service)
+        shutil.rmtree(self.mark)
+        self.expect_waits(config, "bad run mark", "nobody knows")
+        self.ctl("run")
+        self.moves()
+
+    def write_mark(self, state):
+        """Of an earlier boot."""
+        checked = f"{state:7} 01234567-89ab-cdef-0123-456789abcdef ".encode()
+        with open(self.mark, "wb") as file:
+            file.write(checked + f"{zlib.crc32(checked):08x}\n".encode())
+
+    def test_a_power_cut_in_a_run_starts_as_configured(self):
+        config = self.stored_run()
+        self.write_mark("running")
+        service = self.start(config)
+        self.moves()
+        self.assertIn("in the middle of a run, and no watchdog says that it did this: a power cut", service.said())
+        self.end(service)
+        config = self.write(self.axis(), service='after_power_cut = "wait"')
+        self.write_mark("running")
+        service, _ = self.expect_waits(config, "watchdog", "in the middle of a run")
+        self.ctl("run")
+        self.moves()
+        self.end(service)
+        for state in ("ended", "fresh"):
+            self.write_mark(state)
+            service = self.start(config)
+            self.moves()
+            self.end(service)
+
+    def test_a_new_axis_is_not_one_that_lost_something(self):
+        config = self.write(self.axis(table=self.table))
+        self.start(config)
+        self.moves()
+
+
+class FullDisk(Stored):
+    """The state directory is a disk of 64 KiB."""
+
+    def setUp(self):
+        super().setUp()
+        state = self.path("state")
+        os.mkdir(state)
+        # pylint: disable-next=consider-using-with
+        self.disk = subprocess.Popen(["unshare", "-rm", "sh", "-c", 'mount -t tmpfs -o size=64k none "$0" && echo ready && '
+                                      'exec sleep infinity', state], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        if self.disk.stdout.readline() != "ready\n":
+            self.let_go()
+            self.skipTest("this machine does not let a program mount a disk of its own")
+        self.addCleanup(self.let_go)
+        self.inside = ["nsenter", "-t", str(self.disk.pid), "-U", "-m", "--preserve-credentials"]
+        self.state = f"/proc/{self.disk.pid}/root{state}"
+        self.mark = self.state + "/x/running"
+
+    def let_go(self):
+        self.disk.kill()
+        self.disk.communicate()
+
+    def start_inside(self, config):
+        service = self.start(config, inside=self.inside)
+        self.assertIsNone(service.process.poll(), service.said())
+        return service
+
+    def fill(self):
+        with self.assertRaises(OSError), open(self.state + "/fill", "wb", buffering=0) as file:
+            while True:
+                file.write(bytes(4096))
+
+    def stored_run_inside(self):
+        config = self.write(self.axis())
+        service = self.start_inside(config)
+        self.ctl("upload", "--only-store", self.table)
+        self.assertEqual(self.end(service), 0, service.said())
+        return config
+
+    def test_a_crash_is_known(self):
+        config = self.stored_run_inside()
+        self.fill()
+        for _ in range(2):
+            service = self.start_inside(config)
+            self.until_status(lambda status: status["state"] in ("running", "stopped"))
+            self.end(service, signal.SIGKILL)
+            self.pull_out()  # the killed one's exclusive use of the line outlives it, and only root gets round that
+            self.plug_in()
+        self.start_inside(config)
+        status = self.ctl("status")
+        self.assertEqual((status["state"], status["safe_reason"]), ("stopped", "watchdog"))
+
+    def test_an_orderly_end_is_known(self):
+        config = self.stored_run_inside()
+        self.fill()
+        for _ in range(2):
+            service = self.start_inside(config)
+            self.moves()
+            self.assertEqual(self.end(service), 0)
+
+    def test_without_room_for_the_mark_nothing_runs(self):
+        config = self.stored_run_inside()
+        os.remove(self.mark)
+        self.fill()
+        service = self.start_inside(config)
+        self.until(lambda: "running: cannot be written: No space left on device" in service.said(), service)
+        status = self.ctl("status")
+        self.assertEqual((status["state"], status["safe_reason"], status["enabled"]), ("stopped", "bad run mark", False))
+        self.expect_refuses()
+        self.end(service)
+        os.remove(self.state + "/fill")
+        service = self.start_inside(config)
+        self.assertEqual(self.ctl("status")["safe_reason"], "bad run mark", "what was lost is still lost")
+        self.ctl("run")
+        self.moves()
+        self.end(service)
+        self.start_inside(config)
+        self.moves()
+
+
+class Settings(Stored):
+    KEPT = ("autostart=0", "enable_input=3", "safe_outputs=5")
+
+    def kept(self):
+        config = self.stored_run("[axis.settings]\nsafe_outputs = 2\n")
+        service = self.start(config)
+        self.moves()
+        self.ctl("stop")
+        self.ctl("settings", "set", *self.KEPT, "--keep")
+        self.end(service)
+        return config
+
+    def expect_blocked(self, config, outputs):
+        service, status = self.expect_waits(config, "bad settings", "the stored settings are damaged or gone")
+        self.assertEqual((status["settings_damaged"], status["enabled"], status["outputs"]), (True, False, outputs))
+        self.expect_refuses()
+        return service
+
+    def test_a_flipped_bit_starts_nothing(self):
+        config = self.kept()
+        self.flip(self.store, SETTINGS[0] + 60)
+        service = self.expect_blocked(config, 2)
+        self.ctl("reset")
+        self.until_status(lambda status: status["safe_reason"] == "bad settings")
+        self.expect_refuses()
+        self.ctl("settings", "set", "safe_outputs=5", "--keep")
+        status = self.ctl("status")
+        self.assertEqual((status["settings_damaged"], status["outputs"]), (False, 5))
+        self.ctl("run")
+        self.moves()
+        self.end(service)
+
+    def test_the_older_ones_do_not_start_it_either(self):
+        config = self.kept()
+        service = self.start(config)
+        self.ctl("settings", "set", "safe_outputs=4", "--keep")
+        self.end(service)
+        self.flip(self.store, SETTINGS[1] + 60)
+        self.expect_blocked(config, 5)
+
+    def test_a_lost_block_of_the_only_ones(self):
+        for byte in (0xFF, 0x00):
+            with self.subTest(byte=byte):
+                config = self.kept()
+                self.erase(SETTINGS[0], byte)
+                self.end(self.expect_blocked(config, 2))
+                shutil.rmtree(self.path("state"))
+
+    def test_a_store_that_is_gone(self):
+        config = self.kept()
+        os.remove(self.store)
+        for _ in range(2):
+            service = self.expect_blocked(config, 2)
+            self.assertIn(self.store + " is missing", self.said_first)
+            self.assertTrue(self.ctl("status")["table_damaged"])
+            self.end(service)
+        service = self.expect_blocked(config, 2)
+        self.until_status(lambda status: status["link"] == "up")
+        self.ctl("upload", self.table)
+        self.ctl("settings", "set", "safe_outputs=5", "--keep")
+        self.ctl("run")
+        self.moves()
+        self.end(service)
+        self.start(config)
+        self.moves()
+
+    def expect_waits(self, config, reason, said):
+        service, status = super().expect_waits(config, reason, said)
+        self.said_first = getattr(self, "said_first", service.said())
+        return service, status
+
+
+class Both(Stored):
+    def test_kept_settings_do_not_mend_the_mark(self):
+        config = self.stored_run()
+        service = self.start(config)
+        self.ctl("stop")
+        self.ctl("settings", "set", "safe_outputs=5", "--keep")
+        self.end(service)
+        self.flip(self.store, SETTINGS[0] + 60)
+        os.remove(self.mark)
+        os.makedirs(self.mark + "/in_the_way")
+        self.expect_waits(config, "bad run mark", "the stored settings are damaged")
+        self.ctl("reset")
+        self.until_status(lambda status: status["uptime_ms"] < 2000 and status["safe_reason"] == "bad run mark")
+        self.ctl("settings", "set", "safe_outputs=5", "--keep")
+        self.expect_refuses()
+
+
+class Tables(Stored):
+    def test_an_older_one_does_not_stand_in_silently(self):
+        config = self.stored_run()
+        older = self.ctl_once(config)
+        with open(self.path("other.bin"), "wb") as file:  # one term and the end term
+            file.write(bytes([0xC0, 1, 1, 1, 0x80, 5, 0, 0, 0x3F, 0, 0, 0, 0, 0, 0, 0]))
+        service = self.start(config)
+        self.ctl("upload", "--only-store", self.path("other.bin"))
+        self.end(service)
+        self.erase(TABLES[1])
+        _, status = self.expect_waits(config, "bad table", "damaged")
+        self.assertTrue(status["table_damaged"])
+        self.assertEqual(status["table_crc32"], older)
+
+    def ctl_once(self, config):
+        service = self.start(config)
+        crc = self.ctl("status")["table_crc32"]
+        self.end(service)
+        return crc
+
+    def test_the_only_one_is_lost(self):
+        config = self.stored_run()
+        self.erase(TABLES[0])
+        _, status = self.expect_waits(config, "bad table", "damaged")
+        self.assertTrue(status["table_damaged"])
+        self.ctl("run", exit_code=1)
+
+
+if __name__ == "__main__":
+    (service_case.NANOPLC, service_case.MACSIM, service_case.NANOCTL, service_case.MACREG, service_case.SEQC,
+     service_case.MENDING) = sys.argv[1:7]
+    unittest.main(argv=sys.argv[:1] + sys.argv[7:])
