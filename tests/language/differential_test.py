@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""Random programs: what LANGUAGE.md says that they do, against what the compiled table does in the engine.
+
+usage: differential_test.py SEQC NANOPLC_SIM LANGUAGE.md REGISTERS_MAC50-141.md [PROGRAMS [SEED]]
+"""
+
+import random
+import sys
+import tempfile
+
+import document
+import programs
+import registers
+from machine import Machine
+from meaning import Program
+from tools import Tools, as_columns, sent_in_order
+
+SCANS = 150
+OF_A_TABLE = {"E071", "E072"}  # section 9: what a table cannot do
+
+
+class Difference(Exception):
+    pass
+
+
+class Duel:
+    def __init__(self, tools, language, register_map):
+        self.tools, self.map = tools, registers.read(register_map)
+        self.document = document.Document(language)
+        self.bytes = self.document.command_bytes()
+
+    def fight(self, seed):
+        """True if the program compiled, and did what the reference says."""
+        rng = random.Random(seed)
+        text = programs.program(rng)
+        try:
+            return self.compare(text, programs.course(rng, SCANS))
+        except (Difference, KeyError, TypeError, AttributeError) as what:
+            raise Difference(f"seed {seed}: {what!r}\n{text}") from what
+
+    def compare(self, text, course):
+        tree = self.document.grammar.parse(text)
+        if tree is None:
+            raise Difference("not in the grammar")
+        program = Program(tree, self.map, self.bytes)
+        errors = {d["code"] for d in self.tools.build(text) if d["severity"] == "error"}
+        if program.faults or errors - OF_A_TABLE:
+            if program.faults != errors:
+                raise Difference(f"the reference refuses with {program.faults}, the compiler with {errors}")
+        elif errors and program.is_possible():
+            raise Difference(f"the compiler refuses with {errors} what a table can do")
+        if errors:
+            return False
+        self.run(program, course)
+        return True
+
+    def run(self, program, course):
+        machine, table = Machine(program), self.tools.table()
+        for number, (row, (image, ms)) in enumerate(zip(self.tools.scan(course), course), 1):
+            order = sent_in_order(table, machine.step, machine.case(image))
+            before = f"step {machine.step}, image {image:02X}, timer {machine.timer}, counter {machine.counter}"
+            sends = machine.scan(image, ms)
+            here = [machine.step, machine.timer, machine.counter, machine.outputs, *as_columns(sends)]
+            if here != row or order != sends:
+                raise Difference(f"scan {number} ({before}): reference {here}, table {row}; sent {sends}, {order}")
+
+
+def main():
+    seqc, nanoplc_sim, language, register_map = sys.argv[1:5]
+    count = int(sys.argv[5]) if len(sys.argv) > 5 else 250
+    first = int(sys.argv[6]) if len(sys.argv) > 6 else random.SystemRandom().randrange(10 ** 9)
+    print(f"{count} programs from seed {first} on", flush=True)
+    with tempfile.TemporaryDirectory() as folder:
+        duel = Duel(Tools(seqc, nanoplc_sim, folder), language, register_map)
+        try:
+            ran = sum(duel.fight(seed) for seed in range(first, first + count))
+        except Difference as difference:
+            print(difference)
+            return 1
+    print(f"{ran} compiled and did what the reference says in {SCANS} scans each; {count - ran} refused by both")
+    return 0 if ran * 4 > count else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

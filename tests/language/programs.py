@@ -1,0 +1,151 @@
+"""Random programs that mostly compile, and random courses of what scans read."""
+
+DECLARATIONS = """MOTOR MAC140;
+SCALE 1 rev = 8 mm;
+VAR_INPUT Start AT IN0 : BOOL; Guard AT %IX0.1; Ack AT IN2 : BOOL; END_VAR
+VAR_OUTPUT Lamp AT OUT0 : BOOL; Grip AT %QX0.1 : BOOL; END_VAR
+"""
+VALUES = ["Fast AT V1 := 500 rpm;", "Place AT P2 := 40 mm;", "Window AT INPOSWIN := 16#20;",
+          "Soft AT A1 := 5000 rpm/s;"]
+NAMES = ["Fast AT V1;", "Place AT P2;", "Window AT REG(33);", "Soft AT A1;"]
+INPUTS = ["Start", "Guard", "Ack", "IN3", "IN4", "%IX0.5", "INPOS"]
+OUTPUTS = ["Lamp", "Grip", "OUT2", "%QX0.3"]
+SENDS = ["STOP", "HOME", "NOP", "RESET_ERROR", "CLEAR_IN_POS", "INIT(Fast, Soft)", "VELOCITY(Soft, Fast)", "USE_SET(3)",
+         "INIT(P3, V2, Z1)", "POSITION(Place)", "V_SOLL := -1500 rpm", "Window := 1_000", "P_SOLL := -2.5 rev",
+         "REG(33) := 2#11", "A_SOLL := 9", "POSITIONS_RELATIVE_P_SOLL", "MOVE_P8_BY_P_SOLL"]
+COUNTS = ["COUNT_DOWN", "CLEAR_COUNTER", "COUNTER := 2", "COUNTER := 1", "COUNTER := 0"]
+TIMES = ["T#1ms", "T#0.004s", "7 ms", "0.012 s"]
+
+
+class Writer:
+    def __init__(self, rng):
+        self.rng = rng
+        self.names = [f"S{n}" for n in range(rng.randint(2, 5))]
+        self.has_on_error = rng.random() < 0.6
+        self.at_zero = rng.random() < 0.15
+        self.is_timed = False                     # the step at hand tests timer or counter
+        self.is_careful = rng.random() < 0.8      # avoids what the compiler refuses, mostly
+
+    def chance(self, probability):
+        return self.rng.random() < probability
+
+    def some(self, pool, most):
+        return self.rng.sample(pool, self.rng.randint(0, min(most, len(pool))))
+
+    def condition(self, owns_error, depth=2):
+        rng = self.rng
+        if depth and self.chance(0.6):
+            parts = [self.condition(owns_error, depth - 1) for _ in range(2)]
+            joined = f" {rng.choice(['AND', 'AND', 'OR', 'XOR'])} ".join(parts)
+            return f"({joined})" if self.chance(0.7) else joined
+        atom = rng.choice(INPUTS)
+        if self.chance(0.25 if self.is_timed else 0.02):
+            atom = rng.choice(["TIMER.Q", "TIMER.Q", "COUNTER.Q", "TRUE"])
+        if self.chance(0.25 if owns_error else 0 if self.is_careful else 0.05):
+            atom = rng.choice(["ERROR", "ANY ERROR"])
+        return f"NOT {atom}" if self.chance(0.25) else atom
+
+    def statements(self, every_scan=False, counts=True):
+        chosen = self.some(SENDS, 2) if self.chance(0.5) else []
+        if counts and self.chance(0.3):
+            chosen.append(f"TIMER := {self.rng.choice(TIMES)}")
+        if counts and self.chance(0.3):
+            chosen.append(self.rng.choice(COUNTS))
+        self.rng.shuffle(chosen)
+        return [("EVERY_SCAN " if every_scan else "") + text + ";" for text in chosen]
+
+    def branch(self, own):
+        kind = self.rng.random()
+        if kind < 0.08:
+            return ""
+        if kind < 0.2:
+            stay = [f"NEXT := {own};"] if self.chance(0.3) and not (self.is_careful and own in self.entries) else []
+            return " ".join(self.statements(self.is_careful or not self.chance(0.1)) + stay)
+        others = [name for name in self.names if name != own or not self.is_careful]
+        target = "POWER_UP" if not self.at_zero and self.chance(0.1) else self.rng.choice(others)
+        busy = self.is_careful and target in self.entries
+        parts = [] if busy and self.chance(0.5) else self.statements(self.chance(0.05), not busy)
+        parts.append(f"NEXT := {target};")
+        self.rng.shuffle(parts)
+        return " ".join(parts)
+
+    def choice(self, own, owns_error, within=""):
+        """`within`: what all of its conditions begin with."""
+        text = f"IF {within}({self.condition(owns_error)}) THEN {self.branch(own)}"
+        for _ in range(self.rng.randint(0, 2)):
+            text += f" ELSIF {within}({self.condition(owns_error)}) THEN {self.branch(own)}"
+        return text + (f" ELSE {self.branch(own)}" if not within and self.chance(0.3) else "") + " END_IF"
+
+    def choices(self, own, owns_error):
+        if self.is_careful and self.chance(0.8):
+            return [self.choice(own, owns_error)]
+        if self.is_careful and self.chance(0.2):
+            return [self.branch(own)] + ([self.choice(own, True, "ERROR AND ")] if owns_error else [])
+        if self.is_careful:
+            bit = self.rng.choice(INPUTS)
+            return [self.choice(own, owns_error, f"{word} AND ") for word in (bit, f"NOT {bit}")]
+        bare = [self.branch(own)] if self.chance(0.1) else []
+        return bare + [self.choice(own, owns_error) for _ in range(self.rng.choice([1, 1, 2]))]
+
+    def step(self, name, number):
+        owns = name == self.names[-1] or not self.has_on_error or self.chance(0.2)
+        owns = owns and (self.is_careful or not self.chance(0.1))
+        self.is_timed = self.chance(0.25)
+        parts = ["OWN ERROR;"] if owns else []
+        self.outputs[name] = self.some(OUTPUTS, 2)
+        if self.outputs[name]:
+            parts.append(f"OUT {', '.join(self.outputs[name])};")
+        for _ in range(self.rng.choice([0, 0, 0, 1, 2])):
+            parts.append(f"OUT {self.rng.choice(OUTPUTS)} WHEN {self.condition(owns)};")
+        parts += [f"ENTRY {text}" for text in self.entries.get(name, [])]
+        parts += self.choices(name, owns)
+        return f"STEP {name}{number}: {' '.join(parts)} {{{name}}} END_STEP"
+
+    def term(self):
+        """Beside branches it names a next step and that one's outputs, so that outputs stay certain."""
+        words = self.some(INPUTS, 2) + self.some(["TIMER.Q"], 1) + self.some(["ERROR"], 1)
+        literals = [f"NOT {w}" if w != "TIMER.Q" and self.chance(0.4) else w for w in words] or ["TRUE"]
+        condition = f"TERM IF {' AND '.join(literals)} THEN"
+        if self.chance(0.2):
+            return f"{condition} Window := {self.rng.randint(1, 99)}; END_IF;"
+        target = self.rng.choice(self.names)
+        parts = self.some(["HOME;", "STOP;", "POSITION(Place);"], 1) + [f"NEXT := {target};"]
+        parts += self.some([f"TIMER := {self.rng.choice(TIMES)};", f"{self.rng.choice(COUNTS[2:])};"], 1)
+        parts += self.some(["COUNT_DOWN;"] if not any("COUNTER" in p for p in parts) else [], 1)
+        if self.outputs[target]:
+            parts.append(f"OUT {', '.join(self.outputs[target])};")
+        return f"{condition} {' '.join(parts)} END_IF;"
+
+    def program(self):
+        self.outputs = {}
+        self.entries = {name: self.statements() for name in self.names if self.chance(0.25)}
+        numbers = self.rng.sample(range(1, 62), len(self.names))
+        spelt = [f" AT {n}" if self.chance(0.2) else "" for n in numbers]
+        if self.at_zero:
+            spelt[self.rng.randrange(len(spelt))] = " AT 0"
+        steps = [self.step(name, number) for name, number in zip(self.names, spelt)]
+        terms = {n: self.term() if self.chance(0.25) and not self.at_zero else "" for n in self.names}
+        text = "PROGRAM Random\n" + DECLARATIONS
+        text += f"VAR_MOTOR {' '.join(NAMES if self.at_zero or self.chance(0.3) else VALUES)} END_VAR\n"
+        text += f"ON ERROR NEXT := {self.names[-1]};\n" if self.has_on_error else ""
+        if not self.at_zero and self.chance(0.6):
+            first = f"NEXT := {self.rng.choice(self.names)};"
+            text += f"POWER_UP {' '.join(self.statements(False, False))} {first} END_POWER_UP\n"
+        return text + "\n".join(step.format(**terms) for step in steps) + "\nEND_PROGRAM\n"
+
+
+def program(rng):
+    return Writer(rng).program()
+
+
+def course(rng, length):
+    """[(image, milliseconds)]: levels that stay a while, so that steps are left and waited in."""
+    image, rows = rng.randrange(128), []
+    for _ in range(length):
+        for bit in range(8):
+            if rng.random() < (0.25 if bit < 7 else 0.15):
+                image ^= 1 << bit
+        if rng.random() < 0.4:
+            image &= 0x7F
+        rows.append((image, rng.choice([0, 1, 1, 2, 5, 20])))
+    return rows
