@@ -50,6 +50,7 @@ struct BenchBoard final : ports::DigitalInputs,
     bool longwords_only() const override { return is_mac800; }
     bool in_position() const override { return in_pos; }
     bool error() const override { return err || link_state != motor::Link::up; }
+    std::uint8_t fault_number() const override { return fault; }
     motor::Link link() const override { return link_state; }
 
     void ordered(base::Instant, const sequencer::MotorOrder&) override { ++orders_seen; }
@@ -65,6 +66,7 @@ struct BenchBoard final : ports::DigitalInputs,
         const auto end = now + duration;
         while (now < end) {
             now += base::Microseconds(250);
+            poll(now);
             gateway.poll(now);
         }
     }
@@ -90,6 +92,7 @@ struct BenchBoard final : ports::DigitalInputs,
     bool is_settled = true;
     bool in_pos = false;
     bool err = false;
+    std::uint8_t fault = 0;
     motor::Link link_state = motor::Link::up;
     std::vector<motor::Order> sent;
     motor::AccessState access = motor::AccessState::none;

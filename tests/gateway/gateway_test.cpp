@@ -43,7 +43,7 @@ TEST_F(GatewayTest, AnOrderLeavesAtOnceAndAnEdgeNeedsNoPollOfTheMotor) {
     ASSERT_EQ(board.sent.size(), 0U);
     const int polls = board.polls;
     board.in = 1;
-    gateway.poll_inputs(board.now);
+    gateway.poll(board.now);
     EXPECT_EQ(board.sent.size(), 1U);
     EXPECT_EQ(board.begun, static_cast<std::size_t>(board.stops) + 1);
     EXPECT_EQ(board.polls, polls);
@@ -58,7 +58,7 @@ TEST_F(GatewayTest, AStopLeavesInThePollThatFindsItsReason) {
     ASSERT_EQ(gateway.run_state(), RunState::running);
     const int stops = board.stops;
     board.in = 0;
-    gateway.poll_inputs(board.now);
+    gateway.poll(board.now);
     EXPECT_EQ(board.stops, stops + 1);
     EXPECT_EQ(board.begun, static_cast<std::size_t>(board.stops));
 }

@@ -8,7 +8,7 @@
 #include "base/bytes.h"
 #include "base/crc32.h"
 #include "bench_board.h"
-#include "gateway/user_port.h"
+#include "gateway/controller.h"
 #include "sim/sim_storage.h"
 
 namespace nplc::gateway {
@@ -49,28 +49,28 @@ struct PortBench {
     explicit PortBench(const Settings& settings = {.autostart = false}) { start(settings); }
 
     void start(const Settings& settings) {
-        port.reset();
-        own.reset();
-        tables.reset();
-        gateway.reset();
-        keeper.emplace(flash, kSettings);
         store::SettingValues initial = values_of(settings);
         static_cast<void>(initial.set(store::Setting::motor_address, kMotor));
+        keeper.emplace(flash, kSettings);
         keeper->start(initial);
-        gateway.emplace(board.ports(), settings_of(keeper->values()), StartCause::power_up);
-        keeper->attach(*gateway);
+        const Controller::Ports ports{.inputs = board,
+                                      .outputs = board,
+                                      .watchdog = board,
+                                      .motor = board,
+                                      .storage = flash,
+                                      .user_line = &line,
+                                      .motor_mactalk_line = wired ? &motor_line : nullptr,
+                                      .shown_lines = shown_lines};
+        controller.emplace(ports, kTables, memory, *keeper, StartCause::power_up);
+        gateway = &controller->sequence();
+        tables = &controller->tables();
         gateway->observe(&board);
-        tables.emplace(*gateway, board, flash, kTables, memory);
-        static_cast<void>(tables->mount());
         tables->start(board.now);
-        own.emplace(*gateway, *tables, *keeper);
-        port.emplace(line, wired ? &motor_line : nullptr, *gateway, board, *own, *keeper);
     }
 
     void poll() {
         board.now += base::Microseconds(250);
-        gateway->poll(board.now);
-        port->poll(board.now);
+        controller->poll(board.now);
     }
     void run(base::Microseconds duration) {
         for (const auto end = board.now + duration; board.now < end;) poll();
@@ -156,14 +156,14 @@ struct PortBench {
     BenchBoard board;
     sim::SimStorage flash{kFlash};
     std::array<std::uint8_t, (sequencer::kMaxTerms + 1) * sequencer::kTermBytes> memory{};
+    OwnRegisters::Lines shown_lines{};
     std::optional<SettingsKeeper> keeper;
-    std::optional<Gateway> gateway;
-    std::optional<TableKeeper> tables;
-    std::optional<OwnRegisters> own;
+    std::optional<Controller> controller;
+    Gateway* gateway = nullptr;
+    TableKeeper* tables = nullptr;
     InstantLine line;
     InstantLine motor_line;
     bool wired = false;
-    std::optional<UserPort> port;
 };
 
 }  // namespace nplc::gateway

@@ -74,10 +74,10 @@ TEST_F(PortSafety, AResetMakesNoNewTableActiveWhileTheMotorMoves) {
     board.motor_registers[kVIst] = 1;
     EXPECT_FALSE(command(Command::reset));
     EXPECT_EQ(result(), result_of(Result::moving, reg::COMMAND));
-    EXPECT_FALSE(own->reset_asked());
+    EXPECT_FALSE(controller->reset_asked());
     board.motor_registers[kVIst] = 0;
     static_cast<void>(command(Command::reset));
-    EXPECT_TRUE(own->reset_asked());
+    EXPECT_TRUE(controller->reset_asked());
 }
 
 TEST_F(PortSafety, AnOlderTableThatStandsInForADamagedOneDoesNotStartByItself) {

@@ -306,6 +306,43 @@ TEST_F(Safety, AHaltedScanEndsToo) {
     EXPECT_TRUE(board.sent.empty());
 }
 
+/// An alarm lamp among the safe levels is lit from the loss of the link on, what the fault step writes only
+/// later.
+TEST_F(Safety, ALampInTheSafeOutputsIsLitWhileTheLinkIsDown) {
+    constexpr std::uint8_t kLamp = 8;
+    // Step 0: outputs 1, to step 1; on ERROR (input bit 7) to step 2 with outputs 4.
+    const Bytes table{{0xC0, 0x00, 0x00, 0x01, 0x80, 0x01, 0, 0}, {0xC1, 0x80, 0x00, 0x02, 0x80, 0x04, 0, 0}};
+    Gateway gateway(board.ports(), {.safe_outputs = kLamp}, StartCause::power_up);
+    ASSERT_TRUE(gateway.load(table, board.now).ok);
+    board.run(gateway, 10ms);
+    EXPECT_EQ(board.out, 1);
+    board.link_state = motor::Link::down;
+    board.run(gateway, 10ms);
+    EXPECT_EQ(gateway.state().step, 2);
+    EXPECT_EQ(board.out, kLamp);
+    board.link_state = motor::Link::unacknowledged;
+    board.run(gateway, 10ms);
+    EXPECT_EQ(board.out, kLamp);
+    board.link_state = motor::Link::up;
+    board.run(gateway, 10ms);
+    EXPECT_EQ(board.out, 4);
+}
+
+TEST_F(Safety, AFaultOfTheDriverIsNotedOnce) {
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
+    board.run(gateway, 10ms);
+    const std::uint32_t before = gateway.log().count();
+    board.fault = 11;
+    board.run(gateway, 10ms);
+    ASSERT_EQ(gateway.log().count(), before + 1);
+    EXPECT_EQ(gateway.log().slot(before).event, static_cast<std::uint8_t>(Event::motor_fault));
+    EXPECT_EQ(gateway.log().slot(before).detail, 11);
+    board.fault = 0;
+    board.run(gateway, 10ms);
+    EXPECT_EQ(gateway.log().count(), before + 1);
+}
+
 TEST_F(Safety, OnlyAFinishedScanFeedsTheWatchdogOfARunningSequence) {
     Gateway gateway(board.ports(), settings, StartCause::power_up);
     ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);

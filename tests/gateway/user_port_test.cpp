@@ -12,12 +12,13 @@ using reg::Command;
 using reg::Result;
 
 // Step 0: IN0 -> outputs 5, step 1. Step 1: IN1 -> outputs 2, step 2, sends 61h. 001 §6.1.5, §6.1.7.
-const Bytes kTable{{0xC0, 0x01, 0x01, 0x01, 0x80, 0x05, 0, 0}, {0xC1, 0x02, 0x02, 0x02, 0x61, 0x02, 0, 0}};
+const Bytes kPortTable{{0xC0, 0x01, 0x01, 0x01, 0x80, 0x05, 0, 0},
+                       {0xC1, 0x02, 0x02, 0x02, 0x61, 0x02, 0, 0}};
 constexpr std::size_t kTableBytes = 3 * 8;
 
 struct UserPortTest : testing::Test, PortBench {
     void start_table() {
-        ASSERT_TRUE(upload_and_activate(kTable));
+        ASSERT_TRUE(upload_and_activate(kPortTable));
         ASSERT_TRUE(command(Command::run));
         run(10ms);
         ASSERT_EQ(state(), reg::RunState::running);
@@ -79,7 +80,7 @@ TEST_F(UserPortTest, MessagesThatAreNotForTheGatewayGetNoAnswer) {
 
 TEST_F(UserPortTest, UploadsActivatesReadsBackAndRuns) {
     board.motor_registers[10] = 4711;  // P_IST
-    const std::span<const std::uint8_t> table = kTable;
+    const std::span<const std::uint8_t> table = kPortTable;
     ASSERT_TRUE(upload(table));
     EXPECT_EQ(read(reg::STORED_BYTES), kTableBytes);
     EXPECT_EQ(read(reg::STORED_CRC), base::crc32(table));
@@ -120,7 +121,7 @@ TEST_F(UserPortTest, AFullTableGoesInPiecesAndSurvivesARestart) {
 }
 
 TEST_F(UserPortTest, ALostAnswerIsMendedByThePointer) {
-    const std::span<const std::uint8_t> table = kTable;
+    const std::span<const std::uint8_t> table = kPortTable;
     ASSERT_TRUE(command(Command::upload_begin));
     ASSERT_TRUE(send(table.first(8)));
     EXPECT_TRUE(write(reg::TABLE_POINTER, 0));
@@ -132,15 +133,15 @@ TEST_F(UserPortTest, ALostAnswerIsMendedByThePointer) {
 }
 
 TEST_F(UserPortTest, AnUploadThatIsNotAsAnnouncedLeavesTheStoredOne) {
-    ASSERT_TRUE(upload_and_activate(kTable));
+    ASSERT_TRUE(upload_and_activate(kPortTable));
     ASSERT_TRUE(command(Command::upload_begin));
-    ASSERT_TRUE(send(std::span<const std::uint8_t>(kTable)));
+    ASSERT_TRUE(send(std::span<const std::uint8_t>(kPortTable)));
     ASSERT_TRUE(write(reg::UPLOAD_BYTES, kTableBytes));
     ASSERT_TRUE(write(reg::UPLOAD_CRC, 1));
     EXPECT_FALSE(command(Command::upload_commit));
     EXPECT_EQ(result(), result_of(Result::wrong_check, reg::COMMAND));
     EXPECT_EQ(read(reg::UPLOAD_STATE).value_or(0) & 0xFFFFU, 5U | (14U << 8)) << "failed, wrong_check";
-    EXPECT_EQ(read(reg::STORED_CRC), base::crc32(kTable));
+    EXPECT_EQ(read(reg::STORED_CRC), base::crc32(kPortTable));
 }
 
 TEST_F(UserPortTest, AFaultyTableIsNamedByItsTerm) {
@@ -154,7 +155,7 @@ TEST_F(UserPortTest, AFaultyTableIsNamedByItsTerm) {
 }
 
 TEST_F(UserPortTest, PiecesWithoutABeginningAreRefused) {
-    EXPECT_FALSE(send(std::span<const std::uint8_t>(kTable)));
+    EXPECT_FALSE(send(std::span<const std::uint8_t>(kPortTable)));
     EXPECT_EQ(result(), result_of(Result::no_upload, reg::TABLE_DATA));
     EXPECT_FALSE(command(Command::upload_commit));
     EXPECT_FALSE(command(Command::activate));
@@ -214,7 +215,8 @@ TEST_F(UserPortTest, TheLogTellsReasonsWithTheirTimes) {
 
 TEST_F(UserPortTest, FaultsOfLinesAreShownIfTheBoardNamesThem) {
     EXPECT_EQ(read(reg::LINE_FAULTS), 0U);
-    own->show_faults_of({&line, nullptr, &motor_line});
+    shown_lines = {&line, nullptr, &motor_line};
+    start({.autostart = false});
     line.counted = {.framing = 3, .overruns = 2};
     motor_line.counted = {.framing = 65'535, .overruns = 65'536};
     EXPECT_EQ(read(reg::LINE_FAULTS), 0x0002'0003U);
@@ -277,10 +279,10 @@ TEST_F(UserPortTest, SettingsAreWrittenWhileStoppedAndKept) {
 TEST_F(UserPortTest, AResetIsAskedForOnlyWhileStopped) {
     start_table();
     EXPECT_FALSE(command(Command::reset));
-    EXPECT_FALSE(own->reset_asked());
+    EXPECT_FALSE(controller->reset_asked());
     ASSERT_TRUE(command(Command::stop));
     static_cast<void>(command(Command::reset));
-    EXPECT_TRUE(own->reset_asked());
+    EXPECT_TRUE(controller->reset_asked());
 }
 
 TEST_F(UserPortTest, ANewMessageEndsTheWaitForTheAnswerBefore) {

@@ -78,14 +78,52 @@ TEST_F(MidiCanLineTest, ALateAnswerIsNobodys) {
 TEST_F(MidiCanLineTest, AFrameThatThePortDoesNotTakeNeverReachedTheModule) {
     bus.takes = false;
     run();
-    EXPECT_EQ(link.poll(now).kind, Kind::not_taken);
+    EXPECT_EQ(link.poll(now).kind, Kind::none) << "its queue may be full";
+    for (int i = 0; i < 99; ++i) {
+        EXPECT_LE(link.next_poll(now), now + 1ms);
+        now += 1ms;
+        EXPECT_EQ(link.poll(now).kind, Kind::none);
+    }
+    EXPECT_EQ(at_the_deadline(), Kind::not_taken);
     bus.takes = true;
+    EXPECT_EQ(link.poll(now).kind, Kind::none);
+    EXPECT_EQ(bus.take(), Frames{}) << "not delivered late";
     bus.state_now = ports::CanState::bus_off;
     run();
     hear(kRunTaken);
     EXPECT_EQ(link.poll(now).kind, Kind::not_taken) << "another master's";
     EXPECT_EQ(bus.take(), Frames{});
     EXPECT_EQ(bus.restarts, 1U);
+}
+
+TEST_F(MidiCanLineTest, AFullQueueCostsTimeOnly) {
+    bus.takes = false;
+    run();
+    now += 90ms;
+    EXPECT_EQ(link.poll(now).kind, Kind::none);
+    bus.takes = true;
+    now += 1ms;
+    EXPECT_EQ(link.poll(now).kind, Kind::none);
+    EXPECT_EQ(bus.take(), Frames{kRun});
+    now += 90ms;
+    EXPECT_EQ(heard(kRunTaken).kind, Kind::accepted) << "the answer has its whole time";
+}
+
+// SAFETY: outputs are safe 10 ms after it is known.
+TEST_F(MidiCanLineTest, ABusThatGoesDownIsKnownAtOnce) {
+    for (const auto state : {ports::CanState::down, ports::CanState::bus_off}) {
+        bus.state_now = ports::CanState::active;
+        run();
+        EXPECT_EQ(link.poll(now).kind, Kind::none);
+        EXPECT_EQ(link.trouble(), MidiTrouble::none);
+        bus.state_now = state;
+        EXPECT_EQ(link.poll(now).kind, Kind::unclear);
+        EXPECT_EQ(link.trouble(), MidiTrouble::no_bus);
+        bus.state_now = ports::CanState::active;
+        EXPECT_EQ(link.poll(now).kind, Kind::none);
+        EXPECT_EQ(link.trouble(), MidiTrouble::none) << "with no message under way too";
+        bus.take();
+    }
 }
 
 TEST_F(MidiCanLineTest, AfterABootUpNothingIsSentBeforeItWasTold) {
@@ -99,8 +137,10 @@ TEST_F(MidiCanLineTest, AfterABootUpNothingIsSentBeforeItWasTold) {
     EXPECT_EQ(bus.take(), Frames{kRun});
 }
 
+// What other masters ask it too: the module answers them as well.
 TEST_F(MidiCanLineTest, OnlyTheModulesOwnFramesComeIn) {
-    ASSERT_EQ(bus.filters.size(), 2U);
+    ASSERT_EQ(bus.filters.size(), 3U);
+    EXPECT_EQ(bus.filters[2].id, 0x605U);
     EXPECT_EQ(bus.filters[0].id, 0x585U);
     EXPECT_EQ(bus.filters[1].id, 0x705U);
     for (const ports::CanFilter& filter : bus.filters) {

@@ -58,9 +58,11 @@ class DisturbedRun {
 
     void check() {
         EXPECT_TRUE(world_.take_snapshot().link_up) << "the link has not come back";
-        const auto result = sim::audit(ordered_, world_.mac().orders(), world_.on_their_way());
-        EXPECT_TRUE(result.unordered.empty())
-            << result.unordered.size() << " orders executed and not ordered";
+        sim::OrderAuditor auditor(protocol::fastmac::RegisterCode::format_list);
+        for (const sim::SentOrder& order : ordered_) auditor.ordered(order);
+        for (const sim::Order& order : world_.mac().orders()) auditor.executed(order);
+        const auto result = auditor.finish(world_.on_their_way());
+        EXPECT_TRUE(result.unordered.empty()) << result.unordered.count << " orders executed and not ordered";
         for (const sim::Order& order : world_.mac().orders()) {
             if (!order.flexmac || order.reg == 2) continue;  // 2: the gateway's own stop
             EXPECT_TRUE(was_ordered_lately(order)) << "register " << int{order.reg} << " is written late";

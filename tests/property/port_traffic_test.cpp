@@ -30,11 +30,12 @@ void check(std::uint64_t seed, Traffic traffic) {
         EXPECT_EQ(beside.ordered()[i].order, alone.ordered()[i].order) << i;
         EXPECT_LE(beside.ordered()[i].at - alone.ordered()[i].at, kLongestAccess) << i;
     }
-    std::vector<sim::SentOrder> ordered;
-    for (const auto& each : beside.ordered()) ordered.push_back(each.order);
-    const auto result = sim::audit(ordered, beside.world().mac().orders(), beside.world().on_their_way());
-    EXPECT_TRUE(result.unordered.empty()) << result.unordered.size() << " executed and not ordered";
-    EXPECT_TRUE(result.missing.empty()) << result.missing.size() << " ordered and not executed";
+    sim::OrderAuditor auditor(protocol::fastmac::RegisterCode::format_list);
+    for (const auto& each : beside.ordered()) auditor.ordered(each.order);
+    for (const sim::Order& order : beside.world().mac().orders()) auditor.executed(order);
+    const auto result = auditor.finish(beside.world().on_their_way());
+    EXPECT_TRUE(result.unordered.empty()) << result.unordered.count << " executed and not ordered";
+    EXPECT_TRUE(result.missing.empty()) << result.missing.count << " ordered and not executed";
     const auto with = beside.executed();
     const auto without = alone.executed();
     ASSERT_EQ(with.size(), without.size());

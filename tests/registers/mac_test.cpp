@@ -9,7 +9,7 @@
 namespace nplc::registers {
 namespace {
 
-const Register& small(std::uint8_t number) {
+const Register& small_register(std::uint8_t number) {
     return *find(Model::mac140, number);
 }
 const Register& large(std::uint8_t number) {
@@ -18,24 +18,24 @@ const Register& large(std::uint8_t number) {
 
 // 001 §3.2: the number in a section's title is the register's number.
 TEST(MacMap, NumbersOf001) {
-    EXPECT_EQ(small(1).name, "PROG_VERSION");
-    EXPECT_EQ(small(3).name, "P_SOLL");
-    EXPECT_EQ(small(5).name, "V_SOLL");
-    EXPECT_EQ(small(10).name, "P_IST");
-    EXPECT_EQ(small(35).name, "ERR_STAT");
-    EXPECT_EQ(small(49).name, "P1");
-    EXPECT_EQ(small(63).name, "P8");
-    EXPECT_EQ(small(72).name, "V8");
-    EXPECT_EQ(small(76).name, "A4");
-    EXPECT_EQ(small(80).name, "T4");
-    EXPECT_EQ(small(84).name, "L4");
-    EXPECT_EQ(small(88).name, "Z4");
-    EXPECT_EQ(small(100).name, "KVFY0");
-    EXPECT_EQ(small(111).name, "KIB0");
-    EXPECT_EQ(small(117).name, "FNC_OUT");
-    EXPECT_EQ(small(127).name, "AMPLITUDE");
-    EXPECT_EQ(small(156).name, "MYADDR");
-    EXPECT_EQ(small(163).name, "P_NEW");
+    EXPECT_EQ(small_register(1).name, "PROG_VERSION");
+    EXPECT_EQ(small_register(3).name, "P_SOLL");
+    EXPECT_EQ(small_register(5).name, "V_SOLL");
+    EXPECT_EQ(small_register(10).name, "P_IST");
+    EXPECT_EQ(small_register(35).name, "ERR_STAT");
+    EXPECT_EQ(small_register(49).name, "P1");
+    EXPECT_EQ(small_register(63).name, "P8");
+    EXPECT_EQ(small_register(72).name, "V8");
+    EXPECT_EQ(small_register(76).name, "A4");
+    EXPECT_EQ(small_register(80).name, "T4");
+    EXPECT_EQ(small_register(84).name, "L4");
+    EXPECT_EQ(small_register(88).name, "Z4");
+    EXPECT_EQ(small_register(100).name, "KVFY0");
+    EXPECT_EQ(small_register(111).name, "KIB0");
+    EXPECT_EQ(small_register(117).name, "FNC_OUT");
+    EXPECT_EQ(small_register(127).name, "AMPLITUDE");
+    EXPECT_EQ(small_register(156).name, "MYADDR");
+    EXPECT_EQ(small_register(163).name, "P_NEW");
 }
 
 // 004: the MAC800's own numbers above 88.
@@ -113,25 +113,25 @@ TEST(MacMap, AllNumbersUpTo163AreCovered) {
 }
 
 TEST(MacMap, FormatsUnitsAndRangesOf001) {
-    EXPECT_EQ(small(P_SOLL).format, Format::long_int);  // §3.2.3: +/-67E6 encoder counts
-    EXPECT_EQ(small(P_SOLL).unit, Unit::counts);
-    EXPECT_EQ(small(P_SOLL).max, 67'000'000);
-    EXPECT_EQ(small(P_SOLL).min, -67'000'000);
-    EXPECT_EQ(small(V_SOLL).format, Format::integer);
-    EXPECT_EQ(small(V_SOLL).unit, Unit::velocity_16);
-    EXPECT_EQ(small(A_SOLL).format, Format::word);
-    EXPECT_EQ(small(A_SOLL).unit, Unit::acceleration_16);
-    EXPECT_EQ(small(T_SOLL).max, 1023);
-    EXPECT_EQ(small(P_FNC).unit, Unit::counts_16);
-    EXPECT_EQ(small(V_IST).unit, Unit::velocity);
-    EXPECT_EQ(small(INPOSWIN).max, 32767);
-    EXPECT_EQ(small(T_HOME).min, -800);
-    EXPECT_EQ(small(P_REG_P).max, 8);
-    EXPECT_EQ(small(Z_REG_P).max, 4);
-    EXPECT_EQ(small(81).format, Format::fixed8);
-    EXPECT_EQ(small(93).format, Format::fixed4);
-    EXPECT_EQ(small(127).max, 212);  // 0.83 x 256 = 212.48
-    EXPECT_EQ(small(V_SOLL).section, "001 §3.2.5");
+    EXPECT_EQ(small_register(P_SOLL).format, Format::long_int);  // §3.2.3: +/-67E6 encoder counts
+    EXPECT_EQ(small_register(P_SOLL).unit, Unit::counts);
+    EXPECT_EQ(small_register(P_SOLL).max, 67'000'000);
+    EXPECT_EQ(small_register(P_SOLL).min, -67'000'000);
+    EXPECT_EQ(small_register(V_SOLL).format, Format::integer);
+    EXPECT_EQ(small_register(V_SOLL).unit, Unit::velocity_16);
+    EXPECT_EQ(small_register(A_SOLL).format, Format::word);
+    EXPECT_EQ(small_register(A_SOLL).unit, Unit::acceleration_16);
+    EXPECT_EQ(small_register(T_SOLL).max, 1023);
+    EXPECT_EQ(small_register(P_FNC).unit, Unit::counts_16);
+    EXPECT_EQ(small_register(V_IST).unit, Unit::velocity);
+    EXPECT_EQ(small_register(INPOSWIN).max, 32767);
+    EXPECT_EQ(small_register(T_HOME).min, -800);
+    EXPECT_EQ(small_register(P_REG_P).max, 8);
+    EXPECT_EQ(small_register(Z_REG_P).max, 4);
+    EXPECT_EQ(small_register(81).format, Format::fixed8);
+    EXPECT_EQ(small_register(93).format, Format::fixed4);
+    EXPECT_EQ(small_register(127).max, 212);  // 0.83 x 256 = 212.48
+    EXPECT_EQ(small_register(V_SOLL).section, "001 §3.2.5");
 }
 
 TEST(MacMap, EveryRegisterOfTheMac800Is32Bit) {
@@ -142,12 +142,12 @@ TEST(MacMap, EveryRegisterOfTheMac800Is32Bit) {
 
 TEST(MacMap, DangerousOnes) {
     for (int number = 89; number <= 111; ++number)
-        EXPECT_TRUE(small(static_cast<std::uint8_t>(number)).dangerous);
-    EXPECT_TRUE(small(127).dangerous);
-    EXPECT_TRUE(small(140).dangerous);
-    EXPECT_FALSE(small(V_SOLL).dangerous);
-    EXPECT_FALSE(small(P1).dangerous);
-    EXPECT_FALSE(small(CNTRL_BITS).dangerous);
+        EXPECT_TRUE(small_register(static_cast<std::uint8_t>(number)).dangerous);
+    EXPECT_TRUE(small_register(127).dangerous);
+    EXPECT_TRUE(small_register(140).dangerous);
+    EXPECT_FALSE(small_register(V_SOLL).dangerous);
+    EXPECT_FALSE(small_register(P1).dangerous);
+    EXPECT_FALSE(small_register(CNTRL_BITS).dangerous);
     EXPECT_TRUE(large(149).dangerous);
     EXPECT_TRUE(large(186).dangerous);
     EXPECT_FALSE(large(V_SOLL).dangerous);

@@ -7,7 +7,7 @@
 namespace nplc::registers::midi {
 namespace {
 
-constexpr Model kModels[] = {Model::mac23, Model::mac34_1, Model::mac34_2};
+constexpr Model kScaledModels[] = {Model::mac23, Model::mac34_1, Model::mac34_2};
 
 // 000 §VI 0Dh: 60 / (VVVV x 0.125e-6 x increments) = 240000 / VVVV and 48000 / VVVV.
 TEST(MidiSpeed, TheManualsConstants) {
@@ -26,7 +26,7 @@ TEST(MidiSpeed, TheManualsExample) {
 }
 
 TEST(MidiSpeed, Limits) {
-    for (const Model model : kModels) {
+    for (const Model model : kScaledModels) {
         const std::int64_t k = rpm_times_period(model);
         EXPECT_EQ(period_of_rpm(model, {k, 1}), 1);
         EXPECT_FALSE(period_of_rpm(model, {k + 1, 1}));
@@ -46,7 +46,7 @@ TEST(MidiSpeed, Limits) {
 }
 
 TEST(MidiSpeed, EveryPeriodComesBack) {
-    for (const Model model : kModels) {
+    for (const Model model : kScaledModels) {
         for (int period = 1; period <= 0xFFFF; ++period) {
             const auto vvvv = static_cast<std::uint16_t>(period);
             ASSERT_EQ(period_of_rpm(model, rpm_of_period(model, vvvv)), vvvv);
@@ -168,7 +168,7 @@ TEST(MidiMeasures, Supply) {
 }
 
 TEST(MidiMeasures, EveryMeasureComesBack) {
-    for (const Model model : kModels) {
+    for (const Model model : kScaledModels) {
         for (int measure = 0; measure <= 255; ++measure) {
             const auto byte = static_cast<std::uint8_t>(measure);
             EXPECT_EQ(measure_of_temperature(model, temperature_of(model, byte)), measure);

@@ -26,7 +26,7 @@ struct Row {
 };
 
 // 001 §3.2. A register without a range in the text has that of its format (§3.1).
-constexpr Row kSmall[] = {
+constexpr Row kSmallRows[] = {
     {17, 1, "PROG_VERSION", W, 0, 65'535},
     {17, 2, "MODE_REG", W, 0, 258},  // 0..24, 256; 257 and 258 of §4.4.16
     {18, 3, "P_SOLL", L, -67'000'000, 67'000'000},
@@ -104,7 +104,7 @@ constexpr Row kSmall[] = {
 };
 
 // 004, a table after the other. No page numbers survive; 0 stands for them.
-constexpr Row kLarge[] = {
+constexpr Row kLargeRows[] = {
     {0, 1, "PROG_VER", L, -kMost, kMost},
     {0, 2, "MODE_REG", L, 0, 21},
     {0, 4, "P_NEW", L, -kMost, kMost},
@@ -153,16 +153,16 @@ void compare(Model model, std::span<const Row> rows) {
 }
 
 TEST(Rows, OfEveryPageOf001) {
-    compare(Model::mac95, kSmall);
+    compare(Model::mac95, kSmallRows);
     std::set<int> pages;
-    for (const Row& row : kSmall) pages.insert(row.page);
+    for (const Row& row : kSmallRows) pages.insert(row.page);
     for (int page = 17; page <= 51; ++page) {
         EXPECT_TRUE(pages.contains(page) || page == 33) << page;  // 33 goes on with CNTRL_BITS
     }
 }
 
 TEST(Rows, OfEveryTableOf004) {
-    compare(Model::mac800, kLarge);
+    compare(Model::mac800, kLargeRows);
 }
 
 // 001: 164 numbers; LongInts are 3 8 10 20 22 24 26 28 30 38, eight positions, 154 158 163: 21 take two.

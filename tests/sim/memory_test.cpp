@@ -29,7 +29,7 @@ TEST(Memory, SmallMotorsKeepLongwordsInTwoNumbersLowFirst) {
 }
 
 // The program has each register by the sign and width that the manual's table gives it, whatever wrote it. R:
-// but KVOUT and L1..L4, which are no less than 1, and AMPLITUDE; 154 and 158 it does not use.
+// but KVOUT and L1..L4, which are no less than 1, and AMPLITUDE.
 TEST(Memory, WordsFromTheLineAreNumbersOfTheirRegister) {
     constexpr auto kModel = registers::Model::mac140;
     MotorMemory m(kModel);
@@ -37,8 +37,7 @@ TEST(Memory, WordsFromTheLineAreNumbersOfTheirRegister) {
     for (int number = 1; number < 256; ++number) {
         const auto reg = static_cast<std::uint8_t>(number);
         const registers::Register* entry = registers::find(kModel, reg);
-        const bool ours = number == KVOUT || (number >= L1 && number < L1 + 4) || number == 127 ||
-                          number == 154 || number == 158;
+        const bool ours = number == KVOUT || (number >= L1 && number < L1 + 4) || number == 127;
         if (entry == nullptr || ours) continue;
         ++looked_at;
         const bool wide = registers::is_32_bit(entry->format);
@@ -48,6 +47,27 @@ TEST(Memory, WordsFromTheLineAreNumbersOfTheirRegister) {
         EXPECT_EQ(m.read(reg, wide), wide ? 0xFFFF'FFFE : 0xFFFE) << number;
     }
     EXPECT_GT(looked_at, 100);
+}
+
+// 001 §3.2.153 to §3.2.158, 004 "Diverse".
+TEST(Memory, TheIdentityIsThereAndTellsTwoMotorsApart) {
+    for (const auto model : {registers::Model::mac50, registers::Model::mac140, registers::Model::mac800}) {
+        MacMotor one(model, {.address = 8}), other(model, {.address = 9});
+        for (const char* name : {"PROG_VERSION", "MOTOR_TYPE", "SERIAL_NMB", "HW_VERSION", "CHKSUM"}) {
+            const bool large = model == registers::Model::mac800;
+            const std::string_view wanted = !large                                ? name
+                                            : name == std::string("SERIAL_NMB")   ? "SERIAL_NUMBER"
+                                            : name == std::string("PROG_VERSION") ? "PROG_VER"
+                                                                                  : name;
+            const registers::Register& reg = *registers::find(model, wanted);
+            EXPECT_NE(one.read(reg.number), 0) << name;
+            EXPECT_EQ(one.read(reg.number) != other.read(reg.number), name == std::string("SERIAL_NMB"))
+                << name;
+        }
+    }
+    MacMotor motor(registers::Model::mac140, {.address = 8});
+    EXPECT_EQ(motor.read(153), 140);
+    EXPECT_EQ(motor.read(154), 999'140'008);
 }
 
 TEST(Memory, LongwordIntoAWordRegisterReachesTheNext) {

@@ -38,11 +38,10 @@ double revolutions(const World& world, const Snapshot& snapshot,
     return world.midi()->drive().module().position() / (midi->model == Model::mac23 ? 2'000.0 : 10'000.0);
 }
 
-Ran run_example(const std::string& name, const std::optional<MidiDriveOptions>& midi) {
+Ran run_scenario(const std::string& name, const std::string& text,
+                 const std::optional<MidiDriveOptions>& midi) {
     const Program program = load_program(kExamples + "/" + name + ".seq");
-    std::ostringstream text;
-    text << std::ifstream(kExamples + "/" + name + ".scn").rdbuf();
-    const ParsedScenario parsed = parse_scenario(text.str(), name, program.names);
+    const ParsedScenario parsed = parse_scenario(text, name, program.names);
     EXPECT_TRUE(parsed.mistakes.empty());
     WorldOptions options;
     options.midi = midi;
@@ -77,6 +76,12 @@ Ran run_example(const std::string& name, const std::optional<MidiDriveOptions>& 
     return ran;
 }
 
+Ran run_example(const std::string& name, const std::optional<MidiDriveOptions>& midi) {
+    std::ostringstream text;
+    text << std::ifstream(kExamples + "/" + name + ".scn").rdbuf();
+    return run_scenario(name, text.str(), midi);
+}
+
 /// Where the shaft stands where it was sent: 60 mm are 12 revolutions. The other steps end in motion, or
 /// where the guard door was opened.
 void expect_settled(const Ran& ran) {
@@ -106,6 +111,64 @@ TEST(MidiGateway, PickAndPlaceIsTheSameOnEveryDrive) {
         EXPECT_EQ(other.discarded, 0U);
         expect_settled(other);
         for (const std::string& failure : other.failures) ADD_FAILURE() << failure;
+    }
+}
+
+/// 003 §VII 0Bh from another master, on the way to the place: the gripper must not open, and the reason is
+/// told.
+TEST(MidiGateway, AnotherMastersOriginInMidMoveIsAFault) {
+    for (const bool can : {false, true}) {
+        const Program program = load_program(kExamples + "/midi_pick_and_place.seq");
+        WorldOptions options;
+        options.midi = MidiDriveOptions{.can = can};
+        World world(program.table, options);
+        const auto until = [&](const std::string& step, auto holds) {
+            const Time end = world.now() + 3s;
+            while (world.now() < end &&
+                   (program.names.step(world.gateway().state().step) != step || !holds()))
+                world.step(world.now() + 1ms);
+            return world.now() < end;
+        };
+        ASSERT_TRUE(until("Idle", [] { return true; }));
+        world.set_input(0, true);
+        MidiModule& module = world.midi()->drive().module();
+        ASSERT_TRUE(until("Travel", [&] { return module.position() > 40'000; }));
+        world.set_input(0, false);
+        ASSERT_TRUE(module.execute(registers::midi::ZERO_POSITION, 0, 0));
+        while (program.names.step(world.gateway().state().step) == "Travel" && world.now() < 10s)
+            world.step(world.now() + 1ms);
+        EXPECT_EQ(program.names.step(world.gateway().state().step), "Fault");
+        ASSERT_TRUE(until("Fault", [&] { return !module.moving(); }));
+        // Where it was zeroed, what passes until it is seen, and the stop: less than 4 of the 12 revolutions.
+        EXPECT_LT(module.position(), 40'000);
+        const gateway::EventLog& log = world.gateway().log();
+        bool is_noted = false;
+        for (std::size_t i = 0; i < log.count(); ++i) {
+            const auto& entry = log.slot(i);
+            is_noted = is_noted || (entry.event == static_cast<std::uint8_t>(gateway::Event::motor_fault) &&
+                                    entry.detail == static_cast<std::uint16_t>(motor::MidiFault::jumped));
+        }
+        EXPECT_TRUE(is_noted);
+    }
+}
+
+// 003 §VII 02h, 19h: 1023 is the whole holding torque; half of it, 64 of 128 steps, holds in standby.
+TEST(MidiGateway, ALoadAboveTheHoldingTorqueMovesARestingShaft) {
+    const std::string scenario = R"(
+at 200 ms  pulse Start 50 ms
+expect at 2400 ms step = Idle and P_IST = 0 +- 2 counts
+at 2500 ms motor load 515
+expect at 2900 ms P_IST = 0 +- 2 counts and not ERROR
+at 3 s motor load 1100
+expect at 3 s INPOS
+expect P_IST > 1 rev 300 ms after P_IST > 20 counts
+expect at 3500 ms not INPOS
+end at 4 s
+)";
+    for (const bool can : {false, true}) {
+        const Ran ran = run_scenario("midi_pick_and_place", scenario,
+                                     MidiDriveOptions{.model = Model::mac34_1, .can = can});
+        EXPECT_EQ(ran.failures, std::vector<std::string>{});
     }
 }
 

@@ -24,7 +24,7 @@ std::string ask(MidiRack& rack, const v24::Request& request, Time time = millise
     return {bytes.begin(), bytes.end()};
 }
 
-const std::string kDone = "\x06\x13\x1A";
+const std::string kAnswered = "\x06\x13\x1A";
 
 // 21 characters there and 21 back (Ack, Xoff, 18 of the reply, Xon).
 TEST(MidiRack, AQueryTakesItsTimeOnTheLine) {
@@ -47,10 +47,10 @@ TEST(MidiRack, AQueryTakesItsTimeOnTheLine) {
 
 TEST(MidiRack, EachModuleAnswersForItself) {
     MidiRack rack({{midi::Model::mac23, 0}, {midi::Model::mac34_2, 1}}, 0);
-    EXPECT_EQ(ask(rack, {.address = 1, .index = 0x09, .data = 7}), kDone);
+    EXPECT_EQ(ask(rack, {.address = 1, .index = 0x09, .data = 7}), kAnswered);
     EXPECT_EQ(rack.module(0).memory().upper_stop, midi::kMaxPosition);
     EXPECT_EQ(rack.module(1).memory().upper_stop, 7);
-    EXPECT_EQ(ask(rack, {.address = v24::kGeneral, .index = 0x09, .data = 8}), kDone);
+    EXPECT_EQ(ask(rack, {.address = v24::kGeneral, .index = 0x09, .data = 8}), kAnswered);
     EXPECT_EQ(rack.module(0).memory().upper_stop, 8);
     EXPECT_EQ(rack.module(1).memory().upper_stop, 8);
     EXPECT_EQ(ask(rack, {.address = 2, .index = 0x20}), "");
@@ -60,7 +60,7 @@ TEST(MidiRack, EachModuleAnswersForItself) {
 TEST(MidiRack, AnotherBaudRate) {
     for (const std::uint32_t client : {38'400U, 0U}) {
         MidiRack rack({{midi::Model::mac34_1, 0}}, client);
-        EXPECT_EQ(ask(rack, {.index = 0x1B, .data = 1}), kDone);
+        EXPECT_EQ(ask(rack, {.index = 0x1B, .data = 1}), kAnswered);
         EXPECT_EQ(ask(rack, {.index = 0x20}, seconds{1}), "");
         rack.advance(rack.now() + seconds{1});
         EXPECT_EQ(ask(rack, {.index = 0x20}).size(), client == 0 ? 21u : 0u);

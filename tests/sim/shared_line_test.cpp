@@ -21,6 +21,8 @@ struct Clients final : hal_linux::ByteServer {
     bool has_client() override { return true; }
     std::size_t seats() const override { return 2; }
     std::uint64_t visit(std::size_t seat) override { return visits[seat]; }
+    bool has_left(std::size_t seat) override { return left[seat]; }
+    void note_message(std::size_t seat) override { ++messages[seat]; }
     std::size_t read_seat(std::size_t seat, std::span<std::uint8_t> out) override {
         const std::size_t count = std::min(out.size(), sends[seat].size());
         std::copy_n(sends[seat].begin(), count, out.begin());
@@ -33,6 +35,8 @@ struct Clients final : hal_linux::ByteServer {
     int descriptor() const override { return -1; }
 
     std::array<std::uint64_t, 2> visits{1, 2};
+    std::array<bool, 2> left{};
+    std::array<unsigned, 2> messages{};
     std::array<Bytes, 2> sends;
     std::array<Bytes, 2> hears;
     std::string name_ = "clients";
@@ -50,14 +54,32 @@ Bytes write_of(std::uint8_t reg) {
     return bytes(
         mactalk::encode({.kind = Kind::write, .address = kGateway, .reg = reg, .length = 4, .value = 1}));
 }
-Bytes reply_of(std::uint8_t reg) {
-    const std::array<std::uint8_t, 4> data{};
+Bytes reply_of(std::uint8_t reg, std::array<std::uint8_t, 4> data = {}) {
     return bytes(mactalk::encode_registers(reg, data));
+}
+/// COMMAND is 48; run 1, stop 2, safe 3, hold 6 (firmware/gateway/REGISTERS.md).
+Bytes order(std::uint32_t command) {
+    return bytes(mactalk::encode(
+        {.kind = Kind::write, .address = kGateway, .reg = 48, .length = 4, .value = command}));
+}
+constexpr std::uint32_t kRun = 1;
+constexpr std::uint32_t kStop = 2;
+constexpr std::uint32_t kSafe = 3;
+constexpr std::uint32_t kHold = 6;
+/// RESULT, 31: too_late, 19, of the register in bits 15..8.
+Bytes too_late(std::uint8_t reg) {
+    return reply_of(31, {19, reg, 0, 0});
+}
+
+Bytes operator+(Bytes first, const Bytes& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
 }
 
 struct SharedLineTest : testing::Test {
     Bytes on_the_line() { return line.to_line(now, {kGateway, kMotor}); }
     void answer(const Bytes& answer) { line.from_line(answer, now); }
+    void look() { EXPECT_EQ(on_the_line(), Bytes()); }
 
     Clients clients;
     SharedLine line{clients};
@@ -138,17 +160,163 @@ TEST_F(SharedLineTest, WhomNobodyAnswersIsWaitedForOnlyBriefly) {
 }
 
 TEST_F(SharedLineTest, ClientsTakeTurns) {
-    for (int i = 0; i < 4; ++i) {
-        const Bytes question = read_of(16);
-        clients.sends[0].insert(clients.sends[0].end(), question.begin(), question.end());
-    }
-    EXPECT_EQ(on_the_line(), read_of(16));
+    const Bytes accept = bytes(mactalk::encode_accept());
+    clients.sends[0] = write_of(50) + write_of(51) + write_of(52);
+    EXPECT_EQ(on_the_line(), write_of(50));
     clients.sends[1] = read_of(17);
-    EXPECT_TRUE(on_the_line() == read_of(16)) << "a follow-up of the same client";
-    answer(reply_of(16));
+    EXPECT_EQ(on_the_line(), write_of(51)) << "a follow-up of the same client";
+    answer(accept);
     EXPECT_EQ(on_the_line(), read_of(17));
     answer(reply_of(17));
+    EXPECT_EQ(on_the_line(), write_of(52));
+}
+
+TEST_F(SharedLineTest, AReadThatItsClientHasNotWaitedForIsDropped) {
+    clients.sends[0] = write_of(50);
+    EXPECT_EQ(on_the_line(), write_of(50));
+    clients.sends[1] = read_of(16) + read_of(17);
+    look();
+    clients.sends[1] = read_of(18);
+    look();
+    answer(bytes(mactalk::encode_accept()));
+    EXPECT_EQ(on_the_line(), read_of(18));
+    answer(reply_of(18));
+    look();
+}
+
+TEST_F(SharedLineTest, AStopEndsAnothersTurnAndGoesBeforeAllThatWaits) {
+    for (const std::uint32_t command : {kStop, kSafe, kHold}) {
+        clients.sends[0] = write_of(16) + write_of(16);
+        EXPECT_EQ(on_the_line(), write_of(16));
+        clients.sends[1] = order(command);
+        EXPECT_EQ(on_the_line(), order(command));
+        answer(bytes(mactalk::encode_accept()));
+        EXPECT_EQ(clients.hears[1], bytes(mactalk::encode_accept()));
+        clients.hears[1].clear();
+        EXPECT_TRUE(clients.hears[0].empty());
+        look();
+    }
+}
+
+TEST_F(SharedLineTest, AStopIsTakenHoweverMuchItsClientSentBefore) {
+    Bytes before;
+    for (int i = 0; i < 40; ++i) before = before + write_of(16);
+    clients.sends[0] = before + order(kStop);
+    EXPECT_EQ(on_the_line(), order(kStop));
+    EXPECT_EQ(clients.messages[0], 41U);
+}
+
+TEST_F(SharedLineTest, AStopIsNotCutShortByAHold) {
+    clients.sends[0] = order(kHold);
+    EXPECT_EQ(on_the_line(), order(kHold));
+    clients.sends[0] = order(kHold);
+    clients.sends[1] = order(kStop);
+    look();
+    now = line.next_turn(now);
+    EXPECT_LE(now, 100ms) << "a hold that is refused is not waited for long";
+    EXPECT_EQ(on_the_line(), order(kStop)) << "and a stop goes before the next one";
+    answer(bytes(mactalk::encode_accept()));
+    EXPECT_EQ(on_the_line(), order(kHold));
+}
+
+TEST_F(SharedLineTest, WhatWasSentBeforeAStopIsRefusedAndItsClientIsToldWhy) {
+    clients.sends[0] = read_of(17);
+    EXPECT_EQ(on_the_line(), read_of(17));
+    clients.sends[0] = order(kRun);
+    clients.sends[1] = order(kRun) + order(kStop) + write_of(50);
+    EXPECT_EQ(on_the_line(), order(kStop));
+    answer(bytes(mactalk::encode_accept()));
+    EXPECT_EQ(on_the_line(), write_of(50)) << "it was sent after the stop";
+    answer(bytes(mactalk::encode_accept()));
+    look();
+    clients.sends[0] = read_of(31);
+    look();
+    EXPECT_EQ(clients.hears[0], too_late(48));
+    clients.sends[0] = write_of(50) + read_of(31);
+    EXPECT_EQ(on_the_line(), write_of(50));
+    EXPECT_EQ(on_the_line(), read_of(31)) << "of that one the gateway tells";
+}
+
+TEST_F(SharedLineTest, AWriteThatAStopCutShortIsNotTakenForDone) {
+    clients.sends[0] = order(kRun);
+    EXPECT_EQ(on_the_line(), order(kRun));
+    clients.sends[1] = order(kStop);
+    EXPECT_EQ(on_the_line(), order(kStop));
+    answer(bytes(mactalk::encode_accept()));
+    clients.sends[0] = read_of(31);
+    look();
+    EXPECT_EQ(clients.hears[0], too_late(48));
+}
+
+TEST_F(SharedLineTest, WhatMayHaveWaitedTooLongToBeReadIsRefusedButForReadsAndStops) {
+    look();
+    now += SharedLine::kLongestUnread;
+    clients.sends[0] = order(kRun);
+    EXPECT_EQ(on_the_line(), order(kRun)) << "just in time";
+    answer(bytes(mactalk::encode_accept()));
+    now += SharedLine::kLongestUnread + 1ms;
+    const Bytes motor =
+        bytes(mactalk::encode({.kind = Kind::write, .address = kMotor, .reg = 2, .length = 2, .value = 2}));
+    clients.sends[0] = order(kRun) + motor + read_of(16);
+    clients.sends[1] = order(kStop);
+    EXPECT_EQ(on_the_line(), order(kStop));
+    answer(bytes(mactalk::encode_accept()));
     EXPECT_EQ(on_the_line(), read_of(16));
+    answer(reply_of(16));
+    clients.sends[0] = order(kRun);
+    EXPECT_EQ(on_the_line(), order(kRun)) << "the next one is fresh";
+}
+
+TEST_F(SharedLineTest, WhatWaitsForOthersTooLongIsRefused) {
+    clients.sends[0] = write_of(16);
+    EXPECT_EQ(on_the_line(), write_of(16));
+    clients.sends[1] = order(kRun);
+    look();
+    now += SharedLine::kLongestAnswer;
+    look();
+    clients.sends[1] = read_of(31);
+    look();
+    EXPECT_EQ(clients.hears[1], too_late(48));
+}
+
+TEST_F(SharedLineTest, TheSendersOfWhatIsOldAreNotDisturbedByOneThatNeverPauses) {
+    Bytes flood;
+    while (flood.size() < 20'000) flood = flood + read_of(16);
+    look();
+    now += SharedLine::kLongestUnread + 1ms;
+    clients.sends[0] = flood + order(kRun);
+    Bytes last;
+    for (int i = 0; i < 20; ++i) {
+        EXPECT_NE(last = on_the_line(), order(kRun)) << "it waited behind the others, in the same buffer";
+        answer(reply_of(16));
+    }
+}
+
+TEST_F(SharedLineTest, WhatAClientSentThatHasLeftIsRefusedButForStops) {
+    clients.sends[0] = order(kRun);
+    clients.left[0] = true;
+    look();
+    clients.sends[0] = order(kRun) + order(kStop);
+    EXPECT_EQ(on_the_line(), order(kStop));
+}
+
+TEST_F(SharedLineTest, AStopIsCarriedOutThoughItsClientsSeatIsAnothersByNow) {
+    clients.sends[1] = order(kHold);
+    EXPECT_EQ(on_the_line(), order(kHold));
+    clients.sends[0] = order(kStop);
+    look();
+    clients.visits[0] = 3;
+    look();
+    now = line.next_turn(now);
+    EXPECT_EQ(on_the_line(), order(kStop));
+    answer(bytes(mactalk::encode_accept()));
+    EXPECT_TRUE(clients.hears[0].empty());
+}
+
+TEST_F(SharedLineTest, WantsToLookOftenEnoughToTellHowOldAMessageIs) {
+    look();
+    EXPECT_EQ(line.next_turn(now), SharedLine::kBetweenLooks);
+    EXPECT_LT(SharedLine::kBetweenLooks, SharedLine::kLongestUnread);
 }
 
 TEST_F(SharedLineTest, WhatAClientLeftBehindIsDropped) {

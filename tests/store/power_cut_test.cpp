@@ -39,21 +39,15 @@ bool expect_old_or_new(sim::SimStorage& device, const Shape& shape, const std::o
                        const Bytes& next, Counted& count) {
     Session session(device, shape.area);
     EXPECT_TRUE(session.mounted);
+    if (old) {
+        EXPECT_FALSE(session.slots.is_fallback()) << shape.name << ", case " << count.cases;
+    }
     const auto runs = session.content();
     ++count.cases;
     count.old_runs += runs == old ? 1U : 0U;
     count.new_runs += runs == next ? 1U : 0U;
     EXPECT_TRUE(runs == old || runs == next) << shape.name << ", case " << count.cases;
     return runs == next;
-}
-
-sim::SimStorage device_with(const Shape& shape, const std::vector<Bytes>& tables) {
-    sim::SimStorage device(shape.geometry);
-    for (const Bytes& table : tables) {
-        Session session(device, shape.area);
-        EXPECT_EQ(session.write(table), Phase::done);
-    }
-    return device;
 }
 
 const Bytes kFirst = table_of(10, 1);

@@ -10,14 +10,14 @@
 namespace nplc::store {
 namespace {
 
-const Bytes kOld = table_of(10, 1);
-const Bytes kNew = table_of(12, 2);
+const Bytes kOldTable = table_of(10, 1);
+const Bytes kNewTable = table_of(12, 2);
 
-/// kOld lies in slot 0, kNew in slot 1.
+/// kOldTable lies in slot 0, kNewTable in slot 1.
 sim::SimStorage with_both(const Shape& shape) {
     sim::SimStorage device(shape.geometry);
-    EXPECT_EQ(Session(device, shape.area).write(kOld), Phase::done);
-    EXPECT_EQ(Session(device, shape.area).write(kNew), Phase::done);
+    EXPECT_EQ(Session(device, shape.area).write(kOldTable), Phase::done);
+    EXPECT_EQ(Session(device, shape.area).write(kNewTable), Phase::done);
     return device;
 }
 
@@ -52,21 +52,22 @@ std::uint64_t flip_each(const Shape& shape, const sim::SimStorage& start, unsign
 
 TEST(Rest, AFlippedBitInTheLaterSlotIsNoticedAndTheOlderTableRuns) {
     for (const Shape& shape : shapes(200)) {
-        const auto cases = flip_each(shape, with_both(shape), 1, kNew.size(), [&](sim::SimStorage& device) {
-            Session session(device, shape.area);
-            EXPECT_EQ(session.content(), kOld);
-            EXPECT_TRUE(session.slots.is_fallback());
-            EXPECT_EQ(session.slots.state(1), SlotState::damaged);
-        });
+        const auto cases =
+            flip_each(shape, with_both(shape), 1, kNewTable.size(), [&](sim::SimStorage& device) {
+                Session session(device, shape.area);
+                EXPECT_EQ(session.content(), kOldTable);
+                EXPECT_TRUE(session.slots.is_fallback());
+                EXPECT_EQ(session.slots.state(1), SlotState::damaged);
+            });
         std::cout << shape.name << ": " << cases << " flips\n";
     }
 }
 
 TEST(Rest, AFlippedBitInTheOlderSlotDoesNotMatterAndIsSeen) {
     for (const Shape& shape : shapes(200)) {
-        flip_each(shape, with_both(shape), 0, kOld.size(), [&](sim::SimStorage& device) {
+        flip_each(shape, with_both(shape), 0, kOldTable.size(), [&](sim::SimStorage& device) {
             Session session(device, shape.area);
-            EXPECT_EQ(session.content(), kNew);
+            EXPECT_EQ(session.content(), kNewTable);
             EXPECT_EQ(session.slots.state(0), SlotState::damaged);
         });
     }
@@ -74,11 +75,11 @@ TEST(Rest, AFlippedBitInTheOlderSlotDoesNotMatterAndIsSeen) {
 
 TEST(Rest, ADamagedSlotIsNeverTheReasonToOverwriteTheGoodOne) {
     for (const Shape& shape : shapes(200)) {
-        flip_each(shape, with_both(shape), 1, kNew.size(), [&](sim::SimStorage& device) {
+        flip_each(shape, with_both(shape), 1, kNewTable.size(), [&](sim::SimStorage& device) {
             Session session(device, shape.area);
             ASSERT_TRUE(session.slots.begin().ok());
             session.poll_while(Phase::erasing);
-            EXPECT_EQ(Session(device, shape.area).content(), kOld);
+            EXPECT_EQ(Session(device, shape.area).content(), kOldTable);
         });
     }
 }
@@ -91,8 +92,8 @@ TEST(Rest, WithBothSlotsDamagedThereIsNoTableAndItIsSaid) {
     Session session(device, shape.area);
     EXPECT_FALSE(session.slots.has_current());
     EXPECT_TRUE(session.slots.is_fallback());
-    EXPECT_EQ(session.write(kNew), Phase::done);
-    EXPECT_EQ(Session(device, shape.area).content(), kNew);
+    EXPECT_EQ(session.write(kNewTable), Phase::done);
+    EXPECT_EQ(Session(device, shape.area).content(), kNewTable);
 }
 
 TEST(Rest, HoweverManyBitsFlipNothingButAWholeTableRuns) {
@@ -105,8 +106,9 @@ TEST(Rest, HoweverManyBitsFlipNothingButAWholeTableRuns) {
                 device.flip(static_cast<std::uint32_t>(random() % shape.geometry.size), random() % 8);
             Session session(device, shape.area);
             const auto runs = session.content();
-            EXPECT_TRUE(!runs || runs == kOld || runs == kNew) << shape.name << ", seed 1, round " << round;
-            if (runs != kNew) {
+            EXPECT_TRUE(!runs || runs == kOldTable || runs == kNewTable)
+                << shape.name << ", seed 1, round " << round;
+            if (runs != kNewTable) {
                 EXPECT_TRUE(session.slots.is_fallback()) << shape.name << ", seed 1, round " << round;
             }
         }
@@ -122,7 +124,7 @@ TEST(Rest, ABitThatFlipsAfterTheStartIsNoticedWhenTheTableIsLoaded) {
     const auto length = session.slots.load(bytes);
     ASSERT_TRUE(length.ok());
     bytes.resize(length.value());
-    EXPECT_EQ(bytes, kOld);
+    EXPECT_EQ(bytes, kOldTable);
     EXPECT_TRUE(session.slots.is_fallback());
 }
 

@@ -166,11 +166,17 @@ TEST_F(SlotsTest, AStorageThatSaysNoFailsTheWriting) {
     const std::uint64_t before = device.operations();
     sim::SimStorage counted(device);
     ASSERT_EQ(Session(counted, shape.area).write(kTable), Phase::done);
-    const std::uint64_t all = counted.operations() - before;
-    for (std::uint64_t i = 0; i < all; ++i) {
+    const std::uint64_t last = counted.operations() - before - 1;
+    for (std::uint64_t i = 0; i <= last; ++i) {
         sim::SimStorage bad(device);
         bad.fail_operation(i);
         Session attempt(bad, shape.area);
+        if (i == last) {
+            EXPECT_EQ(attempt.write(kTable), Phase::done)
+                << "the new one is current, the old one not told so";
+            EXPECT_EQ(Session(bad, shape.area).content(), kTable);
+            break;
+        }
         EXPECT_EQ(attempt.write(kTable), Phase::failed) << i;
         EXPECT_EQ(attempt.slots.error(), base::Error::storage_failed);
         EXPECT_EQ(attempt.content(), kOther);

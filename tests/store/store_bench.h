@@ -26,7 +26,7 @@ struct Shape {
 inline std::vector<Shape> shapes(std::uint32_t content_bytes) {
     const auto fit = [&](std::uint32_t erase, std::uint32_t page, std::uint32_t unit) {
         const std::uint32_t slot =
-            (content_bytes + 2 * std::max<std::uint32_t>(unit, 32U) + erase - 1) / erase * erase;
+            (content_bytes + 3 * std::max<std::uint32_t>(unit, 32U) + erase - 1) / erase * erase;
         return std::pair(ports::StorageGeometry{.size = erase * (2 * slot / erase + 3),
                                                 .erase_block = erase,
                                                 .program_page = page,
@@ -102,5 +102,15 @@ struct Session {
     Slots slots;
     bool mounted = false;
 };
+
+/// The tables were written one after the other.
+inline sim::SimStorage device_with(const Shape& shape, const std::vector<Bytes>& tables) {
+    sim::SimStorage device(shape.geometry);
+    for (const Bytes& table : tables) {
+        Session session(device, shape.area);
+        EXPECT_EQ(session.write(table), Phase::done);
+    }
+    return device;
+}
 
 }  // namespace nplc::store

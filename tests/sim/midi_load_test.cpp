@@ -1,0 +1,121 @@
+// A pull on a shaft at rest: 003 §III (holding torque), §VII 02h (standby), 0Ch (torque), 19h and 1Ah
+// (power); 000 §VI 27h (busy).
+
+#include "midi_bench.h"
+
+namespace nplc::sim {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr std::int32_t kWhole = 0x80;  ///< Imax
+constexpr std::int32_t kSwing = 5;     ///< increments, 003 §VII 02h
+
+MidiBench at_rest(std::int32_t torque, bool standby) {
+    MidiBench bench;
+    EXPECT_TRUE(bench.order(midi::STOP_TORQUE, standby ? 1 : 0));
+    EXPECT_TRUE(bench.order(midi::TORQUE, torque));
+    EXPECT_TRUE(bench.order(midi::GO_TO, 100));
+    bench.run_out();
+    bench.pass(seconds{1});
+    EXPECT_EQ(bench->position(), 100);
+    return bench;
+}
+
+TEST(MidiLoad, BelowTheHoldingTorqueNothingMoves) {
+    for (const std::int32_t torque : {kWhole, 0x40, 0x11}) {
+        for (const bool standby : {false, true}) {
+            for (const int direction : {1, -1}) {
+                MidiBench bench = at_rest(torque, standby);
+                bench->set_load(direction * (standby ? torque / 2 : torque));
+                bench.pass(seconds{10});
+                EXPECT_EQ(bench->position(), 100);
+                EXPECT_FALSE(bench->busy());
+            }
+        }
+    }
+}
+
+TEST(MidiLoad, AboveItTheShaftIsDraggedTheWayItIsPulledAndBusyTells) {
+    for (const std::int32_t torque : {kWhole, 0x40}) {
+        for (const int direction : {1, -1}) {
+            MidiBench bench = at_rest(torque, false);
+            bench->set_load(direction * (torque + 1));
+            bench.pass(milliseconds{100});
+            // 6 Nm / 128 / 2.7e-4 kg m^2 = 173.6 rad/s^2 = 276,310 inc/s^2; over 0.1 s 1382 increments.
+            EXPECT_NEAR(direction * (bench->position() - 100), 1'382, 14);
+            EXPECT_TRUE(bench->busy());
+            EXPECT_TRUE(bench->leds().catching_up);
+            EXPECT_EQ(bench.ask(midi::GET_MEASURES) & midi::kNotBusy, 0U);
+            EXPECT_FALSE(bench.order(midi::GO_TO, 5)) << "it moves";
+            // Without the pull it is led back, at 5 x 200 us an increment (000 §VI 0Eh).
+            bench->set_load(0);
+            bench.run_out();
+            EXPECT_EQ(bench->position(), 100);
+            EXPECT_FALSE(bench->busy());
+        }
+    }
+}
+
+TEST(MidiLoad, InStandbyHalfOfItHolds) {
+    MidiBench bench = at_rest(kWhole, true);
+    bench->set_load(kWhole / 2 + 1);
+    std::int32_t farthest = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        bench.pass(std::chrono::microseconds{100});
+        farthest = std::max(farthest, std::abs(bench->position() - 100));
+    }
+    EXPECT_GT(farthest, 0);
+    EXPECT_LE(farthest, kSwing);
+    // 003 §VII 02h: 18h ends the swinging. The loop ends with it (000 §VI 18h), and half the torque does not
+    // hold.
+    ASSERT_TRUE(bench.order(midi::EMERGENCY_STOP));
+    bench->set_load(0);
+    bench.pass(milliseconds{1});
+    const std::int32_t from = bench->position();
+    bench->set_load(kWhole / 2 + 1);
+    bench.pass(milliseconds{100});
+    EXPECT_NEAR(bench->position() - from, 1'382, 14);
+    EXPECT_FALSE(bench->busy());
+    ASSERT_TRUE(bench.order(midi::STOP_TORQUE, 0));
+    bench.pass(milliseconds{1});
+    const std::int32_t held = bench->position();
+    bench.pass(seconds{1});
+    EXPECT_EQ(bench->position(), held) << "the nominal torque holds";
+}
+
+TEST(MidiLoad, InStandbyAlmostTheWholeTorqueStillSwingsWithinTheManualsIncrements) {
+    MidiBench bench = at_rest(kWhole, true);
+    bench->set_load(-(kWhole - 1));
+    for (int i = 0; i < 20'000; ++i) {
+        bench.pass(std::chrono::microseconds{100});
+        EXPECT_LE(std::abs(bench->position() - 100), kSwing);
+    }
+}
+
+TEST(MidiLoad, WithPowerOffNothingHolds) {
+    MidiBench bench = at_rest(kWhole, false);
+    bench->set_load(1);
+    bench.pass(seconds{1});
+    EXPECT_EQ(bench->position(), 100);
+    ASSERT_TRUE(bench.order(midi::POWER_OFF));
+    bench.pass(milliseconds{100});
+    EXPECT_NEAR(bench->position() - 100, 1'382, 14);
+    ASSERT_TRUE(bench.order(midi::POWER_ON));
+    bench.pass(milliseconds{1});
+    const std::int32_t held = bench->position();
+    bench.pass(seconds{1});
+    EXPECT_EQ(bench->position(), held);
+}
+
+TEST(MidiLoad, AShaftThatIsHeldByHandIsNotDragged) {
+    MidiBench bench = at_rest(kWhole, false);
+    bench->hold_shaft(true);
+    bench->set_load(2 * kWhole);
+    bench.pass(seconds{1});
+    EXPECT_EQ(bench->position(), 100);
+}
+
+}  // namespace
+}  // namespace nplc::sim
