@@ -100,11 +100,7 @@ inline const std::vector<Case>& cases() {
              b.put("U_MIN_SUP", 10);
          },
          Severity::hinders, 50ms},
-        {"i2t_near",
-         [](Bench& b) {
-             b.put("I2TLIM", 110);
-             b.put("I2T", 100);
-         },
+        {"i2t_near", [](Bench& b) { b.put("I2T", 9'000); },  // of 10,000
          Severity::hinders, 0ms},
         {"heat_limit_zero", [](Bench& b) { b.put("I2TLIM", 0); }},
         {"brake_limit_zero", [](Bench& b) { b.put("UITLIM", 0); }},
@@ -220,8 +216,25 @@ inline const std::vector<Case>& cases() {
              mode(b, 16);
          }},
         {"analogue_torque_zero", [](Bench& b) { mode(b, 17); }},
-        {"waits_for_level", [](Bench& b) { mode(b, 20); }},
-        {"waits_for_voltage", [](Bench& b) { mode(b, 21); }},
+        {"waits_for_level",
+         [](Bench& b) {
+             b.put("P2", 5000);
+             mode(b, 20);
+         }},
+        {"waits_for_voltage",
+         [](Bench& b) {
+             b.put("P2", 50);
+             mode(b, 21);
+         }},
+        {"positions_equal", [](Bench& b) { mode(b, 20); }},
+        {"range_zero", [](Bench& b) { mode(b, 21); }},
+        {"follow_limit_small", [](Bench& b) { b.put("FLWERRMAX", 100); }, Severity::hinders},
+        {"limits_off",
+         [](Bench& b) {
+             b.put("ERR_STAT", 1 << 14);
+             b.put("MAX_P_IST", 1000);
+         },
+         Severity::tells},
         {"coil_setup",
          [](Bench& b) {
              free_pulse_pins(b);
@@ -237,6 +250,28 @@ inline const std::vector<Case>& cases() {
              mode(b, 19);
          },
          Severity::hinders},
+        {"coil_outside_limits",
+         [](Bench& b) {
+             free_pulse_pins(b);
+             for (const auto& [name, raw] : {std::pair{"P1", 1000}, {"P2", 2000}, {"P3", 5000}, {"P4", 6000}})
+                 b.put(name, raw);
+             b.put("MAX_P_IST", 5500);
+             b.put("MIN_P_IST", -5500);
+             mode(b, 19);
+         }},
+        {"dead_band_wide",
+         [](Bench& b) {
+             b.put("P2", 40);
+             b.put("P3", 5000);  // 10 V go 2560 counts
+             mode(b, 21);
+         }},
+        {"voltage_outside_limits",
+         [](Bench& b) {
+             b.put("MAX_P_IST", 2000);
+             b.put("MIN_P_IST", -2000);
+             b.put("P2", 1000);  // 10 V go 64,000 counts
+             mode(b, 21);
+         }},
         {"home_velocity_zero",
          [](Bench& b) {
              b.put("V_HOME", 0);

@@ -52,6 +52,34 @@ TEST_F(ChangeTest, ModeWithAnErrorIsRefusedWithTheError) {
     EXPECT_TRUE(set("MODE_REG", 2).taken);
 }
 
+// 001 §4.4.9 to §4.4.12: they end by themselves, TESTU after 11 samples of the inner loop.
+TEST_F(ChangeTest, AModeThatEndsByItselfIsTaken) {
+    for (const std::int64_t mode : {8, 9, 10, 22, 11}) {
+        const Outcome outcome = set("MODE_REG", mode);
+        EXPECT_TRUE(outcome.taken) << mode << ": " << outcome.why;
+        EXPECT_EQ(outcome.remark.empty(), outcome.after == mode) << mode;
+        bench.run(3000ms);
+    }
+    bench.sim.overload();
+    bench.run(100ms);
+    expect_refused(set("MODE_REG", 8), "I2T_ERR");
+}
+
+// 001 §3.2.160, §4.5.6
+TEST(Change, ALowSupplyThatKeepsTheMotorPassiveIsNamed) {
+    for (const auto model : {registers::Model::mac140, registers::Model::mac800}) {
+        Bench bench(model);
+        bench.put("UV_HANDLE", 2);
+        if (model == registers::Model::mac140) bench.put("U_MIN_SUP", 400);  // 21 V
+        bench.sim.supply().set_source(5);
+        bench.run(3000ms);
+        const Outcome outcome = change(bench.motor, bench.reg("MODE_REG"), 2);
+        EXPECT_FALSE(outcome.taken);
+        EXPECT_NE(outcome.why.find("UV_GO_PASSIVE"), std::string::npos) << outcome.why;
+        EXPECT_EQ(outcome.why.find("no such mode"), std::string::npos) << outcome.why;
+    }
+}
+
 TEST_F(ChangeTest, AnErrorWhoseCauseStaysCannotBeCleared) {
     bench.put("MAX_P_IST", -100);
     bench.put("MIN_P_IST", -200);

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
+#include "macreg/midi_monitor.h"
 #include "macreg/words.h"
 #include "protocol/flexmac.h"
 #include "protocol/mactalk.h"
@@ -304,6 +306,53 @@ TEST(FastMacMonitor, StatusIsToldWhenItChanges) {
               (std::vector<std::string>{"0.000 s  <- 10 status: toggle 0, in position",
                                         "0.003 s  <- 90 status: toggle 1, in position",
                                         "0.004 s  <- 91 status: toggle 1, in position, ERROR"}));
+}
+
+/// Requests without answers, answers without requests, damaged ones and noise, of all three lines.
+TEST(MonitorOrder, TimesAscendAndNothingIsLost) {
+    const std::vector<std::string> parts{"50 50 50 08 F7 0A F5 AA AA",
+                                         "52 52 52 00 FF 0A F5 04 FB 34 CB 12 ED 00 FF 00 FF AA AA",
+                                         "11 11 11",
+                                         "50 50 50 08",
+                                         "42 43",
+                                         "02 30 31 34",
+                                         "E1 61",
+                                         "63 63 63 E8 17 03 FC",
+                                         "52 52 52 08 F7 05 FA 02 FD 58 A7 02 FD AA AA"};
+    for (std::uint32_t seed = 1; seed <= 60; ++seed) {
+        std::mt19937 random(seed);
+        const auto monitor = seed % 3 == 0   ? make_midi_monitor({})
+                             : seed % 3 == 1 ? make_mactalk_monitor({})
+                                             : make_fastmac_monitor({});
+        const auto plain = seed % 3 == 0   ? make_midi_monitor({})
+                           : seed % 3 == 1 ? make_mactalk_monitor({})
+                                           : make_fastmac_monitor({});
+        InOrder order;
+        std::vector<MonitorEvent> told;
+        std::size_t found = 0;
+        const auto take = [&] {
+            for (MonitorEvent& event : order.take(*monitor)) told.push_back(std::move(event));
+            found += plain->take().size();
+        };
+        Instant now{};
+        for (int i = 0; i < 200; ++i) {
+            const Side side = static_cast<Side>(random() % 3);
+            for (const std::uint8_t byte : from_hex(parts[random() % parts.size()])) {
+                for (Monitor* one : {monitor.get(), plain.get()}) one->receive(side, byte, now);
+                now += Microseconds{520};
+                take();
+            }
+            now += Microseconds{random() % 4 == 0 ? 400'000 : 5'000};
+            for (Monitor* one : {monitor.get(), plain.get()}) one->pass(now);
+            take();
+        }
+        for (Monitor* one : {monitor.get(), plain.get()}) one->finish();
+        take();
+        EXPECT_EQ(told.size(), found) << "seed " << seed;
+        EXPECT_TRUE(std::is_sorted(told.begin(), told.end(),
+                                   [](const MonitorEvent& a, const MonitorEvent& b) { return a.at < b.at; }))
+            << "seed " << seed;
+    }
 }
 
 TEST(MonitorWords, NumbersThatAreNoRegistersOwn) {

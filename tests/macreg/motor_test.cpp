@@ -104,6 +104,31 @@ TEST(Motor, AfterGoodAnswersTheSpeedIsNotBlamed) {
     }
 }
 
+// A motor that goes dark after a line that was noisy once: silence is no damage.
+TEST(Motor, SilenceIsNotBlamedOnTheWiring) {
+    Bench bench;
+    bench.wire.set_faults({.damage = 0.02});
+    for (int i = 0; i < 50; ++i) {
+        try {
+            bench.motor.read("V_SOLL");
+        } catch (const mactalk_client::LineError&) {  // noise
+        }
+    }
+    ASSERT_GT(bench.master.counters().stray_bytes, 0U);
+    bench.wire.set_faults({});
+    bench.units.dead = true;
+    bench.run(base::Milliseconds{500});
+    try {
+        bench.motor.read("V_SOLL");
+        FAIL();
+    } catch (const mactalk_client::LineError& error) {
+        EXPECT_NE(std::string(error.what()).find("nothing came, though others were answered"),
+                  std::string::npos)
+            << error.what();
+        EXPECT_EQ(std::string(error.what()).find("wiring"), std::string::npos) << error.what();
+    }
+}
+
 // After a frame cut short by a pause the next whole one is understood.
 TEST(Motor, IsInStepAgainWithinOneFrame) {
     Bench bench;

@@ -93,6 +93,38 @@ TEST(Parameters, AnIncompleteFileSaysSo) {
     EXPECT_TRUE(parse_parameters("model = MAC140\nA_SOLL = 397\n" + end_text(1)).set.incomplete.empty());
 }
 
+TEST(Parameters, AFileThatLacksALineIsIncomplete) {
+    const std::string head = "model = MAC140\n";
+    const auto lack = [&](const std::string& text) { return parse_parameters(head + text).set.incomplete; };
+    EXPECT_EQ(lack("A_SOLL = 397\nV_SOLL = 5\n" + end_text(2)), "");
+    EXPECT_NE(lack("A_SOLL = 397\n" + end_text(2)).find("says 2 registers, and it has 1"), std::string::npos);
+    EXPECT_NE(lack("A_SOLL = 397\nV_SOLL = 5\n" + end_text(1)), "");
+    EXPECT_EQ(lack("A_SOLL = 397\nend = 1\n"), "");
+    EXPECT_NE(problem_of(head + "A_SOLL = 397\nend = all\n"), "");
+    // What `dump --all` shows beside the parameters is counted with them.
+    EXPECT_EQ(lack("A_SOLL = 397\n# P_IST = 0 counts  # 10, raw 0\n" + end_text(2)), "");
+    EXPECT_NE(lack("A_SOLL = 397\n# P_IST = 0 counts  # 10, raw 0\n" + end_text(3)), "");
+    EXPECT_NE(lack("A_SOLL = 397\n# a remark\n" + end_text(2)), "");
+}
+
+/// Cut off at any byte it is refused, or has every value of the whole one.
+TEST(Parameters, AFileThatIsCutAnywhereIsRefusedOrWhole) {
+    for (const Model model : {Model::mac140, Model::mac800}) {
+        Bench bench(model);
+        std::string text = text_of(bench);
+        const ParameterSet whole = parse_parameters(text).set;
+        text += end_text(whole.values.size());
+        std::size_t taken = 0;
+        for (std::size_t size = 0; size <= text.size(); ++size) {
+            const ParsedFile cut = parse_parameters(std::string_view(text).substr(0, size));
+            if (!cut.problems.empty() || !cut.set.incomplete.empty()) continue;
+            EXPECT_EQ(cut.set.values, whole.values) << "at byte " << size;
+            ++taken;
+        }
+        EXPECT_EQ(taken, std::string_view(" registers\n").size() + 1);
+    }
+}
+
 TEST(Parameters, AMotorThatVanishesLosesNothingAlreadyRead) {
     Bench bench;
     bench.units.bytes_to_live = 9 * 3;  // three questions

@@ -215,6 +215,53 @@ TEST_F(UiTest, WhatWasLostWithTheLineStaysOnTheScreen) {
     EXPECT_EQ(model.note(), "V_SOLL may have been written or not");
 }
 
+// On a motor that stands, and after a typed yes.
+TEST_F(UiTest, WhatActsOnTheWholeMotorAsks) {
+    const auto set_mode = [&](std::int64_t mode) {
+        Snapshot state;
+        state.set(registers::MODE_REG, mode, {});
+        model.store(state);
+    };
+    EXPECT_EQ(type("F").kind, Kind::none);
+    EXPECT_TRUE(model.is_bad()) << "no mode is known";
+    set_mode(1);
+    type("X");
+    EXPECT_NE(model.note().find("stop it first"), std::string::npos) << model.note();
+    set_mode(0);
+    for (const auto& [letter, kind] :
+         {std::pair{"F", Kind::save}, {"X", Kind::reset}, {"P", Kind::enter_safe}}) {
+        type(letter);
+        type("no");
+        EXPECT_EQ(key(Key::enter).kind, Kind::none);
+        EXPECT_EQ(model.note(), "not confirmed, nothing was done");
+        type(letter);
+        type("yes");
+        EXPECT_EQ(key(Key::enter).kind, kind);
+    }
+    set_mode(15);
+    type("P");
+    type("yes");
+    EXPECT_EQ(key(Key::enter).kind, Kind::exit_safe);
+}
+
+TEST_F(UiTest, SamplesGoOnAsNumbers) {
+    Recording recording;
+    recording.time_s = {0, 1, 2};
+    recording.columns = {{.name = "P_IST", .unit = "counts", .values = {5, 6, 7}}};
+    model.set_recording(recording);
+    key(Key::tab);
+    key(Key::tab);
+    ASSERT_EQ(model.panel(), Panel::samples);
+    type("v");
+    EXPECT_TRUE(model.shows_numbers());
+    key(Key::down);
+    EXPECT_EQ(model.sample(), 1U);
+    key(Key::last);
+    EXPECT_EQ(model.sample(), 2U);
+    type("v");
+    EXPECT_FALSE(model.shows_numbers());
+}
+
 TEST_F(UiTest, HelpGoesWithAnyKey) {
     type("?");
     EXPECT_TRUE(model.shows_help());

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "macreg/mactalk_names.h"
+
 namespace nplc::macreg {
 namespace {
 
@@ -97,6 +99,29 @@ TEST(Values, FindsRegistersByNameAndNumber) {
         EXPECT_EQ(find_register(Model::mac140, silly).error.find("did you mean"), std::string::npos) << silly;
     for (const char* wrong : {"0", "256", "-1", "999999999999999999999", "165", ""})
         EXPECT_EQ(find_register(Model::mac140, wrong).reg, nullptr) << wrong;
+}
+
+// 004, column "MacTalk name"; MIN and MAX as they act.
+TEST(MacTalkNames, AreThoseOfBothFamilies) {
+    for (const auto& [name, small, large] :
+         std::vector<std::array<std::string_view, 3>>{{"Max velocity", "V_SOLL", "V_SOLL"},
+                                                      {"Motor load (mean)", "I2T", "I2T"},
+                                                      {"Input", "GEARF1", "GEARF_1"},
+                                                      {"Position limit min", "MIN_P_IST", "MIN_P_IST"},
+                                                      {"Motor address", "MYADDR", "MY_ADDR"},
+                                                      {"Zero search speed", "V_HOME", "V_HOME"}}) {
+        EXPECT_EQ(mactalk_name(*registers::find(Model::mac140, small)), name);
+        EXPECT_EQ(mactalk_name(*registers::find(Model::mac800, large)), name);
+    }
+    for (const auto& [reg, name] : std::vector<std::array<std::string_view, 2>>{{"POS0", "P1"},
+                                                                                {"POS7", "P8"},
+                                                                                {"VEL3", "V4"},
+                                                                                {"ACC0", "A1"},
+                                                                                {"TQ3", "T4"},
+                                                                                {"LOAD0", "L1"},
+                                                                                {"ZERO3", "Z4"}})
+        EXPECT_EQ(mactalk_name(*registers::find(Model::mac800, reg)), name);
+    EXPECT_EQ(mactalk_name(*registers::find(Model::mac140, "KFF3")), "");
 }
 
 }  // namespace

@@ -89,6 +89,100 @@ TEST(Why, AnErrorStandsBeforeThePassiveMode) {
     EXPECT_EQ(judge(bench).front().code, "error_i2t_err");
 }
 
+/// A cause before what it leads to.
+TEST(Why, TheRegulatorIsAccusedBeforeTheShaft) {
+    for (const char* name : {"KVOUT", "KVFX4"}) {
+        Bench bench;
+        bench.put(name, 0);
+        bench.put("P_SOLL", 5000);
+        mode(bench, 2);
+        bench.run(3000ms);
+        const auto findings = judge(bench);
+        EXPECT_EQ(findings.front().code,
+                  name == std::string_view("KVOUT") ? "load_factor_zero" : "regulator_zero");
+        EXPECT_NE(find(findings, "lags"), nullptr) << codes(findings);
+    }
+}
+
+// 001 §4.5.3: the motor would make itself passive on its way.
+TEST(Why, APassiveMotorIsNotSentOutOfItsLimits) {
+    Bench bench;
+    bench.put("MIN_P_IST", -10'000);
+    bench.put("MAX_P_IST", 10'000);
+    bench.put("P_SOLL", 20'000);
+    bench.run(100ms);
+    const auto findings = judge(bench);
+    const Finding& passive = *find(findings, "passive");
+    EXPECT_TRUE(passive.remedy.starts_with("`macreg set P_SOLL 4096 MODE_REG P_MODE`")) << passive.remedy;
+    EXPECT_EQ(passive.remedy.find("V_MODE"), std::string::npos) << passive.remedy;
+}
+
+// 001 §3.2.3: +/-67,000,000.
+TEST(Why, TheTargetThatIsNamedIsInTheRegistersRange) {
+    Bench bench;
+    for (const char* name : {"P_SOLL", "P_IST"}) bench.put(name, 66'999'999);
+    bench.put("P_FNC", 16 * 66'999'999);
+    mode(bench, 2);
+    bench.run(300ms);
+    const auto findings = judge(bench);
+    EXPECT_EQ(findings.front().code, "at_target") << codes(findings);
+    EXPECT_NE(findings.front().remedy.find("P_SOLL 66995903"), std::string::npos) << findings.front().remedy;
+}
+
+TEST(Why, LimitsThatLeaveNoPlaceAreToldBeforeTheirError) {
+    for (const std::int64_t low : {500, 1}) {
+        Bench bench;
+        bench.put("MIN_P_IST", low);
+        bench.put("MAX_P_IST", low == 500 ? -500 : 1);
+        bench.run(100ms);
+        const auto findings = judge(bench);
+        EXPECT_EQ(findings.front().code, "limits_swapped") << codes(findings);
+        const Finding* error = find(findings, "error_plim_err");
+        ASSERT_NE(error, nullptr);
+        EXPECT_EQ(error->remedy.find("Turn the shaft"), std::string::npos) << error->remedy;
+    }
+}
+
+// 001 §3.2.36: it counts from a reset on.
+TEST(Why, AUserInterfaceThatWasSetWithoutAResetDoesNotAct) {
+    Bench bench;  // FastMAC, from the box
+    bench.sim.terminals().set_pulse_rate(10'000);
+    bench.put("CNTRL_BITS", 0);
+    mode(bench, 3);
+    bench.run(300ms);
+    const auto waiting = judge(bench);
+    const Finding& pulses = *find(waiting, "no_pulses");
+    EXPECT_NE(pulses.remedy.find("after the last reset"), std::string::npos) << pulses.remedy;
+    EXPECT_NE(pulses.remedy.find("`macreg flash save --stop`"), std::string::npos) << pulses.remedy;
+    free_pulse_pins(bench);
+    bench.put("CNTRL_BITS", 3);
+    bench.run(100ms);
+    const auto findings = judge(bench);  // V_EXT counts in INIT_MODE
+    EXPECT_EQ(find(findings, "fastmac_owns"), nullptr) << codes(findings);
+    EXPECT_NE(find(findings, "user_interface_waits"), nullptr) << codes(findings);
+}
+
+TEST(Why, TheGatewayIsToldBeforeThePassiveMotor) {
+    namespace gw = registers::gateway;
+    Bench bench;
+    bench.run(100ms);
+    Condition condition = read_condition(bench.motor, false);
+    const auto first = [&](gw::RunState state, std::uint32_t more = gw::kLinkDelivers) {
+        condition.gateway = GatewayState{.status = static_cast<std::uint32_t>(state) | more};
+        return why(condition).front().code;
+    };
+    EXPECT_EQ(first(gw::RunState::stopped), "gateway_stopped");
+    EXPECT_EQ(first(gw::RunState::held), "gateway_held");
+    EXPECT_EQ(first(gw::RunState::stopped, gw::kLinkDelivers | gw::kSafe), "gateway_safe");
+    EXPECT_EQ(first(gw::RunState::running, 0), "gateway_link_down");
+    condition.now.set(registers::ERR_STAT, 1, {});
+    EXPECT_EQ(first(gw::RunState::stopped), "error_i2t_err");
+    condition.now.set(registers::ERR_STAT, 0, {});
+    condition.now.set(registers::KVOUT, 0, {});
+    first(gw::RunState::running);
+    EXPECT_NE(why(condition).front().remedy.find("First `nanoctl stop`"), std::string::npos);
+}
+
 TEST(Why, AMotorThatTurnsIsNotAccused) {
     for (const Model model : {Model::mac140, Model::mac800}) {
         const auto findings = of_a_motor_that_turns(model);

@@ -7,8 +7,8 @@
 namespace nplc::macreg::midi {
 namespace {
 
-const Scale kMac23{.model = Model::mac23, .imax = 0x80, .period = 800};
-const Scale kMac34{.model = Model::mac34_1, .imax = 0x80, .period = 160};
+const Scale kMac23Values{.model = Model::mac23, .imax = 0x80, .period = 800};
+const Scale kMac34Values{.model = Model::mac34_1, .imax = 0x80, .period = 160};
 const Scale kUnknown{};
 
 const Parameter& named(const char* name) {
@@ -57,41 +57,41 @@ TEST(MidiQuantity, Times) {
 }
 
 TEST(MidiValues, AreShownInUnits) {
-    EXPECT_EQ(value_text(named("POSITION"), 20'480, kMac34), "20480 inc (2.0480 rev)");
+    EXPECT_EQ(value_text(named("POSITION"), 20'480, kMac34Values), "20480 inc (2.0480 rev)");
     EXPECT_EQ(value_text(named("POSITION"), -1, kUnknown), "-1 inc");
-    EXPECT_EQ(value_text(named("SPEED"), 0x320, kMac23), "300 rpm (10000 inc/s)");
+    EXPECT_EQ(value_text(named("SPEED"), 0x320, kMac23Values), "300 rpm (10000 inc/s)");
     // 000 §VI 0Eh: 200 us an increment and unit.
     EXPECT_EQ(value_text(named("UNSTALL"), 5, kUnknown), "1000 inc/s");
-    EXPECT_EQ(value_text(named("TORQUE"), 0x40, kMac34), "50 %");
-    EXPECT_EQ(value_text(named("END_STOPS"), 9, kMac34), "both");
+    EXPECT_EQ(value_text(named("TORQUE"), 0x40, kMac34Values), "50 %");
+    EXPECT_EQ(value_text(named("END_STOPS"), 9, kMac34Values), "both");
     // 000 §VI 27h: 2.45 x 68 - 140, 0.4 x 120; MAC23 2.5 x 100 - 215, 120 / 4.8.
-    EXPECT_EQ(value_text(named("TEMPERATURE"), 68, kMac34), "26.6 C");
-    EXPECT_EQ(value_text(named("SUPPLY"), 120, kMac34), "48.0 V");
-    EXPECT_EQ(value_text(named("TEMPERATURE"), 100, kMac23), "35.0 C");
-    EXPECT_EQ(value_text(named("SUPPLY"), 120, kMac23), "25.0 V");
+    EXPECT_EQ(value_text(named("TEMPERATURE"), 68, kMac34Values), "26.6 C");
+    EXPECT_EQ(value_text(named("SUPPLY"), 120, kMac34Values), "48.0 V");
+    EXPECT_EQ(value_text(named("TEMPERATURE"), 100, kMac23Values), "35.0 C");
+    EXPECT_EQ(value_text(named("SUPPLY"), 120, kMac23Values), "25.0 V");
     EXPECT_EQ(value_text(named("RELEASE"), 0x704, kUnknown), "7.4");
     EXPECT_EQ(value_text(named("STATUS"), 0, kUnknown), "no fault, no warning");
     // dd bit 1: encoder; ff bit 1: upper software stop.
     EXPECT_EQ(value_text(named("STATUS"), 0x02020000, kUnknown),
               "tripped: no encoder; stopped by the upper software stop");
     // 50000 inc/s over 53 x 120 inc: 50000^2 / (2 x 6360).
-    EXPECT_EQ(value_text(named("RAMP"), 53, kMac34), "6360 inc (196540.88 inc/s2, 19.65 rev/s2)");
+    EXPECT_EQ(value_text(named("RAMP"), 53, kMac34Values), "6360 inc (196540.88 inc/s2, 19.65 rev/s2)");
 }
 
 TEST(MidiValues, AreTypedInUnits) {
-    EXPECT_EQ(typed_value(named("SPEED"), "300rpm", kMac23).raw, 0x320);
+    EXPECT_EQ(typed_value(named("SPEED"), "300rpm", kMac23Values).raw, 0x320);
     EXPECT_EQ(typed_value(named("SPEED"), "raw:800", kUnknown).raw, 800);
-    EXPECT_EQ(typed_value(named("TORQUE"), "50%", kMac34).raw, 0x40);
-    const TypedValue third = typed_value(named("TORQUE"), "33%", kMac34);
+    EXPECT_EQ(typed_value(named("TORQUE"), "50%", kMac34Values).raw, 0x40);
+    const TypedValue third = typed_value(named("TORQUE"), "33%", kMac34Values);
     EXPECT_EQ(third.raw, 42) << "never more than was said";
     EXPECT_EQ(third.rounding, "TORQUE: 33% taken as 32.82 %");
-    EXPECT_EQ(typed_value(named("RAMP"), "1920", kMac34).raw, 16);
-    EXPECT_EQ(typed_value(named("RAMP"), "1921", kMac34).raw, 17) << "never steeper than was said";
-    EXPECT_EQ(typed_value(named("RAMP"), "20rev/s2", kMac34).raw, 53);
-    EXPECT_EQ(typed_value(named("UNSTALL"), "1000inc/s", kMac34).raw, 5);
-    EXPECT_EQ(typed_value(named("END_STOPS"), "software", kMac34).raw, 8);
-    EXPECT_EQ(typed_value(named("LOWER_STOP"), "-2rev", kMac34).raw, -20'000);
-    EXPECT_EQ(typed_value(named("TOLERANCE"), "7", kMac34).raw, 7);
+    EXPECT_EQ(typed_value(named("RAMP"), "1920", kMac34Values).raw, 16);
+    EXPECT_EQ(typed_value(named("RAMP"), "1921", kMac34Values).raw, 17) << "never steeper than was said";
+    EXPECT_EQ(typed_value(named("RAMP"), "20rev/s2", kMac34Values).raw, 53);
+    EXPECT_EQ(typed_value(named("UNSTALL"), "1000inc/s", kMac34Values).raw, 5);
+    EXPECT_EQ(typed_value(named("END_STOPS"), "software", kMac34Values).raw, 8);
+    EXPECT_EQ(typed_value(named("LOWER_STOP"), "-2rev", kMac34Values).raw, -20'000);
+    EXPECT_EQ(typed_value(named("TOLERANCE"), "7", kMac34Values).raw, 7);
 }
 
 TEST(MidiValues, WrongOnesAreTold) {
@@ -102,8 +102,8 @@ TEST(MidiValues, WrongOnesAreTold) {
         {"END_STOPS", "2"},  {"END_STOPS", "on"},    {"TOLERANCE", "-1"},    {"REFERENCE", "yes"},
     };
     for (const auto& [name, text] : wrong)
-        EXPECT_NE(typed_value(named(name), text, kMac34).error, "") << name << text;
-    EXPECT_EQ(typed_value(named("TOLERANCE"), "256", kMac34).error,
+        EXPECT_NE(typed_value(named(name), text, kMac34Values).error, "") << name << text;
+    EXPECT_EQ(typed_value(named("TOLERANCE"), "256", kMac34Values).error,
               "TOLERANCE: '256' is out of range: 0 inc to 255 inc");
 }
 

@@ -89,9 +89,10 @@ TEST_F(MasterTest, SaysWhoDoesNotAnswer) {
         FAIL();
     } catch (const LineError& error) {
         EXPECT_EQ(error.kind(), LineError::Kind::no_answer);
-        EXPECT_STREQ(error.what(),
-                     "sim:line: no answer from address 77, asked 4 times; is it switched on, and are address "
-                     "and speed right?");
+        EXPECT_STREQ(
+            error.what(),
+            "sim:line: no answer from address 77, asked 4 times; nothing came: is it switched on, and "
+            "are address and speed right?");
     }
     EXPECT_EQ(master.counters().questions, 4U);
 }

@@ -8,7 +8,7 @@
 namespace nplc::midi_client {
 namespace {
 
-constexpr std::int64_t kMs = 8'000;  // ticks of 0.125 us
+constexpr std::int64_t kPlanMs = 8'000;  // ticks of 0.125 us
 
 /// Whether a segment ends within `late` of that time, so many increments from the start.
 bool passes(const AxisPlan& axis, std::int64_t ticks, std::int64_t late, std::int64_t way) {
@@ -37,39 +37,39 @@ TEST(Plan, TheManualsExample) {
 TEST(Plan, RoundingOfPeriodsDoesNotAddUp) {
     // 7 steps in 1 ms are 1142.857 ticks each: 1143 for most, and 1142 as often as it takes.
     std::vector<Waypoint> path;
-    for (std::int64_t i = 0; i <= 1000; ++i) path.push_back({i * kMs, {7 * i}});
+    for (std::int64_t i = 0; i <= 1000; ++i) path.push_back({i * kPlanMs, {7 * i}});
     const auto [plan, error] = plan_path({3}, path);
     ASSERT_EQ(error, "");
     EXPECT_EQ(plan.axes[0].displacement(), 7000);
-    EXPECT_LE(std::abs(plan.axes[0].ticks() - 1000 * kMs), 3);
+    EXPECT_LE(std::abs(plan.axes[0].ticks() - 1000 * kPlanMs), 3);
     for (const Segment& one : plan.axes[0].segments) EXPECT_TRUE(one.period == 1143 || one.period == 1142);
 }
 
 TEST(Plan, TooSlowForASegmentStandsAndSteps) {
     // 5 steps in 100 ms: a segment is never slower than 65535 ticks a step, here 327675 of 800000.
-    const auto [plan, error] = plan_path({0}, {{0, {0}}, {100 * kMs, {5}}, {200 * kMs, {205}}});
+    const auto [plan, error] = plan_path({0}, {{0, {0}}, {100 * kPlanMs, {5}}, {200 * kPlanMs, {205}}});
     ASSERT_EQ(error, "");
     const auto& segments = plan.axes[0].segments;
     ASSERT_EQ(segments.size(), 3u);
     EXPECT_TRUE(segments[0].pause) << "it is faster later, so it stands first";
     EXPECT_EQ(segments[1].steps, 5);
     EXPECT_GE(segments[1].period, 65'534);
-    EXPECT_TRUE(passes(plan.axes[0], 100 * kMs, 3, 5));
+    EXPECT_TRUE(passes(plan.axes[0], 100 * kPlanMs, 3, 5));
     EXPECT_EQ(plan.axes[0].displacement(), 205);
 }
 
 TEST(Plan, ManyStepsAreSeveralSegments) {
-    const auto [plan, error] = plan_path({0}, {{0, {0}}, {10'000 * kMs, {-100'000}}});
+    const auto [plan, error] = plan_path({0}, {{0, {0}}, {10'000 * kPlanMs, {-100'000}}});
     ASSERT_EQ(error, "");
     EXPECT_EQ(plan.axes[0].segments, (std::vector<Segment>(4, {false, -25'000, 800})));
 }
 
 TEST(Plan, LongPausesAreSeveralSegments) {
     // 1000 s: one segment holds 32767 x 65535 ticks, 268 s.
-    const auto [plan, error] = plan_path({0}, {{0, {0}}, {1'000'000 * kMs, {0}}});
+    const auto [plan, error] = plan_path({0}, {{0, {0}}, {1'000'000 * kPlanMs, {0}}});
     ASSERT_EQ(error, "");
     EXPECT_EQ(plan.axes[0].segments.size(), 4u);
-    EXPECT_LE(std::abs(plan.axes[0].ticks() - 1'000'000 * kMs), 32'768);
+    EXPECT_LE(std::abs(plan.axes[0].ticks() - 1'000'000 * kPlanMs), 32'768);
 }
 
 /// Half a tick a step of the segment before each corner, and the increments exactly.
@@ -83,7 +83,7 @@ TEST(Plan, RandomPathsMeetTheirCornersInTimeAndPlace) {
         std::vector<Waypoint> path{{0, {any(-9, 9), any(-9, 9), 0}}};
         for (int i = 0; i < 50; ++i) {
             Waypoint next = path.back();
-            next.ticks += any(20 * kMs, 300 * kMs);
+            next.ticks += any(20 * kPlanMs, 300 * kPlanMs);
             for (auto& one : next.positions) one += any(0, 3) == 0 ? any(-15, 15) : any(-2000, 2000);
             path.push_back(next);
         }
@@ -108,8 +108,9 @@ TEST(Plan, WhatCannotBe) {
     EXPECT_NE(plan_path({0, 1}, {{0, {0, 0}}, {9, {0}}}).error, "");
     EXPECT_EQ(plan_path({0}, {{0, {0}}, {9, {1}}, {9, {2}}}).error,
               "point 3: its time is not later than the one before");
-    EXPECT_EQ(plan_path({4}, {{0, {0}}, {kMs, {8'001}}}).error, "") << "within rounding of one tick a step";
-    EXPECT_EQ(plan_path({4}, {{0, {0}}, {kMs, {20'000}}}).error,
+    EXPECT_EQ(plan_path({4}, {{0, {0}}, {kPlanMs, {8'001}}}).error, "")
+        << "within rounding of one tick a step";
+    EXPECT_EQ(plan_path({4}, {{0, {0}}, {kPlanMs, {20'000}}}).error,
               "point 2: axis 4 would have to be faster than a segment can say (8000000 increments a second)");
 }
 

@@ -13,12 +13,12 @@ namespace {
 namespace midi = registers::midi;
 using midi::Model;
 
-constexpr std::int64_t kMs = 8'000;
+constexpr std::int64_t kPlayerMs = 8'000;
 
 /// Both axes to and fro, 50 ms a segment.
 Plan zigzag(std::uint8_t first, std::uint8_t second, int corners = 40) {
     std::vector<Waypoint> path{{0, {0, 0}}};
-    for (int i = 1; i <= corners; ++i) path.push_back({i * 50 * kMs, {i % 2 * 500, 100 * i}});
+    for (int i = 1; i <= corners; ++i) path.push_back({i * 50 * kPlayerMs, {i % 2 * 500, 100 * i}});
     return plan_path({first, second}, path).plan;
 }
 
@@ -72,7 +72,7 @@ TEST_F(OnALine, BothBeginInTheSameTick) {
         moved[1] = moved[1] || module(1).position() != 0;
         EXPECT_EQ(moved[0], moved[1]);
     };
-    play(master, plan_path({0, 1}, {{0, {0, 0}}, {500 * kMs, {5000, -5000}}}).plan);
+    play(master, plan_path({0, 1}, {{0, {0, 0}}, {500 * kPlayerMs, {5000, -5000}}}).plan);
 }
 
 TEST_F(OnALine, ASignalStopsAll) {
@@ -108,7 +108,7 @@ TEST_F(OnALine, AModuleThatGoesSilentStopsTheOther) {
 
 TEST_F(OnALine, WhatTheLineCannotFeedIsRefusedBeforeAnythingIsSent) {
     std::vector<Waypoint> path{{0, {0, 0}}};
-    for (int i = 1; i < 100; ++i) path.push_back({i * 5 * kMs, {i * 50, i * 50}});
+    for (int i = 1; i < 100; ++i) path.push_back({i * 5 * kPlayerMs, {i * 50, i * 50}});
     EXPECT_NE(told([&] {
                   play(master, plan_path({0, 1}, path).plan);
               }).find("would run out"),
@@ -160,6 +160,14 @@ class OnABus : public testing::Test {
     /// As a module that is back before anybody misses it.
     void boots(std::uint8_t address) {
         can.tell({.id = static_cast<std::uint16_t>(0x700 + address), .size = 1});
+    }
+    void sync_every(int milliseconds) {
+        can.on_step = [this, period = base::Milliseconds{milliseconds}, next = can.now()]() mutable {
+            if (can.now() < next) return;
+            next += period;
+            for (sim::MidiModule& module : can.modules) module.sync();
+            can.tell({.id = 0x080});
+        };
     }
     void expect_standing() {
         link.pause(base::Milliseconds{50});
@@ -264,6 +272,38 @@ TEST(OnABusOnce, MovesThatBeginTogetherBySync) {
     EXPECT_EQ(can.modules[2].position(), -4000);
     // 003 §V.4: 080h without data, once.
     EXPECT_EQ(std::count(can.sent.begin(), can.sent.end(), ports::CanFrame{.id = 0x080}), 1);
+}
+
+// 003 §V.4: it would start each axis as soon as it is prepared.
+TEST_F(OnABus, APlantsSyncLetsNoMovesBeginTogether) {
+    for (const int period : {10, 100}) {
+        sync_every(period);
+        const std::string why = told([&] { go_together(master, {{1, 3000}, {2, -4000}}); });
+        EXPECT_NE(why.find("another master on the bus sends SYNC"), std::string::npos) << why;
+        EXPECT_EQ(count(0x601, midi::GO_TO), 0u);
+    }
+    can.on_step = {};
+    expect_standing();
+    EXPECT_EQ(can.modules[0].position(), 0);
+}
+
+TEST_F(OnABus, ARareSyncBetweenThePreparationsStopsAll) {
+    can.loses = [&](std::size_t module, const BusCan::Frame& frame) {
+        if (module == 1 && frame.id == 0x602 && frame.data[1] == midi::GO_TO) can.tell({.id = 0x080});
+        return false;
+    };
+    const std::string why = told([&] { go_together(master, {{1, 30'000}, {2, -30'000}}); });
+    EXPECT_NE(why.find("another master on the bus sends SYNC"), std::string::npos) << why;
+    expect_standing();
+}
+
+// 003 §V.4: what a plant sends for others starts what 10h has prepared, and nothing else: segments have their
+// own times.
+TEST_F(OnABus, APlantsSyncLeavesSegmentsAlone) {
+    sync_every(10);
+    play(master, zigzag(1, 2));
+    EXPECT_EQ(can.modules[0].position(), 0);
+    EXPECT_EQ(can.modules[1].position(), 4'000);
 }
 
 }  // namespace

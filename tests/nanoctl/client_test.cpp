@@ -7,6 +7,7 @@
 #include "base/crc32.h"
 #include "gateway_unit.h"
 #include "nanoctl/status.h"
+#include "nanoctl/stopping.h"
 #include "nanoctl/transfer.h"
 #include "store/settings.h"
 #include "store_bench.h"
@@ -38,6 +39,17 @@ struct Bench {
         return gw::Result::done;
     }
     Status status() { return Status(gateway.read_block(gw::STATUS)); }
+    void run_a_table() {
+        upload(gateway, store::table_of(20, 1), kQuiet);
+        gateway.activate();
+        gateway.command(Command::run);
+        master.pause(std::chrono::milliseconds{50});
+    }
+    base::Microseconds time_of_stop(Command command) {
+        const base::Instant begun = wire.now();
+        stop_machine(gateway, command);
+        return wire.now() - begun;
+    }
 
     GatewayUnit unit;
     SimWire wire;
@@ -131,6 +143,63 @@ TEST(Client, RunsHoldsBreaksAndForces) {
     EXPECT_TRUE(seen);
 }
 
+TEST(Client, AStopIsSentBeforeAnythingIsAsked) {
+    for (const Command command : {Command::stop, Command::safe, Command::hold}) {
+        Bench bench;
+        bench.run_a_table();
+        const std::size_t before = bench.wire.sent().size();
+        const Status status = stop_machine(bench.gateway, command);
+        EXPECT_EQ(status.run_state, command == Command::hold ? gw::RunState::held : gw::RunState::stopped);
+        const auto code = static_cast<std::uint8_t>(command);
+        const std::vector<std::uint8_t> begin{0x52, 0x52, 0x52, 128, 127, 48, 207, 4, 251, code};
+        EXPECT_TRUE(
+            std::equal(begin.begin(), begin.end(), bench.wire.sent().begin() + static_cast<long>(before)));
+    }
+}
+
+TEST(Client, AStopIsRepeatedOnABadLineUntilItIsConfirmed) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        Bench bench(seed);
+        bench.run_a_table();
+        bench.wire.set_faults({.drop = 0.002, .damage = 0.002, .framing = 0.002});
+        const auto command = seed % 2 == 0 ? Command::stop : Command::hold;
+        EXPECT_LT(bench.time_of_stop(command), std::chrono::seconds{5}) << "seed " << seed;
+    }
+}
+
+TEST(Client, AStopThatIsNotConfirmedSaysThatTheMachineMayStillBeRunning) {
+    Bench bench;
+    bench.run_a_table();
+    bench.wire.from_unit().cut();
+    try {
+        stop_machine(bench.gateway, Command::stop);
+        FAIL();
+    } catch (const NotConfirmed& error) {
+        EXPECT_NE(std::string(error.what()).find("THE MACHINE MAY STILL BE RUNNING"), std::string::npos);
+    }
+    bench.wire.from_unit().restore();
+    EXPECT_EQ(bench.status().run_state, gw::RunState::stopped) << "it was carried out all the same";
+    bench.gateway.command(Command::run);
+    bench.wire.to_unit().cut();
+    bench.gateway.set_goes_on([] { return false; });
+    try {
+        stop_machine(bench.gateway, Command::stop);
+        FAIL();
+    } catch (const Interrupted& error) {
+        EXPECT_NE(std::string(error.what()).find("THE MACHINE MAY STILL BE RUNNING"), std::string::npos);
+    }
+}
+
+TEST(Client, AMotorThatCannotBeToldIsNotTakenForStopped) {
+    Bench bench;
+    bench.run_a_table();
+    bench.unit.board.link_state = motor::Link::down;
+    EXPECT_THROW(stop_machine(bench.gateway, Command::stop), NotConfirmed);
+    bench.unit.board.link_state = motor::Link::up;
+    EXPECT_EQ(stop_machine(bench.gateway, Command::stop).run_state, gw::RunState::stopped);
+    EXPECT_EQ(bench.refusal([&] { stop_machine(bench.gateway, Command::hold); }), gw::Result::not_running);
+}
+
 TEST(Client, SettingsOutliveAResetIfKept) {
     Bench bench;
     const auto reg = static_cast<std::uint8_t>(gw::SETTINGS + static_cast<int>(store::Setting::safe_outputs));
@@ -222,16 +291,38 @@ TEST(Client, ALineThatIsCutEndsTheUploadAndTheOldTableStays) {
     Bench bench;
     const auto old = table(20);
     upload(bench.gateway, old, kQuiet);
-    EXPECT_THROW(upload(bench.gateway, table(200, 2),
-                        [&](std::size_t done, std::size_t) {
-                            if (done > 500) bench.wire.to_unit().cut();
-                        }),
-                 LineError);
+    try {
+        upload(bench.gateway, table(200, 2), [&](std::size_t done, std::size_t) {
+            if (done > 500) bench.wire.to_unit().cut();
+        });
+        FAIL();
+    } catch (const LineError& error) {
+        EXPECT_NE(std::string(error.what()).find("the stored table is as it was"), std::string::npos)
+            << error.what();
+    }
     bench.wire.to_unit().restore();
     EXPECT_EQ(bench.gateway.read(gw::STORED_CRC), base::crc32(old));
     const auto next = table(30, 3);
     upload(bench.gateway, next, kQuiet);
     EXPECT_EQ(bench.gateway.read(gw::STORED_CRC), base::crc32(next));
+}
+
+TEST(Client, AnUploadWhoseEndIsNotSeenClaimsNothing) {
+    Bench bench(1, 200);
+    const std::vector<std::uint8_t> commit{0x52, 0x52, 0x52, 128, 127, 48, 207, 4, 251, 17, 238};
+    bench.gateway.set_goes_on([&] {
+        const auto& sent = bench.wire.sent();
+        if (std::search(sent.begin(), sent.end(), commit.begin(), commit.end()) != sent.end())
+            bench.wire.from_unit().cut();
+        return true;
+    });
+    try {
+        upload(bench.gateway, table(20), kQuiet);
+        FAIL();
+    } catch (const LineError& error) {
+        EXPECT_NE(std::string(error.what()).find("the old table or the new one"), std::string::npos)
+            << error.what();
+    }
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <deque>
-#include <memory>
+#include <optional>
 
 #include "bench_board.h"
-#include "gateway/user_port.h"
+#include "gateway/controller.h"
 #include "sim/sim_storage.h"
 #include "sim_wire.h"
 
@@ -30,15 +30,24 @@ class GatewayUnit final : public mactalk_client::Unit {
     }
     void poll(base::Instant now) override {
         board.now = now;
-        parts_->gateway.poll(now);
-        parts_->user.poll(now);
-        if (parts_->own.reset_asked()) start();
+        controller_->poll(now);
+        if (controller_->reset_asked()) start();
     }
 
     /// Power off and on.
     void start() {
         port_ = {};
-        parts_ = std::make_unique<Parts>(*this);
+        settings_.emplace(storage, store::Area{.begin = 18 * 1024, .slot_bytes = 1024});
+        settings_->start({});
+        controller_.emplace(gateway::Controller::Ports{.inputs = board,
+                                                       .outputs = board,
+                                                       .watchdog = board,
+                                                       .motor = board,
+                                                       .storage = storage,
+                                                       .user_line = &port_},
+                            store::Area{.begin = 0, .slot_bytes = 9 * 1024}, memory_, *settings_,
+                            gateway::StartCause::power_up);
+        controller_->tables().start(board.now);
     }
 
     gateway::BenchBoard board;
@@ -62,32 +71,10 @@ class GatewayUnit final : public mactalk_client::Unit {
         std::deque<ports::ReceivedByte> received;
     };
 
-    struct Parts {
-        explicit Parts(GatewayUnit& unit)
-            : settings(unit.storage, {.begin = 18 * 1024, .slot_bytes = 1024}),
-              gateway(unit.board.ports(), stored(settings), gateway::StartCause::power_up),
-              tables(gateway, unit.board, unit.storage, {.begin = 0, .slot_bytes = 9 * 1024}, memory),
-              own(gateway, tables, settings),
-              user(unit.port_, nullptr, gateway, unit.board, own, settings) {
-            settings.attach(gateway);
-            static_cast<void>(tables.mount());
-            tables.start(unit.board.now);
-        }
-        static gateway::Settings stored(gateway::SettingsKeeper& settings) {
-            settings.start({});
-            return gateway::settings_of(settings.values());
-        }
-
-        std::array<std::uint8_t, 8200> memory{};
-        gateway::SettingsKeeper settings;
-        gateway::Gateway gateway;
-        gateway::TableKeeper tables;
-        gateway::OwnRegisters own;
-        gateway::UserPort user;
-    };
-
+    std::array<std::uint8_t, 8200> memory_{};
     Port port_;
-    std::unique_ptr<Parts> parts_;
+    std::optional<gateway::SettingsKeeper> settings_;
+    std::optional<gateway::Controller> controller_;
 };
 
 }  // namespace nplc::nanoctl

@@ -9,7 +9,7 @@ namespace fs = std::filesystem;
 
 using test::Cli;
 
-const char* const kGood =
+const char* const kNamedProgram =
     "PROGRAM Blink VAR_INPUT Go AT IN1; END_VAR VAR_OUTPUT Lamp AT OUT0; END_VAR\n"
     "STEP Off: OWN ERROR; IF Go THEN NEXT := Lit; END_IF END_STEP\n"
     "STEP Lit: OWN ERROR; OUT Lamp; IF NOT Go THEN NEXT := Off; END_IF END_STEP\n"
@@ -21,7 +21,7 @@ class CliSymbols : public Cli {
   protected:
     void SetUp() override {
         Cli::SetUp();
-        write("a.seq", kGood);
+        write("a.seq", kNamedProgram);
     }
     bool disassembly_has(const std::string& arguments, const std::string& text) const {
         EXPECT_EQ(run("disasm " + arguments), 0) << read("err");
@@ -75,7 +75,7 @@ TEST_F(CliSymbols, AllFilesOrNone) {
 }
 
 TEST_F(CliSymbols, NoTwoFilesAreOne) {
-    write("p.sym", kGood);
+    write("p.sym", kNamedProgram);
     for (const char* arguments :
          {"a.seq -o a.sym", "a.seq --symbols a.bin", "a.seq --symbols a.lst --listing ./a.lst",
           "a.seq --symbols a.seq", "p.sym", "a.seq --symbols -", "a.seq --symbols x --no-symbols"}) {
@@ -83,8 +83,8 @@ TEST_F(CliSymbols, NoTwoFilesAreOne) {
         const std::string err = read("err");
         EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
     }
-    EXPECT_EQ(read("p.sym"), kGood);
-    EXPECT_EQ(read("a.seq"), kGood);
+    EXPECT_EQ(read("p.sym"), kNamedProgram);
+    EXPECT_EQ(read("a.seq"), kNamedProgram);
     EXPECT_FALSE(exists("a.bin"));
 }
 

@@ -9,10 +9,10 @@ namespace fs = std::filesystem;
 
 using test::Cli;
 
-const char* const kGood = "PROGRAM P STEP S: OWN ERROR; END_STEP END_PROGRAM\n";
+const char* const kShortProgram = "PROGRAM P STEP S: OWN ERROR; END_STEP END_PROGRAM\n";
 
 TEST_F(Cli, BuildsAndTakesApart) {
-    write("a.seq", kGood);
+    write("a.seq", kShortProgram);
     EXPECT_EQ(run("build a.seq -o a.bin --listing a.lst"), 0) << read("err");
     EXPECT_EQ(read("a.bin").size(), 16U);
     EXPECT_NE(read("a.lst").find("C0 00 00 01 80 00 00 00"), std::string::npos);
@@ -34,20 +34,20 @@ TEST_F(Cli, WritesNothingForAProgramWithErrors) {
 }
 
 TEST_F(Cli, CheckWritesNothing) {
-    write("a.seq", kGood);
+    write("a.seq", kShortProgram);
     EXPECT_EQ(run("check a.seq"), 0);
     EXPECT_FALSE(exists("a.bin"));
 }
 
 TEST_F(Cli, FileAndUsageProblemsAreTwo) {
-    write("a.seq", kGood);
+    write("a.seq", kShortProgram);
     write("short.bin", "\x3F");
     EXPECT_EQ(run("build missing.seq -o a.bin"), 2);
     EXPECT_NE(read("err").find("missing.seq"), std::string::npos);
     EXPECT_EQ(run("build . -o a.bin"), 2);
     EXPECT_EQ(run("build a.seq -o no/such/folder/a.bin"), 2);
     EXPECT_EQ(run("build a.seq -o a.seq"), 2);
-    EXPECT_EQ(read("a.seq"), kGood);
+    EXPECT_EQ(read("a.seq"), kShortProgram);
     EXPECT_EQ(run("build a.seq -o ./x.bin --listing x.bin"), 2);
     EXPECT_EQ(run("disasm short.bin"), 2);
     EXPECT_EQ(run("disasm missing.bin"), 2);
@@ -70,7 +70,7 @@ TEST_F(Cli, UsageErrorsAreOneLine) {
 }
 
 TEST_F(Cli, MinusIsStandardOutputForDisasmOnly) {
-    write("a.seq", kGood);
+    write("a.seq", kShortProgram);
     EXPECT_EQ(run("build a.seq -o -"), 2);
     EXPECT_FALSE(exists("-"));
     EXPECT_EQ(run("build a.seq"), 0);
@@ -80,7 +80,7 @@ TEST_F(Cli, MinusIsStandardOutputForDisasmOnly) {
 }
 
 TEST_F(Cli, DecompilesAndCompilesToTheSame) {
-    write("a.seq", kGood);
+    write("a.seq", kShortProgram);
     EXPECT_EQ(run("build a.seq --no-symbols"), 0) << read("err");
     EXPECT_EQ(run("decompile a.bin -o b.seq"), 0) << read("err");
     EXPECT_TRUE(read("b.seq").starts_with("// Decompiled from a.bin: 1 terms")) << read("b.seq");
@@ -97,11 +97,11 @@ TEST_F(Cli, AStepWithTheNumberNoughtCounts) {
           "PROGRAM P STEP S AT 0: OWN ERROR; IF IN0 THEN NEXT := T; END_IF END_STEP STEP T: OWN ERROR; "
           "END_STEP END_PROGRAM\n");
     EXPECT_EQ(run("build a.seq"), 0) << read("err");
-    EXPECT_TRUE(read("out").starts_with("a.bin: 2 steps of 61, ")) << read("out");
+    EXPECT_TRUE(read("out").starts_with("a.bin: 2 steps of 62, ")) << read("out");
 }
 
 TEST_F(Cli, DecompileRefusesWhatItCannotDo) {
-    write("a.seq", kGood);
+    write("a.seq", kShortProgram);
     EXPECT_EQ(run("build a.seq"), 0);
     const std::string table = read("a.bin");
     write("short.bin", "\x3F");
@@ -117,7 +117,7 @@ TEST_F(Cli, DecompileRefusesWhatItCannotDo) {
 }
 
 TEST_F(Cli, ALinksTargetIsWritten) {
-    write("a.seq", kGood);
+    write("a.seq", kShortProgram);
     fs::create_directory(folder_ / "sub");
     fs::create_symlink("sub/real.bin", folder_ / "link.bin");  // leads nowhere yet
     for (int i = 0; i < 2; ++i) {
@@ -136,14 +136,14 @@ TEST_F(Cli, ManyMistakesEndWithALine) {
 }
 
 TEST_F(Cli, LeavesNoTemporaryFiles) {
-    write("a.seq", kGood);
+    write("a.seq", kShortProgram);
     run("build a.seq -o a.bin");
     run("build a.seq -o no/such/a.bin");
     for (const auto& entry : fs::directory_iterator(folder_)) EXPECT_NE(entry.path().extension(), ".tmp");
 }
 
 TEST_F(Cli, ADeviceIsWrittenToNotReplaced) {
-    write("a.seq", kGood);
+    write("a.seq", kShortProgram);
     EXPECT_EQ(run("build a.seq -o /dev/null"), 0);
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }

@@ -15,17 +15,17 @@ const Truth kInPos = truth_of_bit(kInPosBit);
 const Truth kError = truth_of_bit(kErrorBit);
 const Truth kTimer = truth_of_bit(kTimerZero);
 const Truth kCounter = truth_of_bit(kCounterZero);
-const Truth kGood = ~kError;
+const Truth kNoError = ~kError;
 
 std::string text(const Truth& need, const Truth& open = {}) {
     return condition_text(need, open, nullptr);
 }
 
 TEST(ConditionText, NotErrorIsLeftOut) {
-    EXPECT_EQ(text(kA & ~kB & kGood), "IN0 AND NOT IN1");
-    EXPECT_EQ(text(kTimer & kGood), "TIMER.Q");
-    EXPECT_EQ(text(kInPos & ~kTimer & ~kCounter & kGood), "INPOS AND NOT TIMER.Q AND NOT COUNTER.Q");
-    EXPECT_EQ(text(kGood), "always");
+    EXPECT_EQ(text(kA & ~kB & kNoError), "IN0 AND NOT IN1");
+    EXPECT_EQ(text(kTimer & kNoError), "TIMER.Q");
+    EXPECT_EQ(text(kInPos & ~kTimer & ~kCounter & kNoError), "INPOS AND NOT TIMER.Q AND NOT COUNTER.Q");
+    EXPECT_EQ(text(kNoError), "always");
     EXPECT_EQ(text({}), "never");
 }
 
@@ -37,21 +37,21 @@ TEST(ConditionText, ErrorIsNamed) {
     EXPECT_EQ(text(kA), "ANY ERROR AND IN0");
     EXPECT_EQ(text(kA | kB), "ANY ERROR AND (IN0 OR IN1)");
     EXPECT_EQ(text(kA | kError), "IN0 OR ERROR");
-    EXPECT_EQ(text((kA & kGood) | (kB & kError)), "IN0 AND NOT ERROR OR IN1 AND ERROR");
+    EXPECT_EQ(text((kA & kNoError) | (kB & kError)), "IN0 AND NOT ERROR OR IN1 AND ERROR");
 }
 
 TEST(ConditionText, IsAsShortAsItCanBe) {
     // ab + a'c + bc: the last is not needed.
-    EXPECT_EQ(text(((kA & kB) | (~kA & kC) | (kB & kC)) & kGood), "IN0 AND IN1 OR NOT IN0 AND IN2");
+    EXPECT_EQ(text(((kA & kB) | (~kA & kC) | (kB & kC)) & kNoError), "IN0 AND IN1 OR NOT IN0 AND IN2");
     // Cases in which it does not matter help.
-    EXPECT_EQ(text(kA & kB & kGood, kA & ~kB & kGood), "IN0");
-    EXPECT_EQ(text(kA & kGood, kA & kError), "IN0");
+    EXPECT_EQ(text(kA & kB & kNoError, kA & ~kB & kNoError), "IN0");
+    EXPECT_EQ(text(kA & kNoError, kA & kError), "IN0");
 }
 
 TEST(ConditionText, UsesTheProgramsNames) {
     Symbols symbols;
     symbols.inputs = {"Start", "Guard", "", "", "", ""};
-    EXPECT_EQ(condition_text(kA & ~kB & kGood, {}, &symbols), "Start AND NOT Guard");
+    EXPECT_EQ(condition_text(kA & ~kB & kNoError, {}, &symbols), "Start AND NOT Guard");
 }
 
 TEST(ShortestProducts, HoldWhatIsNeededAndNothingElse) {

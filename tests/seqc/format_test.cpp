@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& path) {
+std::string text_of_file(const fs::path& path) {
     std::stringstream text;
     text << std::ifstream(path, std::ios::binary).rdbuf();
     return text.str();
@@ -47,8 +47,8 @@ TEST(Format, TurnsEachGivenProgramIntoTheExpectedText) {
     int count = 0;
     for (const auto& entry : fs::directory_iterator(SEQC_FORMAT)) {
         if (entry.path().extension() != ".seq") continue;
-        const std::string source = text_of(entry.path());
-        const std::string expected = text_of(fs::path(entry.path()).replace_extension(".expected"));
+        const std::string source = text_of_file(entry.path());
+        const std::string expected = text_of_file(fs::path(entry.path()).replace_extension(".expected"));
         EXPECT_EQ(formatted(source), expected) << entry.path();
         EXPECT_EQ(formatted(expected), expected) << entry.path();
         EXPECT_EQ(compile(expected).table, compile(source).table) << entry.path();
@@ -61,7 +61,7 @@ TEST(Format, LeavesTheExamplesAsTheyAre) {
     int count = 0;
     for (const auto& entry : fs::directory_iterator(SEQC_EXAMPLES)) {
         if (entry.path().extension() != ".seq") continue;
-        const std::string source = text_of(entry.path());
+        const std::string source = text_of_file(entry.path());
         EXPECT_EQ(formatted(source), source) << entry.path();
         ++count;
     }
@@ -69,7 +69,7 @@ TEST(Format, LeavesTheExamplesAsTheyAre) {
 }
 
 TEST(Format, LeavesADisassemblyAsItIs) {
-    const std::string source = text_of(fs::path(SEQC_EXAMPLES) / "pick_and_place.seq");
+    const std::string source = text_of_file(fs::path(SEQC_EXAMPLES) / "pick_and_place.seq");
     const std::string text = disassemble(compile(source).table, "Table").text;
     EXPECT_EQ(formatted(text), text);
 }
@@ -243,7 +243,7 @@ TEST(Format, AResultThatIsNoProgramAnyMoreIsRefused) {
     const Formatted result = format_program(source + "; END_STEP END_PROGRAM");
     EXPECT_FALSE(result.ok);
     ASSERT_EQ(result.diagnostics.size(), 1U);
-    EXPECT_EQ(result.diagnostics[0].code, "E003");
+    EXPECT_EQ(result.diagnostics[0].code, "E001");
 }
 
 /// Columns that grow with the longest name would make a large text of a small one.

@@ -33,7 +33,7 @@ std::string said_about(const fs::path& program) {
     return text;
 }
 
-std::set<fs::path> programs() {
+std::set<fs::path> golden_programs() {
     std::set<fs::path> found;
     for (const auto& entry : fs::directory_iterator(SEQC_GOLDEN)) {
         if (entry.path().extension() == ".seq") found.insert(entry.path());
@@ -47,7 +47,7 @@ std::string code_of(const fs::path& program) {
 
 TEST(Golden, EachProgramIsAnsweredAsWritten) {
     const bool update = std::getenv("SEQC_UPDATE_GOLDEN") != nullptr;
-    for (const fs::path& program : programs()) {
+    for (const fs::path& program : golden_programs()) {
         const std::string said = said_about(program);
         const fs::path expected = fs::path(program).replace_extension(".txt");
         if (update) std::ofstream(expected, std::ios::binary) << said;
@@ -56,7 +56,7 @@ TEST(Golden, EachProgramIsAnsweredAsWritten) {
 }
 
 TEST(Golden, EachProgramHasTheMistakeItIsNamedAfterAndNoOther) {
-    for (const fs::path& program : programs()) {
+    for (const fs::path& program : golden_programs()) {
         std::istringstream lines(content(fs::path(program).replace_extension(".txt")));
         int with_the_code = 0;
         for (std::string line; std::getline(lines, line);) {
@@ -74,7 +74,7 @@ TEST(Golden, EachProgramHasTheMistakeItIsNamedAfterAndNoOther) {
 // E099 is the compiler's own fault and no program is known that gives it.
 TEST(Golden, EveryCodeHasAProgram) {
     std::set<std::string> with_program;
-    for (const fs::path& program : programs()) with_program.insert(code_of(program));
+    for (const fs::path& program : golden_programs()) with_program.insert(code_of(program));
     for (const CodeInfo& info : catalog()) {
         const bool has_program = with_program.contains(std::string(info.code));
         EXPECT_EQ(has_program, info.code != "E099") << info.code;

@@ -117,6 +117,60 @@ TEST(Language, TimesInEveryForm) {
     }
 }
 
+TEST(Language, NumbersAsInTheGrammar) {
+    const auto written = [](const std::string& value) {
+        return compile(
+            test::program("STEP S: IF A THEN INPOSWIN := " + value + "; NEXT := Other; END_IF END_STEP"));
+    };
+    for (const char* number : {"10", "1_0", "1__0", "10_", "1_0_ counts", "16#0A", "10.0"}) {
+        const Compilation result = written(number);
+        ASSERT_TRUE(result.ok) << number << test::codes(result);
+        EXPECT_EQ(test::scan(result.table, 1, 1, false, false).sends, (std::vector<std::string>{"33=10"}))
+            << number;
+    }
+    for (const char* number : {"10.0_0", "10.0_", "16#", "3#1", "16#G"})
+        EXPECT_EQ(test::codes(written(number)), "E003") << number;
+    EXPECT_EQ(test::codes(written("_10")), "E010");
+    EXPECT_EQ(test::codes(written("10.")), "E010");
+    for (const char* time : {"T#1s_500ms", "T#_1s", "T#1_m_s", "T#1.5_0s", "T#1.s", "T#s", "T#"}) {
+        const std::string source = test::program("STEP S: IF A THEN TIMER := " + std::string(time) +
+                                                 "; NEXT := Other; END_IF END_STEP");
+        EXPECT_EQ(test::codes(compile(source)).substr(0, 4), "E004") << time;
+    }
+}
+
+TEST(Language, BlanksAndCommentsInAUnit) {
+    for (const char* unit : {"rev/s", "rev / s", "rev (* a *) / (* b *) s", "REV// in a second\n / s"}) {
+        const std::string source = test::program("STEP S: IF A THEN V_SOLL := 1 " + std::string(unit) +
+                                                 "; NEXT := Other; END_IF END_STEP");
+        const Compilation result = compile(source);
+        ASSERT_TRUE(result.ok) << test::shown(result, source);
+        // 4096 counts/s / 520.83 x 16 = 125.83
+        EXPECT_EQ(test::scan(result.table, 1, 1, false, false).sends, (std::vector<std::string>{"5=126"}))
+            << unit;
+    }
+}
+
+TEST(Language, ConditionsAHundredDeep) {
+    const auto nested = [](int depth, const std::string& open, const std::string& close) {
+        std::string text = "IN0";
+        for (int i = 0; i < depth; ++i) text = open + text + close;
+        return test::codes(
+            compile(test::program("STEP S: IF " + text + " THEN NEXT := Other; END_IF END_STEP")));
+    };
+    EXPECT_EQ(nested(100, "(", ")"), "");
+    EXPECT_EQ(nested(100, "NOT ", ""), "");
+    EXPECT_EQ(nested(50, "NOT (", ")"), "");
+    EXPECT_EQ(nested(101, "(", ")"), "E013");
+    EXPECT_EQ(nested(101, "NOT ", ""), "E013");
+}
+
+TEST(Language, AWordOfTheLanguageIsNoNameInATerm) {
+    const std::string term = "TERM POWER_UP: IF IN0 THEN NEXT := S; END_IF;";
+    EXPECT_EQ(test::codes(compile("PROGRAM P STEP S: OWN ERROR; END_STEP " + term + " END_PROGRAM")), "E011");
+    EXPECT_EQ(test::codes(compile("PROGRAM P STEP S: OWN ERROR; " + term + " END_STEP END_PROGRAM")), "E011");
+}
+
 TEST(Language, RegistersByNameVariableAndNumber) {
     for (const char* target : {"INPOSWIN", "REG(33)", "Window"}) {
         const auto t = sound(

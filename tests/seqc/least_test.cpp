@@ -13,7 +13,7 @@ namespace nplc::seqc {
 namespace {
 
 constexpr int kOwnStep = 1;
-constexpr unsigned kCases = 8;  // A, B, and C or the timer at zero
+constexpr unsigned kLeastCases = 8;  // A, B, and C or the timer at zero
 constexpr unsigned kSeeds = 120;
 
 /// What a case wants; a preset of 0: none. Register values are orders with a "=" in them.
@@ -42,7 +42,7 @@ struct CaseState {
     bool counter = false;
     std::uint8_t to_send = 0;
 };
-using State = std::array<CaseState, kCases>;
+using State = std::array<CaseState, kLeastCases>;
 
 std::uint64_t packed(const State& state) {
     std::uint64_t key = 0;
@@ -64,19 +64,19 @@ class Few {
     int size() const { return static_cast<int>(used_); }
 
   private:
-    std::array<T, 2 * kCases> values_{};
+    std::array<T, 2 * kLeastCases> values_{};
     std::ptrdiff_t used_ = 0;
 };
 
 class Exhaustive {
   public:
-    Exhaustive(const std::array<Wanted, kCases>& wanted, bool with_timer) : wanted_(wanted) {
+    Exhaustive(const std::array<Wanted, kLeastCases>& wanted, bool with_timer) : wanted_(wanted) {
         list_moves(with_timer);
     }
 
     bool exists_with(int terms) {
         State state;
-        for (unsigned c = 0; c < kCases; ++c)
+        for (unsigned c = 0; c < kLeastCases; ++c)
             state[c].to_send = static_cast<std::uint8_t>(wanted_[c].sends.size());
         return search(state, terms);
     }
@@ -90,8 +90,8 @@ class Exhaustive {
             presets.insert({0, w.counter});
             orders.insert(w.sends.begin(), w.sends.end());
         }
-        for (unsigned care = 0; care < kCases; ++care) {
-            for (unsigned value = 0; value < kCases; ++value) {
+        for (unsigned care = 0; care < kLeastCases; ++care) {
+            for (unsigned value = 0; value < kLeastCases; ++value) {
                 const bool runs = with_timer && (care & 4U) != 0 && (value & 4U) == 0;
                 if ((value & ~care) != 0 || runs) continue;
                 for (const std::string& order : orders) {
@@ -112,7 +112,7 @@ class Exhaustive {
         Few<int> nexts;
         Few<int> outputs;
         bool helps = !move.order.empty();
-        for (unsigned c = 0; c < kCases; ++c) {
+        for (unsigned c = 0; c < kLeastCases; ++c) {
             if ((c & move.care) != move.value) continue;
             const Wanted& wanted = wanted_[c];
             CaseState& now = state[c];
@@ -127,7 +127,7 @@ class Exhaustive {
         }
         if (!move.is_fast) return true;
         if (outputs.size() > 1) return false;
-        for (unsigned c = 0; c < kCases; ++c) {
+        for (unsigned c = 0; c < kLeastCases; ++c) {
             if ((c & move.care) != move.value) continue;
             helps = helps || !state[c].outputs || (nexts.size() == 1 && !state[c].next);
             state[c].outputs = true;
@@ -152,7 +152,7 @@ class Exhaustive {
         Few<int> presets;
         Few<std::string_view> commands;
         Few<std::string_view> values;
-        for (unsigned c = 0; c < kCases; ++c) {
+        for (unsigned c = 0; c < kLeastCases; ++c) {
             const Wanted& wanted = wanted_[c];
             const CaseState& now = state[c];
             if (!now.next && wanted.next != kOwnStep) nexts.insert(wanted.next);
@@ -181,7 +181,7 @@ class Exhaustive {
         return false;
     }
 
-    std::array<Wanted, kCases> wanted_;
+    std::array<Wanted, kLeastCases> wanted_;
     std::vector<Move> moves_;
     std::unordered_map<std::uint64_t, int> failed_;
 };
@@ -242,9 +242,9 @@ struct RandomStep {
     }
 };
 
-std::array<Wanted, kCases> wanted_of(const Compilation& result, const RandomStep& step) {
-    std::array<Wanted, kCases> wanted;
-    for (unsigned c = 0; c < kCases; ++c) {
+std::array<Wanted, kLeastCases> wanted_of(const Compilation& result, const RandomStep& step) {
+    std::array<Wanted, kLeastCases> wanted;
+    for (unsigned c = 0; c < kLeastCases; ++c) {
         const unsigned number = step.with_timer ? (c & 3U) | (c & 4U) << 6U : c;
         const test::Scan scan = test::scan_case(result.table, kOwnStep, number);
         Wanted& w = wanted[c];
