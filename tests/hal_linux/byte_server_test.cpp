@@ -6,6 +6,7 @@
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/un.h>
 #include <termios.h>
 #include <unistd.h>
@@ -13,7 +14,9 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace nplc::hal_linux {
 namespace {
@@ -143,6 +146,85 @@ TEST_F(ByteServerTest, PtyReplacesALinkAndNothingElse) {
     EXPECT_NE(ByteServer::open("pty:" + path("no/such/folder")).error, "");
 }
 
+/// What the name refused for; it stays as it is.
+std::string refusal(const std::string& endpoint) {
+    const auto opened = ByteServer::open(endpoint);
+    EXPECT_EQ(opened.server, nullptr) << endpoint;
+    EXPECT_EQ(opened.error.find(endpoint), 0U) << opened.error;
+    return opened.error;
+}
+
+TEST_F(ByteServerTest, ANameIsServedOnce) {
+    for (const char* kind : {"pty:", "unix:"}) {
+        const std::string endpoint = kind + path("motor");
+        auto first = open(endpoint);
+        const auto before = fs::symlink_status(path("motor")).type();
+        EXPECT_NE(refusal(endpoint).find("already serves there"), std::string::npos);
+        EXPECT_NE(refusal(kind + path("../" + folder_.filename().string() + "/motor")), "");
+        EXPECT_EQ(fs::symlink_status(path("motor")).type(), before);
+        first.reset();
+        EXPECT_TRUE(fs::is_empty(folder_)) << kind;
+    }
+}
+
+TEST_F(ByteServerTest, TheEndOfAServerLeavesWhatSomebodyElsePutInItsPlace) {
+    auto pty = open("pty:" + path("motor"));
+    fs::remove(path("motor"));
+    fs::create_symlink("/dev/pts/other", path("motor"));
+    pty.reset();
+    EXPECT_EQ(fs::read_symlink(path("motor")), "/dev/pts/other");
+    auto socket = open("unix:" + path("socket"));
+    fs::remove(path("socket"));
+    std::ofstream(path("socket")) << "precious";
+    socket.reset();
+    EXPECT_EQ(fs::file_size(path("socket")), 8U);
+}
+
+/// The number of a terminal is given to the next one that is opened: whose it is now does not matter.
+TEST_F(ByteServerTest, TheLinkOfAKilledProgramIsReplacedThoughItsNumberIsInUseAgain) {
+    const auto other = open("pty:" + path("other"));
+    fs::copy_symlink(path("other"), path("motor"));
+    std::ofstream(path(".motor.lock")).close();
+    const auto server = open("pty:" + path("motor"));
+    EXPECT_NE(fs::read_symlink(path("motor")), fs::read_symlink(path("other")));
+    const int client = ::open(path("motor").c_str(), O_RDWR | O_NOCTTY);
+    expect_exchange(*server, client);
+    ::close(client);
+}
+
+TEST_F(ByteServerTest, ALinkToAnythingElseIsLeftAlone) {
+    std::ofstream(path("file")) << "precious";
+    fs::create_symlink(path("file"), path("motor"));
+    EXPECT_NE(refusal("pty:" + path("motor")).find("a link of this name, to " + path("file")),
+              std::string::npos);
+    EXPECT_TRUE(fs::is_symlink(path("motor")));
+    refusal("unix:" + path("motor"));
+    refusal("unix:" + path("file"));
+    EXPECT_EQ(fs::file_size(path("file")), 8U);
+}
+
+TEST_F(ByteServerTest, WhatStandsWhereTheLockShouldIsLeftAlone) {
+    const std::string lock = path(".motor.lock");
+    std::ofstream(path("file")) << "precious";
+    const std::function<void()> prepared[] = {
+        [&] { fs::create_symlink(path("file"), lock); },
+        [&] { fs::create_symlink(path("nothing"), lock); },
+        [&] { fs::create_directory(lock); },
+        [&] { ASSERT_EQ(::mkfifo(lock.c_str(), 0600), 0); },
+        [&] { fs::copy_file(path("file"), lock); },
+    };
+    for (const auto& prepare : prepared) {
+        prepare();
+        const auto type = fs::symlink_status(lock).type();
+        for (const char* kind : {"pty:", "unix:"})
+            EXPECT_NE(refusal(kind + path("motor")).find(lock), std::string::npos);
+        EXPECT_EQ(fs::symlink_status(lock).type(), type);
+        fs::remove(lock);
+    }
+    EXPECT_FALSE(fs::exists(path("nothing")));
+    EXPECT_EQ(fs::file_size(path("file")), 8U);
+}
+
 TEST_F(ByteServerTest, UnixSocketPassesEveryByteAndGoesAway) {
     auto server = open("unix:" + path("socket"));
     const int client = connect_unix(path("socket"));
@@ -243,7 +325,7 @@ TEST_F(ByteServerTest, WhatIsNoEndpointIsNamed) {
 }
 
 TEST_F(ByteServerTest, SeveralSeatsHaveAClientEach) {
-    auto opened = ByteServer::open("unix:" + path("socket"), 2);
+    auto opened = ByteServer::open("unix:" + path("socket"), {.seats = 2});
     ASSERT_EQ(opened.error, "");
     ByteServer& server = *opened.server;
     EXPECT_EQ(server.seats(), 2U);
@@ -251,9 +333,6 @@ TEST_F(ByteServerTest, SeveralSeatsHaveAClientEach) {
     EXPECT_TRUE(server.has_client());
     const int second = connect_unix(path("socket"));
     EXPECT_TRUE(server.has_client());
-    const int third = connect_unix(path("socket"));
-    EXPECT_TRUE(server.has_client());
-    EXPECT_EQ(read_from(third), "") << "turned away";
     write_to(second, "two");
     std::array<std::uint8_t, 10> buffer{};
     EXPECT_EQ(server.read_seat(0, buffer), 0U);
@@ -261,12 +340,104 @@ TEST_F(ByteServerTest, SeveralSeatsHaveAClientEach) {
     constexpr std::array<std::uint8_t, 1> kAnswer{'x'};
     server.write_seat(1, kAnswer);
     EXPECT_EQ(read_from(second), "x");
+    EXPECT_FALSE(server.has_left(0));
     ::close(first);
+    EXPECT_TRUE(server.has_left(0));
     const int next = connect_unix(path("socket"));
     EXPECT_TRUE(server.has_client());
     server.write_seat(0, kAnswer);
     EXPECT_EQ(read_from(next), "x") << "in the seat that became free";
-    for (const int client : {second, third, next}) ::close(client);
+    for (const int client : {second, next}) ::close(client);
+}
+
+TEST_F(ByteServerTest, ANewcomerTakesTheSeatOfWhomNobodyHeardForTheLongestTime) {
+    auto opened = ByteServer::open("unix:" + path("socket"), {.seats = 3});
+    ASSERT_EQ(opened.error, "");
+    ByteServer& server = *opened.server;
+    std::vector<int> clients;
+    const auto come = [&] {
+        clients.push_back(connect_unix(path("socket")));
+        EXPECT_TRUE(server.has_client());
+    };
+    for (int i = 0; i < 3; ++i) come();
+    server.note_message(0);
+    server.note_message(2);
+    come();
+    EXPECT_EQ(read_from(clients[1]), "") << "it never sent a message";
+    EXPECT_EQ(server.visit(1), 4U);
+    server.note_message(1);
+    come();
+    EXPECT_EQ(read_from(clients[0]), "") << "its message is the longest ago";
+    EXPECT_EQ(server.visit(0), 5U);
+    for (const int client : clients) ::close(client);
+}
+
+TEST_F(ByteServerTest, WhatAClientSentIsReadBeforeItLosesItsSeat) {
+    auto opened = ByteServer::open("unix:" + path("socket"), {.seats = 2});
+    ASSERT_EQ(opened.error, "");
+    ByteServer& server = *opened.server;
+    const int first = connect_unix(path("socket"));
+    const int second = connect_unix(path("socket"));
+    EXPECT_TRUE(server.has_client());
+    write_to(first, "one");
+    write_to(second, "two");
+    const int third = connect_unix(path("socket"));
+    EXPECT_TRUE(server.has_client());
+    EXPECT_EQ(server.visit(0), 1U) << "the newcomer waits";
+    std::array<std::uint8_t, 10> buffer{};
+    EXPECT_EQ(server.read_seat(0, buffer), 3U);
+    EXPECT_EQ(server.visit(0), 1U);
+    EXPECT_TRUE(server.has_client());
+    EXPECT_EQ(server.visit(0), 3U);
+    EXPECT_EQ(server.read_seat(1, buffer), 3U);
+    for (const int client : {first, second, third}) ::close(client);
+}
+
+TEST_F(ByteServerTest, ASocketIsItsOwnersAndItsGroupsUnlessItsSettingsSayElse) {
+    const ::mode_t before = ::umask(0);
+    const auto mode_of = [&] { return fs::status(path("socket")).permissions(); };
+    {
+        const auto server = open("unix:" + path("socket"));
+        EXPECT_EQ(mode_of(), fs::perms(0660));
+    }
+    ::umask(077);
+    {
+        const auto opened = ByteServer::open("unix:" + path("socket"), {.mode = 0666});
+        EXPECT_EQ(mode_of(), fs::perms(0666));
+    }
+    ::umask(before);
+    const auto nobody = ByteServer::open("unix:" + path("socket"), {.group = "no such group"});
+    EXPECT_EQ(nobody.server, nullptr);
+    EXPECT_NE(nobody.error.find("no such group"), std::string::npos) << nobody.error;
+    EXPECT_FALSE(fs::exists(path("socket")));
+}
+
+TEST_F(ByteServerTest, NothingOfARequestOfABrowserIsReadFromTcp) {
+    const auto server = open("tcp:127.0.0.1:0");
+    const std::string message("\x50\x50\x50\x80\x7F\x10\xEF\xAA\xAA", 9);
+    for (const std::string& opening :
+         {std::string("POST / HTTP/1.1\r\n\r\n"), std::string("PPP / HTTP/1.1\r\n\r\n"),
+          std::string("\x16\x03\x01\x02\x00", 5)}) {
+        const int client = connect_tcp(server->name());
+        EXPECT_TRUE(server->has_client());
+        write_to(client, opening + message);
+        EXPECT_EQ(received(*server), "") << opening;
+        EXPECT_FALSE(server->has_client());
+        ::close(client);
+    }
+}
+
+TEST_F(ByteServerTest, WhatADeviceIsSentFirstIsReadFromTcp) {
+    const auto server = open("tcp:127.0.0.1:0");
+    for (const std::string& opening : {std::string("\x50\x50\x50 \xDF\x10\xEF\xAA\xAA"),
+                                       std::string("\xE0\x60"), std::string("\x02 0140200")}) {
+        const int client = connect_tcp(server->name());
+        EXPECT_TRUE(server->has_client());
+        write_to(client, opening);
+        EXPECT_EQ(received(*server), opening);
+        ::close(client);
+        EXPECT_EQ(received(*server), "");
+    }
 }
 
 TEST_F(ByteServerTest, EachClientOfASocketHasAVisitOfItsOwn) {

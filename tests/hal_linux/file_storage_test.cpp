@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 using store::Bytes;
 
 constexpr std::uint32_t kSize = 8 * 4096;
-constexpr ports::StorageGeometry kGeometry{
+constexpr ports::StorageGeometry kFileGeometry{
     .size = kSize, .erase_block = 4096, .program_page = 256, .program_unit = 1};
 
 struct FileStorageTest : testing::Test {
@@ -26,7 +26,7 @@ struct FileStorageTest : testing::Test {
     ~FileStorageTest() override { fs::remove_all(folder_); }
 
     std::unique_ptr<FileStorage> open() const {
-        auto opened = FileStorage::open(path, kGeometry);
+        auto opened = FileStorage::open(path, kFileGeometry);
         EXPECT_EQ(opened.error, "");
         return std::move(opened.storage);
     }
@@ -96,15 +96,31 @@ TEST_F(FileStorageTest, RefusesWhatDoesNotFit) {
 
 TEST_F(FileStorageTest, WhatIsNoMemoryOrInUseIsLeftAsItIs) {
     std::ofstream(path) << "precious";
-    EXPECT_NE(FileStorage::open(path, kGeometry).error.find("not a memory of 32768 bytes"),
+    EXPECT_NE(FileStorage::open(path, kFileGeometry).error.find("not a memory of 32768 bytes"),
               std::string::npos);
     EXPECT_EQ(fs::file_size(path), 8U);
-    EXPECT_NE(FileStorage::open(folder_, kGeometry).error, "");
-    EXPECT_NE(FileStorage::open(folder_ / "no/such", kGeometry).error.find("cannot be made"),
+    EXPECT_NE(FileStorage::open(folder_, kFileGeometry).error, "");
+    EXPECT_NE(FileStorage::open(folder_ / "no/such", kFileGeometry).error.find("cannot be made"),
+              std::string::npos);
+    fs::create_symlink(path, folder_ / "link");
+    EXPECT_NE(FileStorage::open(folder_ / "link", kFileGeometry).error.find("this is a link"),
               std::string::npos);
     fs::remove(path);
+    EXPECT_NE(FileStorage::open(folder_ / "link", kFileGeometry).error.find("this is a link"),
+              std::string::npos);
     const auto first = open();
-    EXPECT_NE(FileStorage::open(path, kGeometry).error.find("another program uses"), std::string::npos);
+    EXPECT_NE(FileStorage::open(path, kFileGeometry).error.find("another program uses"), std::string::npos);
+}
+
+/// The name under which a memory is made first can be known before.
+TEST_F(FileStorageTest, WhatIsPreparedUnderTheFirstNameIsNotWrittenTo) {
+    const fs::path victim = folder_ / "victim";
+    std::ofstream(victim) << "precious";
+    fs::create_symlink(victim, path + "." + std::to_string(::getpid()));
+    const auto storage = open();
+    EXPECT_EQ(fs::file_size(victim), 8U);
+    EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(path)));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2);
 }
 
 }  // namespace

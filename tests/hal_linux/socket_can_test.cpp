@@ -8,14 +8,14 @@ namespace {
 // Frames, filters and errors are tried in tests/vm, on a kernel that has CAN.
 
 TEST(SocketCan, SaysWhatIsWrong) {
-    const std::string missing = "; `ip -brief link show type can` lists those for CAN";
+    const std::string missing = "; `ip -o link | grep link/can` lists those for CAN";
     for (const char* name : {"nocan0", "", "a_name_much_too_long_for_an_interface"}) {
         const auto opened = SocketCan::open({.interface = name});
         EXPECT_EQ(opened.can, nullptr);
         EXPECT_EQ(opened.error, "there is no interface '" + std::string(name) + "'" + missing);
     }
     EXPECT_EQ(SocketCan::open({.interface = "lo"}).error,
-              "lo is not an interface for CAN; `ip -brief link show type can` lists those");
+              "lo is not an interface for CAN; `ip -o link | grep link/can` lists those");
 }
 
 TEST(CanFrame, KnowsWhatTheBusCanCarry) {

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstring>
+
 #include "hal_mcu/crash_record.h"
 #include "hal_mcu/interrupt_ring.h"
 #include "hal_mcu/run_marker.h"
@@ -69,6 +72,19 @@ TEST(RunMarker, IsClearInWhatMemoryHoldsAfterPowerUp) {
     EXPECT_TRUE(kept.is_set());
     kept.clear();
     EXPECT_FALSE(kept.is_set());
+}
+
+TEST(RunMarker, AFlippedBitHidesNothing) {
+    static_assert(sizeof(RunMarker) == 8);
+    for (unsigned bit = 0; bit < 64; ++bit) {
+        RunMarker marker{};
+        marker.set();
+        std::array<std::uint8_t, sizeof marker> bytes;
+        std::memcpy(bytes.data(), &marker, sizeof marker);
+        bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] ^ (1U << bit % 8));
+        std::memcpy(&marker, bytes.data(), sizeof marker);
+        EXPECT_TRUE(marker.is_set()) << bit;
+    }
 }
 
 }  // namespace

@@ -155,7 +155,7 @@ class Systemd(unittest.TestCase):
         self.until_said("x: the motor answers on /dev/ttyS0")
         self.until("what it does in systemctl's status", "systemctl show -P StatusText nanoplc | grep -x 'x stopped'")
         self.assertEqual(self.run_there("stat -c %U:%G:%a /var/lib/nanoplc /run/nanoplc /run/nanoplc/x").splitlines(),
-                         ["nanoplc:nanoplc:755", "nanoplc:nanoplc:755", "nanoplc:nanoplc:770"])
+                         ["nanoplc:nanoplc:755", "nanoplc:nanoplc:755", "nanoplc:nanoplc:660"])
 
     def test_3_the_journal_has_levels(self):
         said = self.run_there("journalctl -u nanoplc _COMM=nanoplc -o json --output-fields=PRIORITY,MESSAGE --no-pager")
@@ -196,7 +196,7 @@ class Systemd(unittest.TestCase):
         self.assertEqual(self.shown("ExecMainStatus"), "0")
         self.assertIn("ends: Terminated", self.journal())
         self.assertNotIn("may be moving", self.journal())
-        self.run_there("test ! -e /var/lib/nanoplc/x/running")
+        self.assertTrue(self.run_there("cat /var/lib/nanoplc/x/running").startswith("ended "))
         for step in ("start", "restart"):
             self.run_there(f"systemctl {step} nanoplc")
             self.until("the sequence by itself", RUNS)

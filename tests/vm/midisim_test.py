@@ -76,6 +76,40 @@ cat out5
 grep -q '^done in 3.64 s: axis 1 at .* inc, axis 2 at .* inc$' out5 || { cat said; exit 1; }
 kill -TERM $module
 wait $module
+# Two modules at one address: nothing that moves is sent. The question of firmware/boards/linux/FIRST_START.md, by its words.
+./midisim --model MAC34-1 --can vcan0 --eeprom one >out6 2>&1 &
+first=$!
+seen '^ready$' out6
+candump -n 1 -T 2000 vcan0,581:7FF & sleep 0.5; cansend vcan0 601#4000200000000000; wait $! && echo asked
+./midisim --model MAC34-1 --can vcan0 --eeprom other >out7 2>&1 &
+second=$!
+seen '^ready$' out7
+for words in "move 1rev" "jog 60rpm --for 1s" "together 1=1rev" "power on"; do
+    ./macreg midi $words >said 2>&1 && { echo "two moved: $words"; exit 1; }
+    grep -q "more than one module answers to address 1" said || { cat said; exit 1; }
+done
+./macreg midi why | grep -q "More than one module answers to address 1" || { echo "why"; exit 1; }
+kill -TERM $second
+wait $second
+# A plant's SYNC every 10 ms: nothing begins together with it, and a circle from where the axes stand ends where it began.
+./midisim --model MAC34-1 --address 2 --can vcan0 >out8 2>&1 &
+second=$!
+seen '^ready$' out8
+/usr/bin/cangen vcan0 -g 10 -I 080 -L 0 &
+plant=$!
+./macreg midi together 1=1rev 2=1rev >said 2>&1 && { echo "together with a SYNC"; exit 1; }
+grep -q "another master on the bus sends SYNC" said || { cat said; exit 1; }
+for try in 1 2 3; do
+    ./macreg midi circle --axes 1,2 --radius 1000 --speed 1000inc/s --segment 250ms >out9 2>said && break
+done
+grep -q '^done in ' out9 || { cat said; exit 1; }
+kill $plant
+kill -TERM $second
+wait $second
+./macreg midi --address 1 move 100 || exit 1
+kill -TERM $first
+wait $first
+grep -q '^position = 100$' one && ! grep -q '^position = [^0]' other || { cat one other; exit 1; }
 grep -q '^position = 100$' eeprom && grep -q '^position = -100$' eeprom.2 || { cat eeprom*; exit 1; }
 """
 

@@ -49,7 +49,7 @@ table = "/share/mending.bin"
 kind = "mac34-2"
 port = "/dev/ttyS0"
 """
-# The files `down`, `up`, `kill`, `start` and `term` are wishes; a line says that one was fulfilled.
+# The files `down`, `up`, `kill`, `start`, `second`, `alone` and `term` are wishes; a line says that one was fulfilled.
 SCRIPT = """
 for one in can0 can1; do
     /usr/bin/ip link set $one type can bitrate 125000 && /usr/bin/ip link set $one up || exit 1
@@ -63,6 +63,8 @@ while kill -0 $service 2>/dev/null; do
     if [ -e up ]; then rm up; /usr/bin/ip link set can0 up; fi
     if [ -e kill ]; then rm kill; kill -9 $module; fi
     if [ -e start ]; then rm start; ./midisim --model MAC34-1 --address 5 --can can1 --eeprom eeprom >sim.log 2>&1 & module=$!; fi
+    if [ -e second ]; then rm second; ./midisim --model MAC34-1 --address 5 --can can1 >sim2.log 2>&1 & second=$!; fi
+    if [ -e alone ]; then rm alone; kill -9 $second; fi
     if [ -e term ]; then rm term; kill -TERM $service; fi
     sleep 0.05
 done
@@ -132,6 +134,12 @@ def play(machine, v24_eeprom):
     machine.stays_in_fault()
     machine.carries()
     print("vm: the module was killed and came back", flush=True)
+    machine.loses("second", "x: ERROR: more than one MIDI drive answers to this address")
+    machine.stays_in_fault()
+    machine.signal("alone")
+    machine.vm.wait("x: the motor answers on address 5 on can0")
+    machine.carries()
+    print("vm: a second module came to the address and left it", flush=True)
     machine.until("the drive on V24 away", lambda: position(v24_eeprom) == AWAY)
     machine.until("the drive on V24 back", lambda: position(v24_eeprom) == 0)
     machine.signal("term")

@@ -201,14 +201,17 @@ void count_user_bytes() {
     settings.attach(sequence);
     static gateway::TableKeeper tables(sequence, drive, storage, {.begin = 0, .slot_bytes = 8 * 1024},
                                        table_bytes);
-    static gateway::OwnRegisters registers(sequence, tables, settings);
-    static gateway::UserPort port(line, nullptr, sequence, drive, registers, settings);
-    static_cast<void>(tables.mount());
+    static gateway::OwnRegisters registers(sequence, tables, settings, {});
+    static gateway::UserPort port(&line, nullptr, sequence, drive, registers, settings);
+    tables.mount();
     base::Instant now{base::Milliseconds(1000)};
     const auto with = [&now](std::span<const std::uint8_t> bytes) {
         now += base::Milliseconds(1);
         line.waiting = bytes;
-        return instructions([&now] { port.poll(now); });
+        return instructions([&now] {
+            registers.poll();
+            port.poll(now);
+        });
     };
     const auto request = protocol::mactalk::encode({.kind = protocol::mactalk::Kind::read_block,
                                                     .address = registers::gateway::kDefaultAddress,

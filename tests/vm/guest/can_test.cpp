@@ -249,7 +249,7 @@ TEST_F(Can, AnInterfaceThatIsGoneIsFoundAgainWithItsFilters) {
     EXPECT_FALSE(readable(can->descriptor()));
     EXPECT_FALSE(can->write(data(1, {})));
     EXPECT_EQ(can->reopen(),
-              "there is no interface 'vcan0'; `ip -brief link show type can` lists those for CAN");
+              "there is no interface 'vcan0'; `ip -o link | grep link/can` lists those for CAN");
     EXPECT_EQ(ip("link add vcan0 type vcan"), "");
     EXPECT_TRUE(readable(can->descriptor(), kSoon)) << "the change wakes who waits";
     EXPECT_EQ(can->reopen(), "");
@@ -286,7 +286,7 @@ TEST_F(Can, SaysWhatIsWrong) {
               "can0 type can "
               "bitrate 250000 restart-ms 100 && ip link set can0 up");
     EXPECT_EQ(error("can9", 125'000),
-              "there is no interface 'can9'; `ip -brief link show type can` lists those for CAN");
+              "there is no interface 'can9'; `ip -o link | grep link/can` lists those for CAN");
     run("rmmod kvaser_pci && modprobe kvaser_pci");
     EXPECT_EQ(error("can0", 125'000),
               "can0 has no bit rate yet; as root: ip link set can0 down && ip link set can0 type can bitrate "

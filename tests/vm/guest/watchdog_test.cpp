@@ -28,6 +28,7 @@ TEST(BoardWatchdog, IsArmedByOpeningAndDisarmedAtAnOrderlyEnd) {
     EXPECT_EQ(told("state"), "active");
     EXPECT_EQ(told("timeout"), "30");
     EXPECT_FALSE(opened.watchdog->has_reset_board());
+    EXPECT_FALSE(DeviceWatchdog::any_has_reset_board());
     opened.watchdog->feed();
     EXPECT_EQ(opened.watchdog->disarm(), "");
     EXPECT_EQ(told("state"), "inactive");
@@ -94,6 +95,7 @@ TEST(AfterTheReset, TheDriverSaysWhoResetTheBoard) {
     const auto opened = DeviceWatchdog::open("/dev/watchdog0", 600s);
     ASSERT_NE(opened.watchdog, nullptr) << opened.error;
     EXPECT_TRUE(opened.watchdog->has_reset_board());
+    EXPECT_TRUE(DeviceWatchdog::any_has_reset_board());
     EXPECT_EQ(opened.watchdog->disarm(), "");
 }
 
