@@ -54,7 +54,9 @@ class Line final : public ports::SerialPort {
         if (event.kind != v24::RequestDecoder::Event::Kind::request) return;
         last_ = event.request;
         // Commands begin only while the link delivers; one that was begun may have ended the link meanwhile.
-        if (room_ >= kRoom) fuzz::require(v24::is_query(last_.index) || motor::delivers(driver->link()));
+        const bool stops = last_.index == registers::midi::EMERGENCY_STOP;
+        if (room_ >= kRoom)
+            fuzz::require(v24::is_query(last_.index) || stops || motor::delivers(driver->link()));
     }
 
     void say(const auto& bytes) {

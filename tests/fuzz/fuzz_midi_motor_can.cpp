@@ -20,7 +20,8 @@ class Bus final : public ports::CanPort {
         fuzz::require(last_.address == kAddress);
         const bool asks = last_.kind == can::Request::Kind::query;
         fuzz::require(asks || last_.kind == can::Request::Kind::command);
-        fuzz::require(asks || motor::delivers(driver->link()));
+        const bool stops = last_.index == can::kIndices + registers::midi::EMERGENCY_STOP;
+        fuzz::require(asks || stops || motor::delivers(driver->link()));
         return true;
     }
     bool read(ports::CanFrame& frame) override { return arrivals.take(frame); }

@@ -5,11 +5,12 @@
 #include <cstdint>
 #include <cstdlib>
 #include <deque>
+#include <functional>
 #include <optional>
 
 #include "base/bytes.h"
 #include "base/crc32.h"
-#include "gateway/user_port.h"
+#include "gateway/controller.h"
 #include "sim/sim_storage.h"
 
 namespace {
@@ -54,7 +55,7 @@ struct Board final : ports::DigitalInputs,
     void send(const motor::Order&) override {}
     void stop() override {}
     bool begin_access(const motor::Access& access) override {
-        require(!access.is_write || may_write);
+        require(!access.is_write || may_write());
         require(access.reg != 0);
         last = access;
         state = access.reg % 5 == 0 ? motor::AccessState::failed : motor::AccessState::done;
@@ -70,7 +71,7 @@ struct Board final : ports::DigitalInputs,
     bool longwords_only() const override { return false; }
 
     std::uint8_t inputs = 0;
-    bool may_write = true;
+    std::function<bool()> may_write;
     std::deque<ports::ReceivedByte> received;
     std::deque<std::uint8_t> sent;
     motor::Access last;
@@ -80,12 +81,13 @@ struct Board final : ports::DigitalInputs,
 class Run {
   public:
     Run() {
-        settings_.start({});
-        settings_.attach(gateway_);
-        static_cast<void>(tables_.mount());
+        board_.may_write = [this] {
+            return controller_.sequence().run_state() == gateway::RunState::stopped ||
+                   settings_.get(store::Setting::motor_writes) != 0;
+        };
         constexpr std::uint8_t kTable[]{0xC0, 1, 1, 1, 0x80, 5, 0, 0, 0xC1, 0, 1, 0,
                                         0x80, 2, 0, 0, 0x3F, 0, 0, 0, 0,    0, 0, 0};
-        require(tables_.use(kTable, now_).ok);
+        require(controller_.tables().use(kTable, now_).ok);
     }
 
     void hear(std::uint8_t byte, bool framing_error) {
@@ -95,12 +97,10 @@ class Run {
 
     void poll(base::Microseconds step) {
         now_ += step;
-        gateway_.poll(now_);
-        board_.may_write = gateway_.run_state() == gateway::RunState::stopped ||
-                           settings_.get(store::Setting::motor_writes) != 0;
-        port_.poll(now_);
-        require(base::crc32(tables_.active()) == tables_.active_crc() || tables_.active().empty());
-        require(tables_.active().size() <= memory_.size());
+        controller_.poll(now_);
+        const gateway::TableKeeper& tables = controller_.tables();
+        require(base::crc32(tables.active()) == tables.active_crc() || tables.active().empty());
+        require(tables.active().size() <= memory_.size());
     }
 
     void toggle_input() { board_.inputs ^= 1; }
@@ -126,15 +126,26 @@ class Run {
     }
 
   private:
+    static gateway::SettingsKeeper& started(gateway::SettingsKeeper& settings) {
+        settings.start({});
+        return settings;
+    }
+
     Board board_;
     base::Instant now_{};
     sim::SimStorage flash_{{.size = 24 * 1024, .erase_block = 2048, .program_page = 256, .program_unit = 8}};
     std::array<std::uint8_t, (sequencer::kMaxTerms + 1) * sequencer::kTermBytes> memory_{};
     gateway::SettingsKeeper settings_{flash_, {.begin = 10 * 2048, .slot_bytes = 2048}};
-    gateway::Gateway gateway_{{board_, board_, board_, board_}, {}, gateway::StartCause::power_up};
-    gateway::TableKeeper tables_{gateway_, board_, flash_, {.begin = 0, .slot_bytes = 5 * 2048}, memory_};
-    gateway::OwnRegisters own_{gateway_, tables_, settings_};
-    gateway::UserPort port_{board_, nullptr, gateway_, board_, own_, settings_};
+    gateway::Controller controller_{{.inputs = board_,
+                                     .outputs = board_,
+                                     .watchdog = board_,
+                                     .motor = board_,
+                                     .storage = flash_,
+                                     .user_line = &board_},
+                                    {.begin = 0, .slot_bytes = 5 * 2048},
+                                    memory_,
+                                    started(settings_),
+                                    gateway::StartCause::power_up};
 };
 
 /// The input's bytes are messages in short, since nobody guesses inverses: kind, register, four bytes of
