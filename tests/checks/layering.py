@@ -50,7 +50,7 @@ MODULES = [
         ("base", "ports", "hal_mcu", "motor", "store", "gateway"),
         core=True,
     ),
-    Module("firmware/boards/shared_line", "shared_line", ("base", "protocol", "hal_linux")),
+    Module("firmware/boards/shared_line", "shared_line", ("base", "protocol", "registers", "hal_linux")),
     Module("host-sim", "sim", ("base", "ports", "protocol", "registers"), os=True),
     Module("host-sim/board", "sim", ANY, os=True, clock=True),
     Module(

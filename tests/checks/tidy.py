@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """clang-tidy over the core, with the checks of .clang-tidy.
 
-usage: tidy.py ROOT BUILD
+usage: tidy.py ROOT
 
-BUILD is a tree that clang built: its compile_commands.json names the flags.
+Configures preset tidy, whose compile_commands.json names the flags of each file.
 """
 
 import concurrent.futures
@@ -35,9 +35,13 @@ def tidy(root, build, path):
 
 
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) != 2:
         sys.exit(__doc__)
-    root, build = (os.path.abspath(argument) for argument in sys.argv[1:])
+    root = os.path.abspath(sys.argv[1])
+    configured = subprocess.run(["cmake", "--preset", "tidy"], cwd=root, capture_output=True, text=True, check=False)
+    if configured.returncode != 0:
+        sys.exit(f"{configured.stdout}{configured.stderr}\ncmake --preset tidy failed")
+    build = os.path.join(root, "build", "tidy")
     paths = core_files(root, build)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         findings = list(pool.map(lambda path: tidy(root, build, path), paths))

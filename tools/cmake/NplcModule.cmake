@@ -20,6 +20,7 @@ option(NPLC_TESTS "Build the tests" ON)
 option(NPLC_BOARD_TESTS "Build the tests that run on the virtual board of tests/vm" OFF)
 option(NPLC_STATIC "Link programs statically, and strip them" OFF)
 option(NPLC_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
+option(NPLC_UNITY "Compile several files of a tool or a test at once: half the time for a build from nothing" ON)
 option(NPLC_COMMON_HEADERS "Compile what most host files include once (g++ only)" ON)
 
 if(CMAKE_SYSTEM_NAME STREQUAL "Generic")
@@ -37,6 +38,10 @@ target_compile_options(nplc_options INTERFACE
 if(NPLC_HOSTED AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(nplc_options INTERFACE -Wno-array-bounds -Wno-free-nonheap-object -Wno-restrict
                                                 -Wno-stringop-overflow -Wno-stringop-overread)
+endif()
+# A pipeline of three stages gains little by another order of instructions and blocks; 350 bytes of flash go for it.
+if(NOT NPLC_HOSTED)
+  target_compile_options(nplc_options INTERFACE -fno-schedule-insns2 -fno-reorder-blocks -fno-move-loop-invariants)
 endif()
 if(NPLC_WERROR AND CMAKE_CXX_COMPILER_VERSION MATCHES "^(12|14)\\.")
   target_compile_options(nplc_options INTERFACE -Werror)
@@ -109,6 +114,14 @@ if(NPLC_HOSTED AND NPLC_COMMON_HEADERS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
             <span> <string> <string_view> <utility> <vector>)
 endif()
 
+# Files that are small and include much cost more to read than to compile. The core is compiled file by file, as it is for
+# microcontrollers.
+function(nplc_compile_together target)
+  if(NPLC_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 10)
+  endif()
+endfunction()
+
 function(nplc_host_module name)
   cmake_parse_arguments(ARG "OWN_HEADERS;BUSY" "" "" ${ARGN})
   if(ARG_BUSY AND NPLC_SANITIZE)
@@ -119,6 +132,7 @@ function(nplc_host_module name)
   get_target_property(type nplc_${name} TYPE)
   if(type STREQUAL "STATIC_LIBRARY")
     target_link_libraries(nplc_${name} PRIVATE fmt::fmt)
+    nplc_compile_together(nplc_${name})
   endif()
   if(type STREQUAL "STATIC_LIBRARY" AND NOT ARG_OWN_HEADERS)
     nplc_use_common_headers(nplc_${name} host_headers)
