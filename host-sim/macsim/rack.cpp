@@ -1,7 +1,6 @@
 #include "rack.h"
 
 #include <algorithm>
-#include <optional>
 
 namespace nplc::sim {
 namespace {
@@ -55,20 +54,12 @@ void Rack::serve_fastmac() {
     fastmac_.collect(now_);
 }
 
-/// Units that answer at once, as to address 255, disturb each other: on the wires a 0 wins over a 1.
 void Rack::serve_mactalk() {
     while (const auto byte = mactalk_.to_device.take(now_)) {
         for (Unit& unit : units_) unit.motor->receive_mactalk(byte->value, byte->framing_error);
     }
-    if (mactalk_.from_device.free(now_)) {
-        std::optional<std::uint8_t> together;
-        for (Unit& unit : units_) {
-            const auto byte = unit.motor->transmit_mactalk();
-            if (byte) together = static_cast<std::uint8_t>(together.value_or(0xFF) & *byte);
-        }
-        if (together) mactalk_.from_device.start(*together, now_);
-    }
-    mactalk_.collect(now_);
+    mactalk_.transmit(
+        units_, [](Unit& unit) { return unit.motor->transmit_mactalk(); }, now_);
 }
 
 }  // namespace nplc::sim

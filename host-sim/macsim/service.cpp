@@ -1,65 +1,95 @@
-#include "service.h"
-
 #include <fmt/format.h>
 
-#include "flash_file.h"
-#include "sim/value_file.h"
+#include "macsim.h"
+#include "sim/device_memory.h"
+#include "sim/text.h"
 
 namespace nplc::sim {
 namespace {
 
-std::string about(const MacMotor& motor) {
+constexpr int kRegisters = 256;
+
+/// The parameter flash: a line for each memory cell that is not 0, of 16 bits, on MAC800 of 32.
+class FlashMemory final : public DeviceMemory {
+  public:
+    explicit FlashMemory(MacMotor& motor) : motor_(motor), taken_(motor.model()) {}
+
+    std::string heading() const override {
+        return fmt::format("# parameter flash of a virtual {}", registers::name_of(motor_.model()));
+    }
+    std::string form() const override { return "REGISTER = VALUE"; }
+    std::vector<NamedValue> values() const override {
+        std::vector<NamedValue> values;
+        for (int reg = 1; reg < kRegisters; ++reg) {
+            const std::uint32_t value = motor_.stored().read(static_cast<std::uint8_t>(reg), wide());
+            if (value != 0) values.push_back({std::to_string(reg), value});
+        }
+        return values;
+    }
+    std::uint32_t writes() const override { return motor_.flash_writes(); }
+    bool take(const NamedValue& line) override {
+        const auto reg = parse_integer(line.name);
+        if (!reg || *reg < 1 || *reg >= kRegisters) return false;
+        if (line.value < 0 || line.value > (wide() ? 0xFFFF'FFFF : 0xFFFF)) return false;
+        taken_.write(static_cast<std::uint8_t>(*reg), static_cast<std::uint32_t>(line.value), wide());
+        return true;
+    }
+    void restore() override {
+        motor_.set_stored(taken_);
+        motor_.power_cycle();
+    }
+
+  private:
+    bool wide() const { return is_mac800(motor_.model()); }
+
+    MacMotor& motor_;
+    MotorMemory taken_;
+};
+
+std::string describe(const MacMotor& motor) {
     return fmt::format("{} @{} mode {} P_IST {} V {:.0f} rpm ERR_STAT {:04X}",
                        registers::name_of(motor.model()), motor.read(is_mac800(motor.model()) ? 202 : 156),
                        motor.mode(), motor.p_ist(), motor.rpm(), motor.err_stat());
 }
 
+class RackService final : public VirtualDevices {
+  public:
+    RackService(const MacsimOptions& options, std::string& error) : rack_(options.rack) {
+        for (std::size_t i = 0; error.empty() && i < rack_.size(); ++i)
+            error = files_.add(options.flash, options.rack.units[i].address,
+                               std::make_unique<FlashMemory>(rack_.motor(i)));
+        if (error.empty()) error = fastmac_.open(options.fastmac);
+        if (error.empty()) error = mactalk_.open(options.mactalk);
+    }
+    std::string advance(Time to) override {
+        rack_.send_fastmac(fastmac_.read());
+        rack_.send_mactalk(mactalk_.read());
+        rack_.advance(to);
+        fastmac_.write(rack_.received_fastmac());
+        mactalk_.write(rack_.received_mactalk());
+        return files_.save_changed();
+    }
+    std::string endpoints() const override {
+        return fastmac_.described("fastmac") + mactalk_.described("mactalk");
+    }
+    std::string status() const override {
+        std::string text;
+        for (std::size_t i = 0; i < rack_.size(); ++i)
+            text += (i == 0 ? "" : " | ") + describe(rack_.motor(i));
+        return text;
+    }
+
+  private:
+    Rack rack_;
+    Endpoint fastmac_;
+    Endpoint mactalk_;
+    MemoryFiles files_;
+};
+
 }  // namespace
 
-Service::Service(const MacsimOptions& options, std::string& error) : rack_(options.rack) {
-    error = open_flash(options);
-    if (error.empty()) error = fastmac_.open(options.fastmac);
-    if (error.empty()) error = mactalk_.open(options.mactalk);
-}
-
-std::string Service::open_flash(const MacsimOptions& options) {
-    if (options.flash.empty()) return {};
-    for (std::size_t i = 0; i < rack_.size(); ++i) {
-        const std::string path =
-            i == 0 ? options.flash : fmt::format("{}.{}", options.flash, options.rack.units[i].address);
-        flash_.push_back({path});
-        if (std::string error = load_flash(path, rack_.motor(i)); !error.empty()) return error;
-        if (std::string error = try_values(path); !error.empty()) return error;
-    }
-    return {};
-}
-
-std::string Service::keep_flash() {
-    for (std::size_t i = 0; i < flash_.size(); ++i) {
-        if (rack_.motor(i).flash_writes() == flash_[i].written) continue;
-        flash_[i].written = rack_.motor(i).flash_writes();
-        if (std::string error = save_flash(flash_[i].path, rack_.motor(i)); !error.empty()) return error;
-    }
-    return {};
-}
-
-std::string Service::advance(Time to) {
-    rack_.send_fastmac(fastmac_.read());
-    rack_.send_mactalk(mactalk_.read());
-    rack_.advance(to);
-    fastmac_.write(rack_.received_fastmac());
-    mactalk_.write(rack_.received_mactalk());
-    return keep_flash();
-}
-
-std::string Service::endpoints() const {
-    return fastmac_.described("fastmac") + mactalk_.described("mactalk");
-}
-
-std::string Service::status() const {
-    std::string text;
-    for (std::size_t i = 0; i < rack_.size(); ++i) text += (i == 0 ? "" : " | ") + about(rack_.motor(i));
-    return text;
+std::unique_ptr<VirtualDevices> open_rack(const MacsimOptions& options, std::string& error) {
+    return std::make_unique<RackService>(options, error);
 }
 
 }  // namespace nplc::sim

@@ -1,12 +1,6 @@
-#include "command_line.h"
-
 #include <fmt/format.h>
 
-#include <set>
-#include <stdexcept>
-
-#include "arguments/arguments.h"
-#include "sim/option_values.h"
+#include "midisim.h"
 #include "sim/text.h"
 
 namespace nplc::sim {
@@ -16,10 +10,8 @@ constexpr int kMaxAddress = 127;
 constexpr const char* kFooter =
     "EP is pty:PATH (PATH becomes a link to the terminal), unix:PATH or tcp:127.0.0.1:PORT. Prints `ready` "
     "when all are open.\nA client that is not there or does not read loses bytes, as on a serial line. "
-    "SIGINT and "
-    "SIGTERM end it cleanly; the modules keep their positions.\nExit code: 0 ended by a signal, 2 a mistake "
-    "in the "
-    "command line, or something cannot be opened or written.";
+    "SIGINT and SIGTERM end it cleanly; the modules keep their positions.\nExit code: 0 ended by a signal, 2 "
+    "a mistake in the command line, or something cannot be opened or written.";
 
 registers::midi::Model model(const std::string& option, const std::string& text) {
     if (const auto found = registers::midi::model_of(text)) return *found;
@@ -53,21 +45,18 @@ void check(const MidisimOptions& options) {
     if (!options.can.empty() && options.baud != 0)
         throw std::invalid_argument(
             "--baud belongs to --v24; a CAN interface has its bit rate from the system");
-    std::set<int> addresses;
     for (const MidiUnit& one : options.units) {
-        const std::string_view name = registers::midi::facts_of(one.model).name;
-        if (!options.can.empty() && !registers::midi::facts_of(one.model).has_can)
+        const auto& facts = registers::midi::facts_of(one.model);
+        if (!options.can.empty() && !facts.has_can)
             throw std::invalid_argument(
-                fmt::format("there is no {} with CAN: write MAC34-1 or MAC34-2", name));
-        if (!addresses.insert(one.address).second)
-            throw std::invalid_argument(
-                fmt::format("address {} is given twice: each module on a line needs its own", one.address));
+                fmt::format("there is no {} with CAN: write MAC34-1 or MAC34-2", facts.name));
     }
+    check_addresses(options.units, "module");
 }
 
 }  // namespace
 
-MidisimCommandLine parse_midisim(int argc, const char* const* argv) {
+DeviceCommandLine<MidisimOptions> parse_midisim(int argc, const char* const* argv) {
     arguments::App app("Virtual MIDI modules in real time, for any program that talks to real ones",
                        "midisim");
     MidisimOptions options;
@@ -84,32 +73,22 @@ MidisimCommandLine parse_midisim(int argc, const char* const* argv) {
         ->each([&](const std::string& text) { first_address = text; });
     app.add_option("--v24", options.v24, "where the serial line is")->type_name("EP");
     app.add_option("--can", options.can, "the CAN interface it is on, set up and up")->type_name("INTERFACE");
-    app.add_option("--unit", "a further module on the same line; may be repeated")
-        ->type_name("MODEL:ADDRESS")
-        ->repeatable()
-        ->each([&](const std::string& text) { further.push_back(text); });
+    add_unit(app, "a further module on the same line; may be repeated",
+             [&](const std::string& text) { further.push_back(text); });
     app.add_option("--eeprom", options.eeprom,
                    "keep parameters and position in this file (a further module's: FILE.ADDRESS)")
         ->type_name("FILE");
     app.add_option("--baud",
                    "rate of the client: 9600, 19200, 38400 (the first module's, also when it changes)")
         ->each([&](const std::string& text) { options.baud = baud(text); });
-    app.add_option("--speed", "times real time, line included, 0.01..100 (1)")
-        ->each([&](const std::string& text) { options.speed = speed_value(text); });
-    try {
-        const arguments::Outcome outcome = app.parse(argc, argv);
-        if (outcome.kind == arguments::Outcome::Kind::told) return {};
-        if (outcome.kind == arguments::Outcome::Kind::wrong)
-            return {std::nullopt, outcome.error + " (see midisim --help)"};
+    add_speed(app, "times real time, line included, 0.01..100 (1)", options.speed);
+    return parse_devices(app, argc, argv, options, [&] {
         const bool on_can = !options.can.empty();
         first.address = on_can ? 1 : 0;  // from the factory
         if (!first_address.empty()) first.address = address("--address", first_address, on_can);
         for (const std::string& text : further) options.units.push_back(unit(text, on_can));
         check(options);
-    } catch (const std::invalid_argument& error) {
-        return {std::nullopt, error.what()};
-    }
-    return {options, {}};
+    });
 }
 
 }  // namespace nplc::sim

@@ -1,7 +1,6 @@
 #include "midi_rack.h"
 
 #include <algorithm>
-#include <optional>
 
 namespace nplc::sim {
 namespace {
@@ -9,14 +8,28 @@ namespace {
 /// A module that pauses is asked again after this long.
 constexpr Time kLongestStep = std::chrono::microseconds{250};
 
+constexpr std::size_t kMostWaiting = 256;
+constexpr Time kRestartEvery = std::chrono::seconds{1};
+
+bool is_ours(const ports::CanFrame& frame) {
+    return ports::is_valid(frame) && !frame.extended && !frame.remote;
+}
+
+protocol::midi_can::Frame message_in(const ports::CanFrame& frame) {
+    return {.id = static_cast<std::uint16_t>(frame.id), .size = frame.length, .data = frame.data};
+}
+
+ports::CanFrame frame_of(const protocol::midi_can::Frame& message) {
+    return {.id = message.id, .length = message.size, .data = message.data};
+}
+
 }  // namespace
 
 MidiRack::MidiRack(const std::vector<MidiUnit>& units, std::uint32_t baud)
-    : follows_(baud == 0), baud_(follows_ ? registers::midi::kFactoryBaud : baud), line_(baud_) {
-    for (const MidiUnit& unit : units)
-        modules_.emplace_back(unit.model, MidiOptions{.address = unit.address});
-    for (MidiModule& module : modules_) ends_.emplace_back(module);
-}
+    : MidiModules(units, false),
+      follows_(baud == 0),
+      baud_(follows_ ? registers::midi::kFactoryBaud : baud),
+      line_(baud_) {}
 
 /// Between characters only.
 void MidiRack::follow_baud() {
@@ -36,8 +49,7 @@ void MidiRack::advance(Time to) {
     }
 }
 
-/// A module at another rate hears framing errors. Modules that answer at once disturb each other: on the
-/// wires a 0 wins over a 1.
+/// A module at another rate hears framing errors.
 void MidiRack::serve() {
     while (const auto byte = line_.to_device.take(now_)) {
         for (std::size_t i = 0; i < size(); ++i) {
@@ -45,15 +57,41 @@ void MidiRack::serve() {
             ends_[i].receive(byte->value, byte->framing_error || other_rate);
         }
     }
-    if (line_.from_device.free(now_)) {
-        std::optional<std::uint8_t> together;
-        for (MidiV24End& end : ends_) {
-            const auto byte = end.transmit();
-            if (byte) together = static_cast<std::uint8_t>(together.value_or(0xFF) & *byte);
-        }
-        if (together) line_.from_device.start(*together, now_);
+    line_.transmit(
+        ends_, [](MidiV24End& end) { return end.transmit(); }, now_);
+}
+
+MidiCanRack::MidiCanRack(const std::vector<MidiUnit>& units, ports::CanPort& port)
+    : MidiModules(units, true), port_(port) {}
+
+void MidiCanRack::advance(Time to) {
+    now_ = std::max(now_, to);
+    for (MidiModule& module : modules_) module.advance(now_);
+    receive();
+    transmit();
+}
+
+void MidiCanRack::receive() {
+    ports::CanFrame frame;
+    while (port_.read(frame)) {
+        if (!is_ours(frame)) continue;
+        for (MidiCanEnd& end : ends_) end.receive(message_in(frame));
     }
-    line_.collect(now_);
+}
+
+void MidiCanRack::transmit() {
+    const ports::CanState state = port_.state();
+    for (MidiCanEnd& end : ends_) {
+        while (const auto message = end.transmit()) {
+            if (waiting_.size() < kMostWaiting) waiting_.push_back(frame_of(*message));
+        }
+    }
+    if (state == ports::CanState::bus_off && now_ >= next_restart_) {
+        next_restart_ = now_ + kRestartEvery;
+        static_cast<void>(port_.restart());
+    }
+    if (state == ports::CanState::bus_off || state == ports::CanState::down) waiting_.clear();
+    while (!waiting_.empty() && port_.write(waiting_.front())) waiting_.pop_front();
 }
 
 }  // namespace nplc::sim

@@ -5,7 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "ports/can.h"
 #include "sim/client_line.h"
+#include "sim/midi_can_end.h"
 #include "sim/midi_v24_end.h"
 
 namespace nplc::sim {
@@ -15,8 +17,27 @@ struct MidiUnit {
     std::uint8_t address = 0;
 };
 
+/// Virtual modules with their ends of a line.
+template <class End>
+class MidiModules {
+  public:
+    std::size_t size() const { return modules_.size(); }
+    MidiModule& module(std::size_t unit) { return modules_[unit]; }
+    const MidiModule& module(std::size_t unit) const { return modules_[unit]; }
+
+  protected:
+    MidiModules(const std::vector<MidiUnit>& units, bool can) {
+        for (const MidiUnit& unit : units)
+            modules_.emplace_back(unit.model, MidiOptions{.can = can, .address = unit.address});
+        for (MidiModule& module : modules_) ends_.emplace_back(module);
+    }
+
+    std::deque<MidiModule> modules_;
+    std::deque<End> ends_;
+};
+
 /// Virtual modules on one serial line, in virtual time. The same calls give the same bytes.
-class MidiRack {
+class MidiRack final : public MidiModules<MidiV24End> {
   public:
     /// `baud` is the client's; 0: it follows the first module's, as a client does that changes its own with
     /// it.
@@ -30,20 +51,33 @@ class MidiRack {
     std::vector<std::uint8_t> received() { return line_.received(); }
     std::uint32_t baud() const { return baud_; }
 
-    std::size_t size() const { return modules_.size(); }
-    MidiModule& module(std::size_t unit) { return modules_[unit]; }
-    const MidiModule& module(std::size_t unit) const { return modules_[unit]; }
-
   private:
     void follow_baud();
     void serve();
 
     bool follows_;
     std::uint32_t baud_;
-    std::deque<MidiModule> modules_;
-    std::vector<MidiV24End> ends_;
     ClientLine line_;
     Time now_{0};
+};
+
+/// Virtual modules on a CAN port. The bus is whatever the port is; the modules' own time is virtual.
+class MidiCanRack final : public MidiModules<MidiCanEnd> {
+  public:
+    MidiCanRack(const std::vector<MidiUnit>& units, ports::CanPort& port);
+
+    /// Frames in, time on, frames out. What the port does not take waits; off the bus it is dropped, as by a
+    /// module that is reset, and once a second the port is asked to come back (R).
+    void advance(Time to);
+
+  private:
+    void receive();
+    void transmit();
+
+    ports::CanPort& port_;
+    std::deque<ports::CanFrame> waiting_;
+    Time now_{0};
+    Time next_restart_{0};
 };
 
 }  // namespace nplc::sim

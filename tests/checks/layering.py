@@ -54,9 +54,9 @@ MODULES = [
     Module("host-sim", "sim", ("base", "ports", "protocol", "registers"), os=True),
     Module("host-sim/board", "sim", ANY, os=True, clock=True),
     Module(
-        "host-sim/served",
+        "host-sim/device_server",
         "sim",
-        ("base", "ports", "protocol", "registers", "host", "hal_linux"),
+        ("arguments", "base", "ports", "protocol", "registers", "host", "hal_linux"),
         os=True,
     ),
     Module(

@@ -1,4 +1,4 @@
-#include "midi_can_rack.h"
+#include "midi_rack.h"
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -20,6 +21,21 @@ class ClientLine {
     void send(std::span<const std::uint8_t> bytes);
     /// Lets the next waiting character begin, if the line is free.
     void start(Time now);
+    /// Lets the devices send their next character, if the line is free, and takes what has arrived at the
+    /// client. `next` answers a device's character, if it has one. Devices that send at once, as to an
+    /// address for all, disturb each other: on the wires a 0 wins over a 1.
+    template <class Devices, class Next>
+    void transmit(Devices& devices, const Next& next, Time now) {
+        std::optional<std::uint8_t> together;
+        if (from_device.free(now)) {
+            for (auto& device : devices) {
+                const std::optional<std::uint8_t> byte = next(device);
+                if (byte) together = static_cast<std::uint8_t>(together.value_or(0xFF) & *byte);
+            }
+        }
+        if (together) from_device.start(*together, now);
+        collect(now);
+    }
     /// Takes what has arrived at the client.
     void collect(Time now);
     /// All that has arrived since the last call.

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <string>
 
 #include "rack.h"
+#include "sim/device_server.h"
 
 namespace nplc::sim {
 
@@ -15,11 +16,8 @@ struct MacsimOptions {
     double speed = 1;
 };
 
-struct MacsimCommandLine {
-    std::optional<MacsimOptions> options;  ///< nothing after --help or --version
-    std::string error;                     ///< one line; empty when it was understood
-};
-
-MacsimCommandLine parse_macsim(int argc, const char* const* argv);
+DeviceCommandLine<MacsimOptions> parse_macsim(int argc, const char* const* argv);
+/// The rack with its clients and its flash files; `error` says in one line what could not be opened.
+std::unique_ptr<VirtualDevices> open_rack(const MacsimOptions& options, std::string& error);
 
 }  // namespace nplc::sim

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "midi_rack.h"
+#include "sim/device_server.h"
 
 namespace nplc::sim {
 
@@ -17,11 +18,9 @@ struct MidisimOptions {
     double speed = 1;
 };
 
-struct MidisimCommandLine {
-    std::optional<MidisimOptions> options;  ///< nothing after --help or --version
-    std::string error;                      ///< one line; empty when it was understood
-};
-
-MidisimCommandLine parse_midisim(int argc, const char* const* argv);
+DeviceCommandLine<MidisimOptions> parse_midisim(int argc, const char* const* argv);
+/// Modules on a serial line with a client, or on a CAN interface of this machine, with their EEPROM files;
+/// `error` says in one line what could not be opened.
+std::unique_ptr<VirtualDevices> open_modules(const MidisimOptions& options, std::string& error);
 
 }  // namespace nplc::sim

@@ -1,8 +1,9 @@
-#include "sim/served.h"
+#include "sim/device_server.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdio>
 #include <string_view>
@@ -13,7 +14,7 @@
 namespace nplc::sim {
 namespace {
 
-constexpr int kTrouble = 2;
+constexpr int kFailed = 2;
 /// Half a character at 19200 baud.
 constexpr auto kWait = std::chrono::microseconds{250};
 constexpr Time kRefresh = std::chrono::milliseconds{200};
@@ -52,10 +53,10 @@ class StatusLine {
     StatusLine(const StatusLine&) = delete;
     StatusLine& operator=(const StatusLine&) = delete;
 
-    void show(const Served& served, Time wall) {
+    void show(const VirtualDevices& devices, Time wall) {
         if (!on_ || wall < next_) return;
         next_ = wall + kRefresh;
-        const std::string text = served.status();
+        const std::string text = devices.status();
         fmt::print("\r\033[K{}", std::string_view(text).substr(0, host::terminal_columns() - 1));
         std::fflush(stdout);
     }
@@ -67,9 +68,31 @@ class StatusLine {
 
 }  // namespace
 
-int trouble(const std::string& program, const std::string& message) {
+std::string Endpoint::open(const std::string& endpoint) {
+    if (endpoint.empty()) return {};
+    auto opened = hal_linux::ByteServer::open(endpoint);
+    server_ = std::move(opened.server);
+    return opened.error;
+}
+
+std::vector<std::uint8_t> Endpoint::read() {
+    if (server_ == nullptr) return {};
+    std::array<std::uint8_t, 4096> block{};
+    const std::size_t count = server_->read(block);
+    return {block.begin(), block.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
+void Endpoint::write(const std::vector<std::uint8_t>& bytes) {
+    if (server_ != nullptr && !bytes.empty()) server_->write(bytes);
+}
+
+std::string Endpoint::described(const std::string& label) const {
+    return server_ == nullptr ? std::string{} : fmt::format("{}: {}\n", label, server_->name());
+}
+
+int fail(const std::string& program, const std::string& message) {
     fmt::print(stderr, "{}: {}\n", program, message);
-    return kTrouble;
+    return kFailed;
 }
 
 void end_on_signals() {
@@ -77,23 +100,23 @@ void end_on_signals() {
     std::signal(SIGPIPE, SIG_IGN);
 }
 
-int serve(Served& served, const ServeOptions& options) {
-    fmt::print("{}ready\n", served.endpoints());
-    if (std::fflush(stdout) != 0) return trouble(options.program, "standard output cannot be written");
+int serve(VirtualDevices& devices, const ServeOptions& options) {
+    fmt::print("{}ready\n", devices.endpoints());
+    if (std::fflush(stdout) != 0) return fail(options.program, "standard output cannot be written");
     std::string error;
     {
         Pace pace(options.speed, options.wall_clock());
         StatusLine status(options.wall_clock());
         while (g_ended == 0 && error.empty()) {
             const Time wall = options.wall_clock();
-            error = served.advance(pace.now(wall));
-            status.show(served, wall);
+            error = devices.advance(pace.now(wall));
+            status.show(devices, wall);
             std::this_thread::sleep_for(kWait);
         }
     }
-    const std::string end = served.finish();
+    const std::string end = devices.finish();
     if (error.empty()) error = end;
-    return error.empty() ? 0 : trouble(options.program, error);
+    return error.empty() ? 0 : fail(options.program, error);
 }
 
 }  // namespace nplc::sim
