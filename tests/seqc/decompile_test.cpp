@@ -1,16 +1,16 @@
-// Tables as programs. tests/seqc/tables holds tables written on paper (*.txt: bytes with the thought behind
-// each) beside what they must be read as (*.seq); the three examples are held against their own source.
+// Tables as programs. decompile.cases holds tables written on paper (bytes with the thought behind each) and
+// what they must be read as; the examples are held against their own source.
 #include "seqc/decompile.h"
 #include "seqc/format.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <sstream>
 
+#include "case_file.h"
 #include "support.h"
 
 namespace nplc::seqc {
@@ -18,13 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Bytes = std::vector<std::uint8_t>;
-
-std::string file(const fs::path& path) {
-    std::stringstream text;
-    text << std::ifstream(path).rdbuf();
-    EXPECT_FALSE(text.str().empty()) << path;
-    return text.str();
-}
 
 /// Hex bytes; a # begins a comment.
 Bytes table_on_paper(const std::string& text) {
@@ -63,17 +56,14 @@ bool has(const Decompilation& result, const std::string& part) {
 }
 
 TEST(Decompile, TablesOnPaper) {
-    int count = 0;
-    for (const auto& entry : fs::directory_iterator(SEQC_TABLES)) {
-        if (entry.path().extension() != ".txt") continue;
-        const Bytes table = table_on_paper(file(entry.path()));
-        const std::string name = entry.path().stem().string();
-        const Decompilation result = decompiled(table, {.origin = name + ".bin", .motor = {}});
-        EXPECT_EQ(result.text, file(fs::path(entry.path()).replace_extension(".seq"))) << name;
-        EXPECT_EQ(result.byte_terms, 0U) << name;
-        ++count;
+    const std::vector<test::Case> cases = test::read_cases(SEQC_TABLES);
+    for (const test::Case& one : cases) {
+        const Decompilation result =
+            decompiled(table_on_paper(one.input), {.origin = one.name + ".bin", .motor = {}});
+        EXPECT_EQ(result.text, one.expected) << one.name;
+        EXPECT_EQ(result.byte_terms, 0U) << one.name;
     }
-    EXPECT_EQ(count, 5);
+    EXPECT_EQ(cases.size(), 5U);
 }
 
 /// Words from ON ERROR to the end, one space between, without comments.
@@ -92,7 +82,7 @@ TEST(Decompile, ExamplesComeBackAsTheyWereWritten) {
         {"fill_and_count", {"Belt AT V1 := ", "Soft AT A1 := "}},
     };
     for (const auto& [name, parts] : heads) {
-        const std::string source = file(fs::path(SEQC_EXAMPLES) / (name + ".seq"));
+        const std::string source = test::text_of_file(fs::path(SEQC_EXAMPLES) / (name + ".seq"));
         const Compilation program = compile(source);
         const Decompilation result =
             decompiled(program.table, {.origin = name, .motor = {}, .symbols = &program.symbols});

@@ -32,15 +32,9 @@ std::string machine(const std::vector<std::pair<std::string, std::string>>& chan
     return text;
 }
 
-Compilation compiled(const std::string& source) {
-    Compilation result = compile(source);
-    EXPECT_TRUE(result.ok) << test::shown(result, source);
-    return result;
-}
-
 TableDiff diff(const std::string& before, const std::string& now) {
-    const Compilation a = compiled(before);
-    const Compilation b = compiled(now);
+    const Compilation a = test::compiled(before);
+    const Compilation b = test::compiled(now);
     return diff_of({a.table, &a.symbols}, {b.table, &b.symbols});
 }
 
@@ -54,7 +48,7 @@ TEST(TableDiff, TheSameBytes) {
 
 // Travel's first two terms exclude each other (Guard, NOT Guard): their order means nothing.
 TEST(TableDiff, OtherBytesThatDoTheSame) {
-    const Compilation before = compiled(machine());
+    const Compilation before = test::compiled(machine());
     auto table = before.table;
     std::size_t at = 0;
     while ((table[at] & 0x3F) != 2) at += 8;
@@ -143,8 +137,8 @@ TEST(TableDiff, OnlyRenumberedIsTheSame) {
 }
 
 TEST(TableDiff, BareTablesGoByNumber) {
-    const Compilation a = compiled(machine());
-    const Compilation b = compiled(machine({{"1500 rpm", "1000 rpm"}, {"T#500ms", "T#700ms"}}));
+    const Compilation a = test::compiled(machine());
+    const Compilation b = test::compiled(machine({{"1500 rpm", "1000 rpm"}, {"T#500ms", "T#700ms"}}));
     EXPECT_EQ(
         text_of(diff_of({a.table, nullptr}, {b.table, nullptr})),
         "V1: 3146 -> 2097\n"

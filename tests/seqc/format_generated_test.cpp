@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <set>
 
+#include "case_file.h"
 #include "seqc/format.h"
 #include "support.h"
 #include "syntax/lexer.h"
@@ -23,24 +23,16 @@ struct Program {
     std::vector<Token> comments;
 };
 
-std::string text_of(const fs::path& path) {
-    std::stringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    return text.str();
-}
-
 std::vector<Program> programs() {
-    std::vector<fs::path> paths;
-    for (const char* folder : {SEQC_EXAMPLES, SEQC_FORMAT}) {
-        for (const auto& entry : fs::directory_iterator(folder)) {
-            const bool wanted =
-                entry.path().extension() == (folder == std::string(SEQC_FORMAT) ? ".expected" : ".seq");
-            if (wanted) paths.push_back(entry.path());
-        }
-    }
-    std::sort(paths.begin(), paths.end());
     std::vector<Program> result;
-    for (const fs::path& path : paths) result.push_back({path.filename().string(), text_of(path), {}, {}});
+    for (const test::Case& one : test::read_cases(SEQC_FORMAT))
+        result.push_back({one.name, one.expected, {}, {}});
+    std::set<fs::path> examples;
+    for (const auto& entry : fs::directory_iterator(SEQC_EXAMPLES)) {
+        if (entry.path().extension() == ".seq") examples.insert(entry.path());
+    }
+    for (const fs::path& path : examples)
+        result.push_back({path.filename().string(), test::text_of_file(path), {}, {}});
     for (Program& program : result) {
         Report report;
         program.tokens = tokens_of(program.text, report, &program.comments);
@@ -200,7 +192,7 @@ std::string other_white_space(const Program& program, test::Random& random) {
 
 /// A comment before ELSIF and one that goes on below another say something with their columns.
 bool has_telling_columns(const Program& program) {
-    return program.name == "comments.expected" || program.name == "trailing_comments.expected";
+    return program.name == "comments" || program.name == "trailing_comments";
 }
 
 TEST(FormatGenerated, WhiteSpaceThatSaysNothingIsNotLookedAt) {

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
+#include "case_file.h"
 #include "format/layout.h"
 #include "seqc/seqc.h"
 #include "syntax/lexer.h"
@@ -16,11 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of_file(const fs::path& path) {
-    std::stringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    return text.str();
-}
+using test::text_of_file;
 
 std::string formatted(const std::string& source) {
     const Formatted result = format_program(source);
@@ -44,17 +39,13 @@ std::string laid_out(const std::string& source) {
 }
 
 TEST(Format, TurnsEachGivenProgramIntoTheExpectedText) {
-    int count = 0;
-    for (const auto& entry : fs::directory_iterator(SEQC_FORMAT)) {
-        if (entry.path().extension() != ".seq") continue;
-        const std::string source = text_of_file(entry.path());
-        const std::string expected = text_of_file(fs::path(entry.path()).replace_extension(".expected"));
-        EXPECT_EQ(formatted(source), expected) << entry.path();
-        EXPECT_EQ(formatted(expected), expected) << entry.path();
-        EXPECT_EQ(compile(expected).table, compile(source).table) << entry.path();
-        ++count;
+    const std::vector<test::Case> cases = test::read_cases(SEQC_FORMAT);
+    for (const test::Case& one : cases) {
+        EXPECT_EQ(formatted(one.input), one.expected) << one.name;
+        EXPECT_EQ(formatted(one.expected), one.expected) << one.name;
+        EXPECT_EQ(compile(one.expected).table, compile(one.input).table) << one.name;
     }
-    EXPECT_GE(count, 8);
+    EXPECT_GE(cases.size(), 8U);
 }
 
 TEST(Format, LeavesTheExamplesAsTheyAre) {

@@ -23,14 +23,8 @@ const char* const kSource =
     "END_STEP\n"
     "STEP Lost: OWN ERROR; IF Start THEN NEXT := Shut; END_IF END_STEP END_PROGRAM\n";
 
-Compilation compiled(const std::string& source) {
-    Compilation result = compile(source);
-    EXPECT_TRUE(result.ok) << test::shown(result, source);
-    return result;
-}
-
 TEST(GraphModel, SaysWhatAPersonNeeds) {
-    const Compilation door = compiled(kSource);
+    const Compilation door = test::compiled(kSource);
     const GraphModel model = graph_model_of(door.table, &door.symbols, "file");
     EXPECT_EQ(model.title, "Door");
     EXPECT_EQ(model.motor, "MAC140");
@@ -55,7 +49,7 @@ TEST(GraphModel, SaysWhatAPersonNeeds) {
 }
 
 TEST(GraphModel, FewWaysOnErrorAreArrows) {
-    const Compilation two = compiled(
+    const Compilation two = test::compiled(
         "PROGRAM P POWER_UP NEXT := A; END_POWER_UP ON ERROR NEXT := B; STEP A: END_STEP STEP B: OWN ERROR; "
         "END_STEP "
         "END_PROGRAM");
@@ -67,7 +61,7 @@ TEST(GraphModel, FewWaysOnErrorAreArrows) {
 
 // The CRC-32 is zlib's over C0 00 00 01 80 01 00 00, C1 01 01 00 65 00 00 00, 3F 00 00 00 00 00 00 00.
 TEST(Graph, IsTheTextWrittenByHand) {
-    const Compilation small = compiled(
+    const Compilation small = test::compiled(
         "PROGRAM Tiny MOTOR MAC50; VAR_OUTPUT Lamp AT OUT0; END_VAR POWER_UP NEXT := Lit; END_POWER_UP\n"
         "STEP Lit: OWN ERROR; OUT Lamp; IF IN0 THEN STOP; NEXT := POWER_UP; END_IF END_STEP END_PROGRAM");
     const std::string expected =

@@ -1,5 +1,7 @@
 #include "support.h"
 
+#include <gtest/gtest.h>
+
 #include <cstdio>
 
 namespace nplc::seqc::test {
@@ -70,6 +72,12 @@ std::string program(std::string_view steps) {
            "\nSTEP Other: OUT X; IF A THEN NEXT := S; END_IF END_STEP\n"
            "STEP Fault: OWN ERROR; IF ANY ERROR AND F THEN RESET_ERROR; NEXT := Other; END_IF "
            "END_STEP\nEND_PROGRAM\n";
+}
+
+Compilation compiled(const std::string& source) {
+    Compilation result = compile(source);
+    EXPECT_TRUE(result.ok) << shown(result, source);
+    return result;
 }
 
 std::string shown(const Compilation& compilation, std::string_view source) {

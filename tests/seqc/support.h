@@ -50,6 +50,9 @@ class Random {
 /// A program around the text of its steps, with inputs A..F, outputs W..Z and a fault step at the end.
 std::string program(std::string_view steps);
 
+/// Of a program without errors.
+Compilation compiled(const std::string& source);
+
 /// All diagnostics as the user sees them.
 std::string shown(const Compilation& compilation, std::string_view source);
 
