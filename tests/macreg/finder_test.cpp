@@ -1,4 +1,4 @@
-#include "macreg/finder.h"
+#include "macreg/motor.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The frames of 000 §VI on a line, in lines for people, whole and damaged.
-#include "macreg/midi_monitor.h"
+#include "macreg/monitor.h"
 
 #include <gtest/gtest.h>
 

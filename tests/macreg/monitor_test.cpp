@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <random>
 
-#include "macreg/midi_monitor.h"
-#include "macreg/words.h"
 #include "protocol/flexmac.h"
 #include "protocol/mactalk.h"
 

@@ -5,10 +5,10 @@
 #include <set>
 
 #include "causes.h"
-#include "macreg/assignments.h"
 #include "macreg/change.h"
 #include "macreg/parameters.h"
 #include "macreg/service.h"
+#include "macreg/values.h"
 #include "typist.h"
 
 namespace nplc::macreg {

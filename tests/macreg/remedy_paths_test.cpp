@@ -7,8 +7,8 @@
 #include <map>
 
 #include "causes.h"
-#include "macreg/assignments.h"
 #include "macreg/change.h"
+#include "macreg/values.h"
 #include "typist.h"
 
 namespace nplc::macreg {

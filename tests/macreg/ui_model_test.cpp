@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "macreg/curve.h"
-#include "macreg/wrap.h"
+#include "macreg/layout.h"
 
 namespace nplc::macreg {
 namespace {

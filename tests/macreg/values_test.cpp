@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "macreg/mactalk_names.h"
-
 namespace nplc::macreg {
 namespace {
 

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "macreg/midi/quantity.h"
-
 namespace nplc::macreg::midi {
 namespace {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <iterator>
 #include <vector>
 
 #include "registers/layout.h"
@@ -227,6 +228,100 @@ std::string nearest(Model model, std::string_view text) {
     return best;
 }
 
+/// A unit that stands apart, or one more bit's name.
+bool belongs_to_value(const Register& reg, Model model, const std::string& word) {
+    if (registers::find(model, std::string_view(word)) != nullptr) return false;
+    if (reg.unit == registers::Unit::bits)
+        return typed_value(reg, model, word).error.empty() && word.find_first_of("0123456789") != 0;
+    return registers::raw_per_unit(reg, model, word).has_value();
+}
+
+ReadAssignments taken_apart(Model model, const std::vector<std::string>& words) {
+    ReadAssignments read;
+    for (std::size_t i = 0; i < words.size();) {
+        const auto equals = words[i].find('=');
+        const std::string name = words[i].substr(0, equals);
+        const NamedRegister named = find_register(model, name);
+        if (named.reg == nullptr) return {{}, named.error};
+        Assignment one{.reg = named.reg,
+                       .text = equals == std::string::npos ? "" : words[i].substr(equals + 1)};
+        ++i;
+        if (one.text.empty() && i < words.size()) one.text = words[i++];
+        while (i < words.size() && belongs_to_value(*named.reg, model, words[i]))
+            one.text += " " + words[i++];
+        if (one.text.empty()) return {{}, fmt::format("'{}': write {} VALUE or {}=VALUE", name, name, name)};
+        read.all.push_back(one);
+    }
+    return read;
+}
+
+struct Name {
+    std::string_view reg;
+    std::string_view name;
+};
+
+// By the names of both maps. 28 and 30 are labelled the wrong way round in 004: by what they do.
+constexpr Name kNames[] = {
+    {"P_SOLL", "Position"},
+    {"V_SOLL", "Max velocity"},
+    {"A_SOLL", "Acceleration"},
+    {"T_SOLL", "Torque"},
+    {"P_IST", "Actual position"},
+    {"V_IST_16", "Actual velocity"},
+    {"V_IST", "Actual velocity"},
+    {"KVOUT", "Load"},
+    {"GEARF1", "Input"},
+    {"GEARF_1", "Input"},
+    {"GEARF2", "Output"},
+    {"GEARF_2", "Output"},
+    {"I2T", "Motor load (mean)"},
+    {"UIT", "Regenerative load"},
+    {"FLWERR", "Follow error"},
+    {"U_24V", "Logic supply"},
+    {"FLWERRMAX", "EH:Follow error"},
+    {"UV_HANDLE", "Set error bit, Go to passive, Set velocity to 0"},
+    {"FNCERR", "Function error"},
+    {"FNCERRMAX", "EH:Function error"},
+    {"MIN_P_IST", "Position limit min"},
+    {"MAX_P_IST", "Position limit max"},
+    {"DEGC", "Temperature"},
+    {"ACC_EMERG", "Error acceleration"},
+    {"INPOSWIN", "In pos. window / At vel. window"},
+    {"INPOSCNT", "In pos. count"},
+    {"STARTMODE", "Mode"},
+    {"START_MODE", "Mode"},
+    {"P_HOME", "Zero search position"},
+    {"V_HOME", "Zero search speed"},
+    {"T_HOME", "Zero search torque"},
+    {"HOME_MODE", "Zero search mode"},
+    {"V_EXT", "Velocity of input"},
+    {"VF_OUT", "Actual motor torque"},
+    {"ANINP", "Analogue input"},
+    {"ANINP_OFFSET", "Analogue input offset"},
+    {"U_BUS", "Bus voltage"},
+    {"U_SUPPLY", "Bus voltage"},
+    {"MYADDR", "Motor address"},
+    {"MY_ADDR", "Motor address"},
+};
+// POS0 to POS7, VEL0 ... ZERO3 of a MAC800 are P1 to P8, V1 ... Z4.
+constexpr Name kNumbered[] = {{"POS", "P"}, {"VEL", "V"},  {"ACC", "A"},
+                              {"TQ", "T"},  {"LOAD", "L"}, {"ZERO", "Z"}};
+constexpr std::string_view kOneToEight[] = {"P1", "P2", "P3", "P4", "P5", "P6", "P7", "P8", "V1", "V2", "V3",
+                                            "V4", "V5", "V6", "V7", "V8", "A1", "A2", "A3", "A4", "T1", "T2",
+                                            "T3", "T4", "L1", "L2", "L3", "L4", "Z1", "Z2", "Z3", "Z4"};
+
+std::string_view numbered(std::string_view reg) {
+    for (const Name& one : kNumbered) {
+        if (reg.size() != one.reg.size() + 1 || !reg.starts_with(one.reg)) continue;
+        const char digit = static_cast<char>(reg.back() + 1);
+        const auto found =
+            std::find_if(std::begin(kOneToEight), std::end(kOneToEight),
+                         [&](std::string_view name) { return name[0] == one.name[0] && name[1] == digit; });
+        if (found != std::end(kOneToEight)) return *found;
+    }
+    return {};
+}
+
 }  // namespace
 
 std::string names_text(const Register& reg, Model model, std::int64_t raw) {
@@ -338,6 +433,28 @@ NamedRegister find_register(Model model, std::string_view text) {
                                      text, other == Model::mac800 ? "MAC800" : "each of MAC50 to MAC141")};
     return {nullptr, fmt::format("{} has no register '{}'{}; `macreg list` shows them", family, text,
                                  near.empty() ? "" : fmt::format(", did you mean {}?", near))};
+}
+
+ReadAssignments read_assignments(Model model, const std::vector<std::string>& words) {
+    ReadAssignments read = taken_apart(model, words);
+    for (std::size_t i = 0; i < read.all.size(); ++i) {
+        Assignment& one = read.all[i];
+        TypedValue typed = typed_value(*one.reg, model, one.text);
+        if (!typed.error.empty()) return {{}, typed.error};
+        for (std::size_t k = 0; k < i; ++k) {
+            if (read.all[k].reg == one.reg)
+                return {{}, fmt::format("{} is named twice; name it once", one.reg->name)};
+        }
+        one.raw = typed.raw;
+        one.rounding = std::move(typed.rounding);
+    }
+    return read;
+}
+
+std::string_view mactalk_name(const registers::Register& reg) {
+    const auto found = std::find_if(std::begin(kNames), std::end(kNames),
+                                    [&](const Name& one) { return one.reg == reg.name; });
+    return found != std::end(kNames) ? found->name : numbered(reg.name);
 }
 
 }  // namespace nplc::macreg

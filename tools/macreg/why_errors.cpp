@@ -1,12 +1,17 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <span>
 
 #include "macreg/change.h"
+#include "macreg/parameters.h"
+#include "macreg/values.h"
 #include "registers/details.h"
 #include "why_parts.h"
 
+// MIN_P_IST, MAX_P_IST and FLWERRMAX, and how a motion is begun that does not pass them.
 namespace nplc::macreg {
 
 using enum registers::Number;
@@ -176,6 +181,122 @@ void judge_heat(const Facts& facts, Findings& findings) {
              back});
 }
 
+/// Counts that a target keeps from a limit: a motor that ends on the limit itself may pass it by one.
+constexpr std::int64_t kMargin = 8;
+/// R: of outer samples; more than a motor lags at constant velocity.
+constexpr std::int64_t kLagSamples = 3;
+
+std::int64_t turn_of(const Facts& facts) {
+    return facts.large() ? 8000 : 4096;
+}
+
+struct Room {
+    std::int64_t low, high;
+    bool holds(std::int64_t place) const { return place >= low && place <= high; }
+};
+
+/// What the limits leave to targets.
+Room room_of(const Facts& facts) {
+    const std::int64_t low = facts.at(MIN_P_IST);
+    const std::int64_t high = facts.at(MAX_P_IST);
+    const std::int64_t margin = std::min(kMargin, std::max<std::int64_t>(high - low, 0) / 4);
+    return {low + margin, high - margin};
+}
+
+/// P_IST less what P_SOLL would be there: both count from one place, unless P_IST was written alone.
+std::int64_t apart(const Facts& facts) {
+    return facts.at(P_IST) + facts.at(FLWERR) - facts.at(P_FNC) / 16;
+}
+
+bool ends_inside(const Facts& facts) {
+    return facts.allows(facts.at(P_SOLL));
+}
+
+/// P_SOLL for this place of P_IST, as near as the register's range allows.
+std::int64_t p_soll_of(const Facts& facts, std::int64_t place) {
+    const registers::Register& reg = *registers::find(facts.model(), P_SOLL);
+    return std::clamp<std::int64_t>(place - apart(facts), reg.min, reg.max);
+}
+
+/// P_SOLL for another place that the limits allow: a turn on, a turn back, or as far as there is room.
+std::int64_t other_target(const Facts& facts) {
+    const std::int64_t here = facts.at(P_IST);
+    const std::int64_t turn = turn_of(facts);
+    std::int64_t place = here + turn;
+    if (p_soll_of(facts, place) != place - apart(facts)) place = here - turn;
+    if (facts.limited()) {
+        const Room room = room_of(facts);
+        if (!room.holds(place)) place = here - turn;
+        if (!room.holds(place)) place = here - room.low > room.high - here ? room.low : room.high;
+    }
+    return p_soll_of(facts, place);
+}
+
+/// P_SOLL for where it is, or the nearest place inside.
+std::int64_t target_here(const Facts& facts) {
+    const Room room = room_of(facts);
+    return p_soll_of(facts, std::clamp(facts.at(P_IST), room.low, std::max(room.low, room.high)));
+}
+
+/// "(it turns 4096 counts (1.00 rev) at once, to P_SOLL)"
+std::string way_words(const Facts& facts, std::int64_t p_soll) {
+    const registers::Register& profile = *registers::find(facts.model(), P_FNC);
+    const auto way = static_cast<std::int32_t>(16 * p_soll - facts.at(P_FNC));
+    if (way == 0) return "(it is at P_SOLL and will stand)";
+    return fmt::format("(it turns {} at once, to P_SOLL)", long_value_text(profile, facts.model(), way));
+}
+
+std::string err_stat_command(const Facts& facts, std::int64_t set) {
+    const registers::Register& reg = *registers::find(facts.model(), ERR_STAT);
+    const std::int64_t settings = facts.at(ERR_STAT) & setting_bits(facts.model(), reg);
+    return "ERR_STAT " + bits_word(reg, facts.model(), (settings & ~kDisPLim) | set);
+}
+
+/// That a move will have: V_SOLL, or what `why` names for one that is next to nothing.
+std::int64_t velocity_of(const Facts& facts) {
+    const std::int64_t set = std::abs(facts.at(facts.homes() ? V_HOME : V_SOLL));
+    return set >= facts.tiny_velocity() ? set : facts.large() ? 1385 : 1049;  // 500 rpm
+}
+
+bool follow_limit_is_small(const Facts& facts) {
+    return facts.at(FLWERRMAX) > 0 && facts.at(FLWERRMAX) * 16 < kLagSamples * velocity_of(facts);
+}
+
+std::string wider_follow_limit(const Facts& facts) {
+    return fmt::format("FLWERRMAX {}", velocity_of(facts) / 2);
+}
+
+void judge_follow_limit(const Facts& facts, Findings& findings) {
+    if (!follow_limit_is_small(facts) || facts.moves()) return;
+    findings.push_back(
+        {"follow_limit_small",
+         facts.has_error(1) ? Severity::stops : Severity::hinders,
+         fmt::format(
+             "FLWERRMAX ({}) is less than the way of {} samples at full velocity: a motor that is well may "
+             "pass it, and makes itself passive (FLW_ERR).",
+             facts.at(FLWERRMAX), kLagSamples),
+         {FLWERRMAX, FLWERR, facts.homes() ? V_HOME : V_SOLL},
+         fmt::format("`macreg set {}`, or less velocity; 0 is no limit.", wider_follow_limit(facts))});
+}
+
+std::string first(const std::string& command, std::string_view why) {
+    return fmt::format("First `macreg set {}`: {}. Then: ", command, why);
+}
+
+std::string inside_limits(const Facts& facts) {
+    if (!facts.limited()) return {};
+    if (facts.gears())
+        return "First stop the master: its pulses would turn the motor out of its position limits. Then: ";
+    if (facts.homes())
+        return first(err_stat_command(facts, kDisPLim), "the position limits act while it homes (PLIM_ERR)");
+    if (facts.mode() == kAnalogueTorque)
+        return first("MODE_REG INIT_MODE",
+                     "torque alone would turn it out of its position limits (PLIM_ERR)");
+    if (facts.positions() ? ends_inside(facts) : !facts.has_velocity_limit()) return {};
+    return first(fmt::format("P_SOLL {} MODE_REG P_MODE", target_here(facts)),
+                 "as it is now, it would turn until it leaves the position limits (PLIM_ERR)");
+}
+
 }  // namespace
 
 void judge_errors(const Facts& facts, Findings& findings) {
@@ -203,6 +324,100 @@ void judge_errors(const Facts& facts, Findings& findings) {
                             "The motor sees framing errors on its FastMAC line: commands get lost.",
                             {ERR_STAT},
                             "Check wiring, termination and speed of the FastMAC line (19200 baud, RS422)."});
+}
+
+bool Facts::limited() const {
+    return (at(MIN_P_IST) != 0 || at(MAX_P_IST) != 0) && (at(ERR_STAT) & kDisPLim) == 0;
+}
+
+bool Facts::allows(std::int64_t p_soll) const {
+    return !limited() || room_of(*this).holds(p_soll + apart(*this));
+}
+
+std::string target_command(const Facts& facts, std::string_view name) {
+    return fmt::format("`macreg set {} {}`", name, other_target(facts));
+}
+
+std::string start_words(const Facts& facts) {
+    if (!ends_inside(facts)) {
+        const std::int64_t target = other_target(facts);
+        return fmt::format(
+            "`macreg set P_SOLL {} MODE_REG P_MODE` {}. As it is now ({}), the target is not inside the "
+            "position limits.",
+            target, way_words(facts, target), facts.text(P_SOLL));
+    }
+    const std::string position =
+        fmt::format("`macreg set MODE_REG P_MODE` {}", way_words(facts, facts.at(P_SOLL)));
+    if (facts.limited())
+        return position + ". Not V_MODE: it would turn on until it leaves the position limits.";
+    return fmt::format("{}, or `macreg set MODE_REG V_MODE`, which turns it at once ({}).", position,
+                       facts.text(V_SOLL));
+}
+
+std::string before_it_turns(const Facts& facts) {
+    if (follow_limit_is_small(facts))
+        return first(wider_follow_limit(facts), "a motor that is well may pass it (FLW_ERR)") +
+               inside_limits(facts);
+    return inside_limits(facts);
+}
+
+std::string clear_words(const Facts& facts) {
+    const auto errors = static_cast<std::uint32_t>(facts.at(ERR_STAT)) & error_bits(facts.model());
+    return fmt::format(
+        "{}: `{}`, and choose the mode again",
+        std::popcount(errors) > 1 ? "mend what led to the other errors, and clear them all" : "clear it",
+        clear_errors_command(facts.model(), facts.at(ERR_STAT)));
+}
+
+std::string way_back(const Facts& facts) {
+    const std::int64_t low = facts.at(MIN_P_IST);
+    const std::int64_t high = facts.at(MAX_P_IST);
+    const std::string clear = clear_words(facts);
+    if (facts.limited() && low >= high)
+        return fmt::format("Mend the limits, which leave no place, then {}.", clear);
+    if (!facts.limited() || (facts.at(P_IST) >= low && facts.at(P_IST) <= high))
+        return fmt::format("The shaft is inside again: {}.", clear);
+    const std::string by_hand =
+        fmt::format("Turn the shaft back by hand to between {} and {}, then {}.", low, high, clear);
+    if (facts.mode() == kSafe) return by_hand;
+    return fmt::format(
+        "{} Or let the motor do it, its way being free: `macreg set P_SOLL {} {} MODE_REG P_MODE` {}, the "
+        "limits "
+        "being off until DIS_P_LIM is taken back.",
+        by_hand, target_here(facts), err_stat_command(facts, kDisPLim), way_words(facts, target_here(facts)));
+}
+
+void judge_limits(const Facts& facts, Findings& findings) {
+    judge_follow_limit(facts, findings);
+    const std::int64_t low = facts.at(MIN_P_IST);
+    const std::int64_t high = facts.at(MAX_P_IST);
+    if (low == 0 && high == 0) return;
+    const auto add = [&](const char* code, Severity severity, std::string sentence, std::string remedy) {
+        findings.push_back(
+            {code, severity, std::move(sentence), {P_SOLL, P_IST, MIN_P_IST, MAX_P_IST}, std::move(remedy)});
+    };
+    if (low >= high) {
+        const std::string exchanged = low > high
+                                          ? fmt::format("`macreg set MIN_P_IST {} MAX_P_IST {}`", high, low)
+                                          : "`macreg set MIN_P_IST 0 MAX_P_IST 0`, or two places";
+        return add("limits_swapped", facts.limited() ? Severity::stops : Severity::hinders,
+                   "MIN_P_IST is not below MAX_P_IST: every position is outside, and the motor makes itself "
+                   "passive (PLIM_ERR).",
+                   exchanged + ", the lower one smaller; both 0 is none.");
+    }
+    if (!facts.limited())
+        return add(
+            "limits_off", Severity::tells,
+            "DIS_P_LIM is set in ERR_STAT: MIN_P_IST and MAX_P_IST do not act.",
+            "If they are to act, and P_IST is inside, take DIS_P_LIM out of ERR_STAT (`macreg get ERR_STAT` "
+            "shows what else is set).");
+    if (facts.positions() && !ends_inside(facts))
+        add("target_outside_limits", Severity::hinders,
+            fmt::format(
+                "The target ({}) is not inside the position limits: on its way the motor makes itself "
+                "passive (PLIM_ERR).",
+                facts.text(P_SOLL)),
+            fmt::format("{}, for example, or wider limits; both 0 is none.", target_command(facts)));
 }
 
 }  // namespace nplc::macreg

@@ -1,12 +1,9 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
-#include "cli/files.h"
 #include "cli/session.h"
 #include "macreg/change.h"
-#include "macreg/limits.h"
 #include "macreg/parameters.h"
 #include "macreg/service.h"
 #include "macreg/values.h"
@@ -225,7 +222,8 @@ void look_at_address(Session& session, const ParameterSet& wanted, const LoadArg
                                address->second, own));
 }
 
-void load(Common& common, LoadArguments options) {
+void load(Common& common, const LoadArguments& arguments) {
+    LoadArguments options = arguments;
     ParameterSet wanted = read_parameter_file(options.file, options.partial);
     if (options.file == "-") options.file = "standard input";
     Session session(common);
@@ -255,20 +253,19 @@ void load(Common& common, LoadArguments options) {
 }  // namespace
 
 void add_load(arguments::App& app, Common& common) {
-    const auto options = std::make_shared<LoadArguments>();
-    arguments::App& command =
-        add_command(app, "load",
+    auto [command, options] =
+        add_command(app, common, "load",
                     "Write a file of `dump` into the motor's memory. The whole file is checked first; only "
-                    "what differs is written, and all of it is read back. The address stays");
-    command.add_option("file", options->file, "The file; - is standard input")->required();
-    command.add_flag("--stop", options->stop, "Stop the motor first if it is in a mode that moves it");
-    command.add_flag("--force", options->force, "Write dangerous registers too; asks");
-    command.add_flag("--skip-dangerous", options->skip_dangerous, "Leave dangerous registers as they are")
+                    "what differs is written, and all of it is read back. The address stays",
+                    load);
+    command.add_option("file", options.file, "The file; - is standard input")->required();
+    command.add_flag("--stop", options.stop, "Stop the motor first if it is in a mode that moves it");
+    command.add_flag("--force", options.force, "Write dangerous registers too; asks");
+    command.add_flag("--skip-dangerous", options.skip_dangerous, "Leave dangerous registers as they are")
         ->excludes("--force");
-    command.add_flag("--another-model", options->another,
+    command.add_flag("--another-model", options.another,
                      "Take the file of another model or type of the same family");
-    command.add_flag("--partial", options->partial, "Take a file that is marked as incomplete");
-    command.callback([options, &common] { guard(common, [&] { load(common, *options); }); });
+    command.add_flag("--partial", options.partial, "Take a file that is marked as incomplete");
 }
 
 }  // namespace nplc::macreg::cli

@@ -6,7 +6,7 @@
 #include "command_line/generated.h"
 #include "host/byte_client.h"
 #include "host/can_client.h"
-#include "macreg/midi/parameters.h"
+#include "macreg/midi/values.h"
 #include "registers/mac.h"
 
 namespace {

@@ -61,6 +61,22 @@ class MidiSession {
 void midi_guard(const MidiCommon& midi, const std::function<void()>& what);
 void midi_work(const MidiCommon& midi, const std::function<void(MidiSession&)>& what);
 
+/// Subcommands with options: done with an open session, or without a module.
+template <class Options>
+auto add_command(arguments::App& app, const MidiCommon& midi, const std::string& name,
+                 const std::string& text, void (*what)(MidiSession&, const Options&)) {
+    return add_command<Options>(app, name, text, [what, &midi](const Options& options) {
+        midi_work(midi, [&](MidiSession& session) { what(session, options); });
+    });
+}
+template <class Options>
+auto add_command(arguments::App& app, const MidiCommon& midi, const std::string& name,
+                 const std::string& text, void (*what)(const MidiCommon&, const Options&)) {
+    return add_command<Options>(app, name, text, [what, &midi](const Options& options) {
+        midi_guard(midi, [&] { what(midi, options); });
+    });
+}
+
 /// {"name":, "raw":, "value":}
 Json midi_document(const midi::Parameter& parameter, std::int64_t raw, const midi::Scale& scale);
 

@@ -1,10 +1,8 @@
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/midi.h"
 #include "host/terminal.h"
-#include "macreg/midi/quantity.h"
+#include "macreg/midi/values.h"
 
 namespace nplc::macreg::cli {
 namespace {
@@ -201,21 +199,27 @@ void stop(MidiSession& session, const StopOptions& options) {
     session.tell(fmt::format("stopped at {}", midi::position_text(at, scale)), {{"position", at}});
 }
 
-void power(MidiSession& session, const std::string& what, bool force) {
-    const bool on = what == "on";
+struct SwitchOptions {
+    std::string what;  ///< on or off
+    bool force = false;
+};
+
+void power(MidiSession& session, const SwitchOptions& options) {
+    const bool on = options.what == "on";
     // 000 §VI 1Ah
-    if (!on && !force && session.module().moves())
+    if (!on && !options.force && session.module().moves())
         refuse(
             "it turns, and to switch it off now can damage the supply; `macreg midi stop` stops it, --force "
             "switches it off all the same");
     if (on) session.master().expect_alone(session.address());
     session.module().order(on ? midi::reg::POWER_ON : midi::reg::POWER_OFF);
-    session.tell(on ? "the motor is on and holds" : "the motor is off and holds nothing", {{"power", what}});
+    session.tell(on ? "the motor is on and holds" : "the motor is off and holds nothing",
+                 {{"power", options.what}});
 }
 
-void zero(MidiSession& session, bool force) {
+void zero(MidiSession& session, const SwitchOptions& options) {
     const std::int32_t before = session.master().position(session.address());
-    if (!force && session.module().moves())
+    if (!options.force && session.module().moves())
         refuse("it turns; `macreg midi stop` stops it, --force makes its position 0 all the same");
     session.module().order(midi::reg::ZERO_POSITION);
     session.tell(
@@ -223,63 +227,50 @@ void zero(MidiSession& session, bool force) {
         {{"before", before}});
 }
 
-void reference(MidiSession& session, const std::string& what) {
-    session.module().order(midi::reg::REFERENCE, what == "on" ? 1 : 0);
-    session.tell(what == "on"
-                     ? "the reference input sets the position to 0, turning clockwise, until the next start"
-                     : "the reference input does nothing",
-                 {{"reference", what}});
-}
-
-void add_moves(arguments::App& app, MidiCommon& midi) {
-    const auto move_options = std::make_shared<MoveOptions>();
-    arguments::App& move_command = command_line::add_command(
-        app, "move", "Go to a position with SPEED and RAMP, and wait until it is there; Ctrl-C stops it");
-    move_command.add_option("position", move_options->target, "20480, 2.5rev");
-    move_command.add_option("--by", move_options->by, "Instead: how far from here, as -1rev");
-    move_command.add_flag("--no-wait", move_options->no_wait, "Do not wait; nothing here stops it then");
-    move_command.callback([move_options, &midi] { midi_guard(midi, [&] { move(midi, *move_options); }); });
-
-    const auto jog_options = std::make_shared<JogOptions>();
-    arguments::App& jog_command = command_line::add_command(
-        app, "jog", "Turn at a speed until Enter or for a time; every end stops it, signals too");
-    jog_command
-        .add_option("speed", jog_options->speed, "300rpm, -2rev/s, 5000inc/s; negative is counter-clockwise")
-        ->required();
-    jog_command.add_option("--for", jog_options->time, "How long, as 2s or 500ms");
-    jog_command.callback([jog_options, &midi] { midi_guard(midi, [&] { jog(midi, *jog_options); }); });
-
-    const auto stop_options = std::make_shared<StopOptions>();
-    arguments::App& stop_command =
-        command_line::add_command(app, "stop", "Stop with the ramp; a second one does no harm");
-    stop_command.add_flag("--emergency", stop_options->emergency,
-                          "At once, with all torque, whatever moves; the position loop ends too");
-    stop_command.add_flag("--all", stop_options->all, "All modules on the line or bus");
-    stop_command.callback(
-        [stop_options, &midi] { midi_work(midi, [&](MidiSession& s) { stop(s, *stop_options); }); });
+void reference(MidiSession& session, const SwitchOptions& options) {
+    const bool on = options.what == "on";
+    session.module().order(midi::reg::REFERENCE, on ? 1 : 0);
+    session.tell(on ? "the reference input sets the position to 0, turning clockwise, until the next start"
+                    : "the reference input does nothing",
+                 {{"reference", options.what}});
 }
 
 }  // namespace
 
 void add_midi_motion(arguments::App& app, MidiCommon& midi) {
-    add_moves(app, midi);
-    const auto what = std::make_shared<std::string>();
-    const auto force = std::make_shared<bool>(false);
-    arguments::App& power_command = command_line::add_command(app, "power", "The motor's power on or off");
-    power_command.add_option("what", *what, "on or off")->required()->one_of({"on", "off"});
-    power_command.add_flag("--force", *force, "Also while it turns");
-    power_command.callback(
-        [what, force, &midi] { midi_work(midi, [&](MidiSession& s) { power(s, *what, *force); }); });
+    auto [move_command, move_options] = add_command(
+        app, midi, "move",
+        "Go to a position with SPEED and RAMP, and wait until it is there; Ctrl-C stops it", move);
+    move_command.add_option("position", move_options.target, "20480, 2.5rev");
+    move_command.add_option("--by", move_options.by, "Instead: how far from here, as -1rev");
+    move_command.add_flag("--no-wait", move_options.no_wait, "Do not wait; nothing here stops it then");
 
-    arguments::App& zero_command = command_line::add_command(app, "zero", "Make this place position 0");
-    zero_command.add_flag("--force", *force, "Also while it turns");
-    zero_command.callback([force, &midi] { midi_work(midi, [&](MidiSession& s) { zero(s, *force); }); });
+    auto [jog_command, jog_options] = add_command(
+        app, midi, "jog", "Turn at a speed until Enter or for a time; every end stops it, signals too", jog);
+    jog_command
+        .add_option("speed", jog_options.speed, "300rpm, -2rev/s, 5000inc/s; negative is counter-clockwise")
+        ->required();
+    jog_command.add_option("--for", jog_options.time, "How long, as 2s or 500ms");
 
-    arguments::App& reference_command =
-        command_line::add_command(app, "reference", "Whether the reference input sets the position to 0");
-    reference_command.add_option("what", *what, "on or off")->required()->one_of({"on", "off"});
-    reference_command.callback(
-        [what, &midi] { midi_work(midi, [&](MidiSession& s) { reference(s, *what); }); });
+    auto [stop_command, stop_options] =
+        add_command(app, midi, "stop", "Stop with the ramp; a second one does no harm", stop);
+    stop_command.add_flag("--emergency", stop_options.emergency,
+                          "At once, with all torque, whatever moves; the position loop ends too");
+    stop_command.add_flag("--all", stop_options.all, "All modules on the line or bus");
+
+    auto [power_command, power_options] =
+        add_command(app, midi, "power", "The motor's power on or off", power);
+    power_command.add_option("what", power_options.what, "on or off")->required()->one_of({"on", "off"});
+    power_command.add_flag("--force", power_options.force, "Also while it turns");
+
+    auto [zero_command, zero_options] = add_command(app, midi, "zero", "Make this place position 0", zero);
+    zero_command.add_flag("--force", zero_options.force, "Also while it turns");
+
+    auto [reference_command, reference_options] =
+        add_command(app, midi, "reference", "Whether the reference input sets the position to 0", reference);
+    reference_command.add_option("what", reference_options.what, "on or off")
+        ->required()
+        ->one_of({"on", "off"});
 }
 
 }  // namespace nplc::macreg::cli

@@ -6,10 +6,8 @@
 #include "cli/midi.h"
 #include "command_line/files.h"
 #include "macreg/midi/path_file.h"
-#include "macreg/midi/quantity.h"
+#include "macreg/midi/values.h"
 #include "registers/midi_scale.h"
-
-#include <nlohmann/json.hpp>
 
 namespace nplc::macreg::cli {
 namespace {
@@ -210,47 +208,43 @@ void together(const MidiCommon& midi, const std::vector<std::string>& words) {
 }  // namespace
 
 void add_midi_path(arguments::App& app, MidiCommon& midi) {
-    const auto words = std::make_shared<std::vector<std::string>>();
-    arguments::App& together_command = command_line::add_command(
-        app, "together",
+    auto [together_command, words] = add_command(
+        app, midi, "together",
         "Moves of several modules that begin at the same time (10h, 11h, SYNC), each with its SPEED "
-        "and RAMP; Ctrl-C stops all");
-    together_command.add_option("targets", *words, "ADDRESS=POSITION, as 0=20000 1=2rev")->required();
-    together_command.callback([words, &midi] { midi_guard(midi, [&] { together(midi, *words); }); });
+        "and RAMP; Ctrl-C stops all",
+        together);
+    together_command.add_option("targets", words, "ADDRESS=POSITION, as 0=20000 1=2rev")->required();
 
-    const auto circle_options = std::make_shared<CircleOptions>();
-    arguments::App& circle_command = command_line::add_command(
-        app, "circle",
+    auto [circle_command, circle_options] = add_command(
+        app, midi, "circle",
         "Two modules draw a circle, by segments (16h), from its rightmost point back to it; Ctrl-C "
-        "stops both");
-    circle_command.add_option("--axes", circle_options->axes, "Addresses of the modules for x and y, as 0,1")
+        "stops both",
+        circle);
+    circle_command.add_option("--axes", circle_options.axes, "Addresses of the modules for x and y, as 0,1")
         ->required();
-    circle_command.add_option("--radius", circle_options->radius, "10000, 2rev")->required();
+    circle_command.add_option("--radius", circle_options.radius, "10000, 2rev")->required();
     circle_command
-        .add_option("--speed", circle_options->speed, "Along the circle: 20000inc/s, 2rev/s, 120rpm")
+        .add_option("--speed", circle_options.speed, "Along the circle: 20000inc/s, 2rev/s, 120rpm")
         ->required();
-    circle_command.add_option("--centre", circle_options->centre,
+    circle_command.add_option("--centre", circle_options.centre,
                               "X,Y; if not said, so that the circle begins where the modules are");
     circle_command.add_option(
-        "--acceleration", circle_options->acceleration,
+        "--acceleration", circle_options.acceleration,
         "At its start and end: 40000inc/s2, 4rev/s2; none if not said, for a segment has no ramp");
-    circle_command.add_option("--turns", circle_options->turns, "How often round")
+    circle_command.add_option("--turns", circle_options.turns, "How often round")
         ->capture_default_str()
         ->in_range(1U, 10'000U);
-    circle_command.add_option("--segment", circle_options->segment, "About how long a segment takes")
+    circle_command.add_option("--segment", circle_options.segment, "About how long a segment takes")
         ->capture_default_str();
-    circle_command.add_flag("--clockwise", circle_options->clockwise, "The other way round");
-    circle_command.callback(
-        [circle_options, &midi] { midi_guard(midi, [&] { circle(midi, *circle_options); }); });
+    circle_command.add_flag("--clockwise", circle_options.clockwise, "The other way round");
 
-    const auto path_options = std::make_shared<PathOptions>();
-    arguments::App& path_command = command_line::add_command(
-        app, "path",
+    auto [path_command, path_options] = add_command(
+        app, midi, "path",
         "Several modules follow a path: CSV with a heading `time,0 [inc],1 [rev]` and a row a point, in "
-        "seconds; they go to the first point first; Ctrl-C stops all");
-    path_command.add_option("file", path_options->file, "The path")->required();
-    path_command.add_flag("--check", path_options->check, "Only read the file; needs no module");
-    path_command.callback([path_options, &midi] { midi_guard(midi, [&] { path(midi, *path_options); }); });
+        "seconds; they go to the first point first; Ctrl-C stops all",
+        path);
+    path_command.add_option("file", path_options.file, "The path")->required();
+    path_command.add_flag("--check", path_options.check, "Only read the file; needs no module");
 }
 
 }  // namespace nplc::macreg::cli

@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/midi.h"
+#include "macreg/midi/raw.h"
 
 namespace nplc::macreg::cli {
-namespace {
 
 using midi_client::Answer;
+
+namespace {
 
 /// 000 §VI 00h: it hears nothing for two seconds.
 constexpr base::Microseconds kDeaf{2'200'000};
@@ -88,7 +88,7 @@ void program_line(MidiSession& session, std::uint8_t address, bool to_one) {
     if (answer.kind == Answer::Kind::refused) refuse(fmt::format("the module refuses address {}", address));
 }
 
-void set_address(const MidiCommon& midi, int address) {
+void set_address(const MidiCommon& midi, const int& address) {
     look_at_address(midi, "address", address);
     const bool said = midi.address != MidiCommon::kNotSaid || midi.common.address != 0;
     if (is_can(midi) && said)
@@ -101,7 +101,7 @@ void set_address(const MidiCommon& midi, int address) {
                  {{"address", address}});
 }
 
-void set_baud(const MidiCommon& midi, std::uint32_t baud) {
+void set_baud(const MidiCommon& midi, const std::uint32_t& baud) {
     std::uint32_t code = 0;
     for (std::uint32_t one = 1; one <= 3; ++one) {
         if (midi::reg::baud_of(static_cast<std::int32_t>(one)) == baud) code = one;
@@ -125,29 +125,185 @@ void set_baud(const MidiCommon& midi, std::uint32_t baud) {
                  {{"address", address}, {"baud", baud}});
 }
 
+struct MidiFindArguments {
+    bool this_speed = false;
+    bool every_speed = false;
+};
+
+constexpr base::Microseconds kPatience{40'000};
+constexpr std::uint32_t kSpeeds[] = {38'400, 19'200, 9'600};
+
+class MidiSearch {
+  public:
+    MidiSearch(const MidiCommon& midi, const MidiFindArguments& options) : midi_(midi), options_(options) {}
+
+    void run() {
+        const std::string& port = midi_.common.port;
+        const bool one = is_can(midi_) || port.starts_with("unix:") || port.starts_with("tcp:") ||
+                         port.starts_with("pty:") || options_.this_speed;
+        if (one) {
+            at(midi_baud(midi_));
+        } else {
+            for (const std::uint32_t baud : kSpeeds) {
+                if (modules_.empty() || options_.every_speed) at(baud);
+            }
+        }
+        progress(midi_.common, "");
+        if (modules_.empty())
+            throw command_line::Failure(
+                command_line::kNoAnswer,
+                heard_ ? "bytes came, but no answer: is it another kind of device, or do several modules "
+                         "have the "
+                         "same address?"
+                       : "nobody answers; is the module switched on, and are the wires the right way round?");
+        command_line::tell(midi_.common, text_, {{"modules", modules_}});
+    }
+
+  private:
+    void at(std::uint32_t baud) {
+        const base::Microseconds patience =
+            midi_.common.patience_ms == 150 ? kPatience : base::Milliseconds{midi_.common.patience_ms};
+        MidiSession session(midi_, baud, patience);
+        for (unsigned address = is_can(midi_) ? 1 : 0; address <= 127; ++address) {
+            look_for_interruption();
+            progress(midi_.common, is_can(midi_) ? fmt::format("address {}", address)
+                                                 : fmt::format("{} baud, address {}", baud, address));
+            look(session, static_cast<std::uint8_t>(address), baud);
+        }
+        heard_ = heard_ || session.link().heard_anything();
+    }
+
+    /// A damaged answer is one: it is asked for again.
+    void look(MidiSession& session, std::uint8_t address, std::uint32_t baud) {
+        using Kind = midi_client::Answer::Kind;
+        midi_client::Answer answer = session.master().try_query(address, midi::reg::GET_RELEASE);
+        for (int i = 0; i < 3 && answer.kind != Kind::value && answer.kind != Kind::silence; ++i)
+            answer = session.master().try_query(address, midi::reg::GET_RELEASE);
+        if (is_shared(session, address, answer.kind == Kind::value))
+            return add(address, baud, "MORE THAN ONE MODULE ANSWERS, and what moves one moves both",
+                       {{"address", address}, {"several", true}});
+        if (answer.kind != Kind::value) return note(address, answer.kind);
+        const std::int32_t position = session.master().position(address);
+        const std::string words = midi::status_words(session.master().status(address));
+        const std::string release = midi::release_text(answer.value);
+        add(address, baud,
+            fmt::format("release {}, at {} inc{}", release, position, words.empty() ? "" : ", " + words),
+            {{"address", address}, {"release", release}, {"position", position}});
+    }
+
+    static bool is_shared(MidiSession& session, std::uint8_t address, bool answers) {
+        if (!answers) return session.link().answers(address).several();
+        try {
+            session.master().expect_alone(address);
+            return false;
+        } catch (const midi_client::SameAddress&) {
+            return true;
+        }
+    }
+
+    void add(std::uint8_t address, std::uint32_t baud, const std::string& what, Json one) {
+        const std::string speed = is_can(midi_) ? "" : fmt::format(", {} baud", baud);
+        text_ += fmt::format("{}address {:>3}{}: {}", text_.empty() ? "" : "\n", address, speed, what);
+        if (!is_can(midi_)) one["baud"] = baud;
+        modules_.push_back(std::move(one));
+    }
+
+    /// Who answers and is no module, as far as one can tell.
+    void note(std::uint8_t address, midi_client::Answer::Kind kind) {
+        using Kind = midi_client::Answer::Kind;
+        if (kind == Kind::refused)
+            remark(midi_.common,
+                   fmt::format("address {}: something answers and refuses GET_RELEASE, which no "
+                               "MIDI module does; is it another kind of device?",
+                               address));
+        if (kind == Kind::unclear)
+            remark(midi_.common, fmt::format("address {}: each answer came damaged; do several modules have "
+                                             "this address, or has the line noise?",
+                                             address));
+    }
+
+    const MidiCommon& midi_;
+    const MidiFindArguments& options_;
+    std::string text_;
+    Json modules_ = Json::array();
+    bool heard_ = false;
+};
+
+struct MidiRawArguments {
+    std::string frame;
+    bool force = false;
+};
+
+void raw(const MidiCommon& midi, const MidiRawArguments& options) {
+    const auto [request, error] = midi::read_raw(options.frame, is_can(midi));
+    if (!error.empty()) throw UserError(error);
+    const midi::Scale scale{.model = midi_model(midi)};
+    const std::string what = midi::describe_request(request, scale, is_can(midi));
+    if (const std::string danger = midi::danger_of(request); !danger.empty()) {
+        if (!options.force) throw UserError(fmt::format("{}: {}; --force if you mean it", what, danger));
+        ask(midi.common, fmt::format("{}: {}", what, danger));
+    }
+    MidiSession session(midi);
+    const bool moves = !request.query && !midi_client::is_stop(request.number) &&
+                       request.number >= midi::reg::WAIT_SYNC && request.number <= midi::reg::PAUSE;
+    if (moves && request.address != session.link().everyone()) session.master().expect_alone(request.address);
+    const midi_client::Answer answer = session.master().try_request(request);
+    const std::string told = midi::describe_answer(request, answer, scale);
+    const std::string heard = session.link().last_heard();
+    const std::string text = fmt::format("sent   {}\n       {}\nanswer {}\n       {}",
+                                         session.link().last_sent(), what, heard.empty() ? "-" : heard, told);
+    const Json document{
+        {"request", what}, {"sent", session.link().last_sent()}, {"received", heard}, {"answer", told}};
+    using Kind = midi_client::Answer::Kind;
+    if (answer.kind == Kind::accepted || answer.kind == Kind::value) return session.tell(text, document);
+    if (!session.common().json) fmt::print("{}\n", text);
+    if (answer.kind == Kind::refused) refuse(fmt::format("refused: {}", what), document);
+    throw command_line::Failure(command_line::kNoAnswer, fmt::format("{}: {}", told, what), document);
+}
+
+void find(const MidiCommon& midi, const MidiFindArguments& options) {
+    MidiSearch(midi, options).run();
+}
+
 }  // namespace
 
 void add_midi_service(arguments::App& app, MidiCommon& midi) {
     arguments::App& address_command = command_line::add_command(app, "address", "Give a module its address");
     address_command.require_subcommand(1);
-    const auto address = std::make_shared<int>(0);
-    arguments::App& set_command = command_line::add_command(
-        address_command, "set",
-        "08h, on CAN the LMT procedure; asks first, and looks whether it answers there");
-    set_command.add_option("new_address", *address, "0 to 127, on CAN 1 to 127")->required();
-    set_command.callback([address, &midi] { midi_guard(midi, [&] { set_address(midi, *address); }); });
+    auto [set_command, address] = add_command(
+        address_command, midi, "set",
+        "08h, on CAN the LMT procedure; asks first, and looks whether it answers there", set_address);
+    set_command.add_option("new_address", address, "0 to 127, on CAN 1 to 127")->required();
 
-    const auto baud = std::make_shared<std::uint32_t>(0);
-    arguments::App& baud_command = command_line::add_command(
-        app, "baud", "Set the speed of the serial line in a module, which starts anew; asks first");
-    baud_command.add_option("new_baud", *baud, kBaudCodes)->required();
-    baud_command.callback([baud, &midi] { midi_guard(midi, [&] { set_baud(midi, *baud); }); });
+    auto [baud_command, baud] =
+        add_command(app, midi, "baud",
+                    "Set the speed of the serial line in a module, which starts anew; asks first", set_baud);
+    baud_command.add_option("new_baud", baud, kBaudCodes)->required();
 
     command_line::add_command(app, "reset", "Start a module anew, which acknowledges its faults; asks first")
         .callback([&midi] { midi_work(midi, reset); });
     command_line::add_command(app, "factory",
                               "All parameters as from the factory, the address too; asks first")
         .callback([&midi] { midi_guard(midi, [&] { factory(midi); }); });
+}
+
+void add_midi_find(arguments::App& app, MidiCommon& midi) {
+    auto [command, options] = add_command(
+        app, midi, "find",
+        "Which modules are on the line or bus, by address and speed. Only reads; some 7 s a speed", find);
+    command.add_flag("--every-speed", options.every_speed,
+                     "Go on with the other speeds when one has been answered at");
+    command.add_flag("--this-speed", options.this_speed, "Only the speed of --baud");
+}
+
+void add_midi_raw(arguments::App& app, MidiCommon& midi) {
+    auto [command, options] = add_command(
+        app, midi, "raw",
+        "Send a frame of the expert mode as the maker's tool takes it, and show bytes and meaning both ways: "
+        "00150000000320 is address 00, index 15, sub-index 00, parameters 00000320",
+        raw);
+    command.add_option("frame", options.frame, "14 hexadecimal digits")->required();
+    command.add_flag("--force", options.force, "Also what moves, restarts or renames the module; asks first");
 }
 
 }  // namespace nplc::macreg::cli

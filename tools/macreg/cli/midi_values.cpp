@@ -1,14 +1,69 @@
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/midi.h"
-#include "macreg/midi/quantity.h"
+#include "cli/session.h"
+#include "macreg/midi/values.h"
+#include "macreg/midi/why.h"
 
 namespace nplc::macreg::cli {
-namespace {
 
 using midi::Parameter;
+using midi::Readings;
+
+namespace {
+
+std::string model_name(const midi::Scale& scale) {
+    return scale.model ? std::string(midi::reg::facts_of(*scale.model).name) : "module";
+}
+
+void status(MidiSession& session) {
+    const midi::Scale scale = session.module().scale();
+    const std::int32_t before = session.master().position(session.address());
+    const Readings now = session.module().read_all();
+    const bool turns = now.position != before;
+    std::string text = fmt::format("{} at address {}, release {}: {}", model_name(scale), session.address(),
+                                   midi::release_text(now.release), turns ? "turns" : "stands");
+    Json list = Json::array();
+    for (const midi::Parameter& one : midi::parameters()) {
+        if (!one.query || one.sort == midi::Sort::release) continue;
+        const std::int64_t raw = now.raw(one);
+        text += fmt::format("\n{:<12} {}", one.name, midi::value_text(one, raw, scale));
+        list.push_back(midi_document(one, raw, scale));
+    }
+    if (!scale.model) remark(session.common(), "without --model there are no turns, volts and degrees");
+    session.tell(text, {{"address", session.address()},
+                        {"model", scale.model ? Json(model_name(scale)) : Json(nullptr)},
+                        {"release", midi::release_text(now.release)},
+                        {"position", now.position},
+                        {"turns", turns},
+                        {"busy", now.busy()},
+                        {"faults", midi::status_words(now.status & midi::reg::kTrips)},
+                        {"parameters", list}});
+}
+
+void why(MidiSession& session) {
+    FindingsReport report("parameters");
+    try {
+        session.master().expect_alone(session.address());
+    } catch (const midi_client::SameAddress&) {
+        report.add(midi::same_address(session.address(), session.link().is_can()), {}, Json::array());
+        return session.tell(report.text(), report.document());
+    }
+    const midi::Condition condition = midi::read_condition(session.module());
+    for (const midi::Finding& finding : midi::why(condition)) {
+        std::string values;
+        Json parameters = Json::array();
+        for (const std::string_view name : finding.parameters) {
+            const midi::Parameter& one = *midi::find_parameter(name);
+            const std::int64_t raw = condition.now.raw(one);
+            values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", name,
+                                  midi::value_text(one, raw, condition.scale));
+            parameters.push_back(midi_document(one, raw, condition.scale));
+        }
+        report.add(finding, values, parameters);
+    }
+    session.tell(report.text(), report.document());
+}
 
 const Parameter& named(const std::string& name) {
     const Parameter* found = midi::find_parameter(name);
@@ -46,7 +101,7 @@ std::vector<const Parameter*> readable(const std::vector<std::string>& names) {
     return wanted;
 }
 
-void get(MidiSession& session, const std::vector<const Parameter*>& wanted) {
+void show(MidiSession& session, const std::vector<const Parameter*>& wanted) {
     const midi::Scale scale = session.module().scale();
     std::string text;
     Json all = Json::array();
@@ -57,6 +112,12 @@ void get(MidiSession& session, const std::vector<const Parameter*>& wanted) {
         all.push_back(midi_document(*one, raw, scale));
     }
     session.tell(text, {{"parameters", all}});
+}
+
+void get(const MidiCommon& midi, const std::vector<std::string>& names) {
+    const auto wanted = readable(names);
+    MidiSession session(midi);
+    show(session, wanted);
 }
 
 struct Assignment {
@@ -163,43 +224,43 @@ void limits(const MidiCommon& midi, const Limits& options) {
         all.push_back({&stops, {.raw = options.on ? (now | 8) : (now & ~std::int64_t{8})}});
     }
     if (!all.empty()) return change(session, all);
-    get(session, readable({"LOWER_STOP", "UPPER_STOP", "END_STOPS"}));
+    show(session, readable({"LOWER_STOP", "UPPER_STOP", "END_STOPS"}));
 }
 
 }  // namespace
+
+void add_midi_status(arguments::App& app, MidiCommon& midi) {
+    command_line::add_command(app, "status",
+                              "Position, faults and warnings in words, all settings, temperature, supply")
+        .callback([&midi] { midi_work(midi, status); });
+    command_line::add_command(
+        app, "why",
+        "Why does it not move? Sentences with what makes it so and what mends it, the first "
+        "thing to mend in front")
+        .callback([&midi] { midi_work(midi, why); });
+}
 
 void add_midi_values(arguments::App& app, MidiCommon& midi) {
     command_line::add_command(app, "list", "The parameters with their units. Needs no module")
         .callback([&midi] { midi_guard(midi, [&] { list(midi); }); });
 
-    const auto names = std::make_shared<std::vector<std::string>>();
-    arguments::App& get_command = command_line::add_command(app, "get", "Read parameters");
-    get_command.add_option("parameters", *names, "Names")->required();
-    get_command.callback([names, &midi] {
-        midi_guard(midi, [&] {
-            const auto wanted = readable(*names);
-            MidiSession session(midi);
-            get(session, wanted);
-        });
-    });
+    auto [get_command, names] = add_command(app, midi, "get", "Read parameters", get);
+    get_command.add_option("parameters", names, "Names")->required();
 
-    const auto words = std::make_shared<std::vector<std::string>>();
-    arguments::App& set_command =
-        command_line::add_command(app, "set",
-                                  "Change parameters and read them back: SPEED 300rpm, TORQUE 50%, RAMP "
-                                  "2rev/s2, UPPER_STOP 10rev, or raw:N. "
-                                  "All are checked before the first is written");
-    set_command.add_option("values", *words, "NAME VALUE, or NAME=VALUE; several at once")->required();
-    set_command.callback([words, &midi] { midi_guard(midi, [&] { set(midi, *words); }); });
+    auto [set_command, words] =
+        add_command(app, midi, "set",
+                    "Change parameters and read them back: SPEED 300rpm, TORQUE 50%, RAMP "
+                    "2rev/s2, UPPER_STOP 10rev, or raw:N. "
+                    "All are checked before the first is written",
+                    set);
+    set_command.add_option("values", words, "NAME VALUE, or NAME=VALUE; several at once")->required();
 
-    const auto options = std::make_shared<Limits>();
-    arguments::App& limits_command = command_line::add_command(
-        app, "limits", "The software end-stops: show them, set both, switch them on and off");
-    limits_command.add_option("lower", options->lower, "Lower one, in inc or rev");
-    limits_command.add_option("upper", options->upper, "Upper one");
-    limits_command.add_flag("--on", options->on, "Let them act; the hardware ones stay as they are");
-    limits_command.add_flag("--off", options->off, "Let them not act")->excludes("--on");
-    limits_command.callback([options, &midi] { midi_guard(midi, [&] { limits(midi, *options); }); });
+    auto [limits_command, options] = add_command(
+        app, midi, "limits", "The software end-stops: show them, set both, switch them on and off", limits);
+    limits_command.add_option("lower", options.lower, "Lower one, in inc or rev");
+    limits_command.add_option("upper", options.upper, "Upper one");
+    limits_command.add_flag("--on", options.on, "Let them act; the hardware ones stay as they are");
+    limits_command.add_flag("--off", options.off, "Let them not act")->excludes("--on");
 }
 
 }  // namespace nplc::macreg::cli

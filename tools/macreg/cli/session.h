@@ -1,13 +1,18 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "command_line/program.h"
 #include "macreg/motor.h"
+#include "macreg/parameters.h"
+#include "macreg/severity.h"
 
 namespace nplc::macreg::cli {
 
@@ -77,12 +82,66 @@ void work(Common& common, const std::function<void(Session&)>& what);
 /// The same without a motor.
 void guard(Common& common, const std::function<void()>& what);
 
+/// Subcommands with options: done with an open session, or without a motor.
+template <class Options>
+auto add_command(arguments::App& app, Common& common, const std::string& name, const std::string& text,
+                 void (*what)(Session&, const Options&)) {
+    return add_command<Options>(app, name, text, [what, &common](const Options& options) {
+        work(common, [&](Session& session) { what(session, options); });
+    });
+}
+template <class Options>
+auto add_command(arguments::App& app, Common& common, const std::string& name, const std::string& text,
+                 void (*what)(Common&, const Options&)) {
+    return add_command<Options>(app, name, text, [what, &common](const Options& options) {
+        guard(common, [&] { what(common, options); });
+    });
+}
+
 /// Of -o: empty for standard output, which is "-"; throws UserError if it names nothing or, without
 /// `force`, a file that is there.
 std::string output_file(const std::string& option, bool force);
 
 /// "1 register", "2 registers"
 std::string counted(std::size_t count, const std::string& what);
+
+/// A file of `dump`, whole, - is standard input; throws Failure with every line that is wrong.
+ParameterSet read_parameter_file(const std::string& path, bool partial);
+
+/// All of standard input; Ctrl-C ends the program meanwhile. Throws UserError.
+std::string read_standard_input();
+
+/// "a MAC800", "one of MAC50 to MAC141"
+std::string model_words(const ParameterSet& set);
+
+/// What `why` says: numbered sentences, each with the values that make it so and the remedy.
+class FindingsReport {
+  public:
+    /// `key`: of the values in a JSON document.
+    explicit FindingsReport(const char* key) : key_(key) {}
+
+    /// Of a Finding, whatever it was found in; `values` are empty if there are none.
+    template <class Finding>
+    void add(const Finding& finding, const std::string& values, const Json& documents) {
+        text_ += fmt::format("{}{}. {}\n", text_.empty() ? "" : "\n", list_.size() + 1, finding.sentence);
+        if (!values.empty()) text_ += fmt::format("   {}\n", values);
+        text_ += fmt::format("   -> {}\n", finding.remedy);
+        list_.push_back({{"code", finding.code},
+                         {"severity", name_of(finding.severity)},
+                         {"sentence", finding.sentence},
+                         {key_, documents},
+                         {"remedy", finding.remedy}});
+    }
+
+    /// Without the last line's end.
+    std::string text() const { return text_.substr(0, text_.size() - 1); }
+    Json document() const { return {{"findings", list_}}; }
+
+  private:
+    const char* key_;
+    std::string text_;
+    Json list_ = Json::array();
+};
 
 /// {"name":, "number":, "raw":, "value":} of a register's value.
 Json value_document(const registers::Register& reg, registers::Model model, std::int64_t raw);

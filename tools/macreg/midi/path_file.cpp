@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "macreg/midi/quantity.h"
+#include "macreg/midi/values.h"
 #include "registers/midi_scale.h"
 
 namespace nplc::macreg::midi {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "macreg/monitor.h"
-#include "macreg/words.h"
 #include "protocol/flexmac.h"
 #include "registers/layout.h"
 

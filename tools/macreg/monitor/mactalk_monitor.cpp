@@ -9,7 +9,6 @@
 #include "base/bytes.h"
 #include "macreg/frames.h"
 #include "macreg/monitor.h"
-#include "macreg/words.h"
 #include "protocol/mactalk.h"
 #include "registers/gateway.h"
 #include "registers/layout.h"

@@ -1,12 +1,11 @@
 // The ASCII frames of MIDI modules on a line (000 §II to §IV).
-#include "macreg/midi_monitor.h"
+#include "macreg/monitor.h"
 
 #include <fmt/format.h>
 
 #include <utility>
 
 #include "macreg/midi/raw.h"
-#include "macreg/words.h"
 #include "protocol/midi_v24.h"
 
 namespace nplc::macreg {

@@ -30,4 +30,11 @@ class Terminal {
     void* screen_ = nullptr;
 };
 
+/// Smaller screens show a request for a larger one.
+inline constexpr int kLeastRows = 16;
+inline constexpr int kLeastColumns = 60;
+
+/// Draws the whole screen. `title` is the port and the motor.
+void draw(UiModel& model, const Terminal& terminal, const std::string& title);
+
 }  // namespace nplc::macreg

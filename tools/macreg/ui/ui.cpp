@@ -10,10 +10,8 @@
 #include "macreg/recorder.h"
 #include "macreg/service.h"
 #include "macreg/values.h"
-#include "macreg/words.h"
 #include "registers/gateway.h"
 #include "terminal.h"
-#include "view.h"
 
 namespace nplc::macreg {
 

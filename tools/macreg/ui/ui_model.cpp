@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "macreg/change.h"
-#include "macreg/mactalk_names.h"
 #include "macreg/values.h"
 #include "registers/convert.h"
 

@@ -1,15 +1,14 @@
 // Where things stand on the screen: parameters on the left and bits on the right, below them the samples,
 // then the line's bytes, one line for state above and one for notes and questions below.
-#include "view.h"
+#include "terminal.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "curses_headers.h"
-#include "macreg/curve.h"
+#include "macreg/layout.h"
 #include "macreg/values.h"
-#include "macreg/wrap.h"
 
 namespace nplc::macreg {
 

@@ -74,6 +74,22 @@ using Subcommand = void(arguments::App& app, Options& common);
 /// A subcommand that has the common options too.
 arguments::App& add_command(arguments::App& app, const std::string& name, const std::string& text);
 
+/// A subcommand and what its arguments fill; both last as long as the command line.
+template <class Options>
+struct Added {
+    arguments::App& command;
+    Options& options;
+};
+
+/// A subcommand that does `work` with its options.
+template <class Options, class Work>
+Added<Options> add_command(arguments::App& app, const std::string& name, const std::string& text, Work work) {
+    const auto options = std::make_shared<Options>();
+    arguments::App& command = add_command(app, name, text);
+    command.callback([options, work] { work(*options); });
+    return {command, *options};
+}
+
 /// Reads the command line and carries it out; the program's exit code.
 int run(arguments::App& app, Common& common, int argc, char** argv);
 

@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "registers/convert.h"
 #include "registers/details.h"
+#include "registers/mac.h"
 
 /// A register's value as people read and type it.
 namespace nplc::macreg {
@@ -46,5 +48,24 @@ struct NamedRegister {
     std::string error;
 };
 NamedRegister find_register(registers::Model model, std::string_view name_or_number);
+
+struct Assignment {
+    const registers::Register* reg;
+    std::string text;
+    std::int64_t raw = 0;
+    std::string rounding{};  ///< as TypedValue's
+};
+
+struct ReadAssignments {
+    std::vector<Assignment> all{};
+    std::string error{};  ///< a sentence on the first word that is wrong; empty: all is well
+};
+
+/// NAME VALUE or NAME=VALUE, also several; a unit may stand apart: `V_SOLL 1500 rpm`.
+ReadAssignments read_assignments(registers::Model model, const std::vector<std::string>& words);
+
+/// What the program MacTalk calls the register (004, "MacTalk name"): "Max velocity". R: of MAC50 to MAC141
+/// the register of the same name, for 002 gives none. Empty: it has none of its own.
+std::string_view mactalk_name(const registers::Register& reg);
 
 }  // namespace nplc::macreg

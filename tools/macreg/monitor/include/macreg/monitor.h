@@ -3,14 +3,17 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/time.h"
 #include "protocol/fastmac.h"
 #include "registers/mac.h"
+#include "registers/midi.h"
 
 /// What passes on a line between a master and motors, in lines for people. Only listens.
+/// What registers and bytes are called in lines for people.
 namespace nplc::macreg {
 
 /// Whose bytes a stream holds.
@@ -72,5 +75,25 @@ std::unique_ptr<Monitor> make_mactalk_monitor(const MonitorOptions& options);
 /// `both` is taken for the master's. Status bytes are told when they change. Which protocol the motor expects
 /// is known from the commands seen; a listener who came later follows at the next switch.
 std::unique_ptr<Monitor> make_fastmac_monitor(const MonitorOptions& options);
+
+struct MidiMonitorOptions {
+    std::optional<registers::midi::Model> model{};  ///< for turns; without it increments
+    std::uint32_t baud = registers::midi::kFactoryBaud;
+    base::Microseconds longest_answer{150'000};  ///< beyond the line's time
+};
+
+/// MIDI Ingenierie's serial line (000 §II to §IV). Requests and answers may come in one stream or in one
+/// each. An answer to a command carries no address: it is paired with the last request.
+std::unique_ptr<Monitor> make_midi_monitor(const MidiMonitorOptions& options);
+
+/// "P_IST (10)"; "upper word of P_IST (11)", "register 200" for numbers that are no register's own.
+std::string register_words(registers::Model model, std::uint8_t number);
+
+/// The value of a register read or written with so many bytes: "00001234 = 4660 counts", "0002 = P_MODE". The
+/// bytes beyond the register's own width are left out.
+std::string bytes_words(registers::Model model, std::uint8_t number, std::uint32_t value, std::size_t bytes);
+
+/// "50 50 50 08 F7"
+std::string hex_words(std::span<const std::uint8_t> bytes);
 
 }  // namespace nplc::macreg

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "macreg/limits.h"
+#include "macreg/change.h"
 #include "macreg/motor.h"
 #include "macreg/recording.h"
 #include "registers/details.h"

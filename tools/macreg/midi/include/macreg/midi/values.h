@@ -1,13 +1,89 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
-#include "macreg/midi/parameters.h"
+#include "registers/midi.h"
+#include "registers/scale.h"
 
-/// A parameter's value as people read and type it.
+/// What a MIDI module can be asked for and told, by name; its values, and numbers with units, as people read
+/// and type them.
 namespace nplc::macreg::midi {
+
+namespace reg = registers::midi;
+using registers::midi::Model;
+
+enum class Sort : std::uint8_t {
+    position,     ///< increments
+    period,       ///< of full speed
+    long_period,  ///< of unstall speed
+    ramp,
+    torque,
+    tolerance,  ///< increments, not negative
+    choice,
+    temperature,
+    supply,
+    status,
+    terminals,
+    release,
+    number,
+};
+
+struct Choice {
+    std::int32_t value;
+    std::string_view name;
+};
+
+struct Parameter {
+    std::string_view name;
+    Sort sort;
+    std::string_view title;
+    std::optional<reg::Query> query{};  ///< nothing: it cannot be read
+    std::size_t field = 0;              ///< of the query's reply
+    std::uint8_t sub_index = 0;
+    std::optional<reg::Command> command{};  ///< nothing: it is read only
+    std::span<const Choice> choices{};
+};
+
+std::span<const Parameter> parameters();
+/// In any case of letters.
+const Parameter* find_parameter(std::string_view name);
+/// What a query's reply holds of it.
+std::int64_t raw_in(const Parameter& parameter, std::uint32_t reply);
+/// The command's four bytes.
+std::uint32_t data_for(const Parameter& parameter, std::int64_t raw);
+/// The command behind a parameter; needs one.
+const reg::CommandRow& row_of(const Parameter& parameter);
+
+struct Quantity {
+    registers::Ratio size{0, 1};  ///< without its sign; 0 / 1 for nothing
+    bool negative = false;
+    std::string unit{};  ///< as typed, without blanks; empty if there is none
+};
+/// `1500 rpm`, `-2.5rev`, `+10`, `50%`, `0x1F`; nothing if it is no number, or has more than 12 digits.
+std::optional<Quantity> read_quantity(std::string_view text);
+
+/// The nearest whole number; nothing beyond 32 bits.
+std::optional<std::int64_t> nearest(const registers::Ratio& ratio);
+
+/// What was typed, in whole increments or in a speed; `error` is a sentence, empty if all is well.
+struct TypedNumber {
+    std::int64_t value = 0;
+    bool exact = true;
+    std::string error{};
+};
+
+/// A position or distance: `inc` (also without a unit) or `rev`, which needs the model.
+TypedNumber typed_position(std::string_view text, std::optional<Model> model);
+/// A speed's period in ticks of 0.125 us, negative for the other direction: `rpm`, `rev/s`, `inc/s`.
+TypedNumber typed_period(std::string_view text, std::optional<Model> model);
+/// Whole increments a second, or a second^2 with `squared`: `inc/s`, `rev/s`, `rpm`; `inc/s2`, `rev/s2`.
+TypedNumber typed_rate(std::string_view text, std::optional<Model> model, bool squared);
+/// `5s`, `200ms`, `0.5 min`; without a unit seconds. In microseconds.
+TypedNumber typed_time(std::string_view text);
 
 /// What turns, percent and degrees are of.
 struct Scale {

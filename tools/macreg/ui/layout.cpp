@@ -1,4 +1,4 @@
-#include "macreg/curve.h"
+#include "macreg/layout.h"
 
 #include <algorithm>
 #include <array>
@@ -6,6 +6,7 @@
 #include <cstdint>
 
 namespace nplc::macreg {
+
 namespace {
 
 constexpr int kDotsAcross = 2;
@@ -69,6 +70,28 @@ std::vector<std::string> text_curve(std::span<const double> values, int width, i
         rows.push_back(std::move(row));
     }
     return rows;
+}
+
+std::vector<std::string> wrapped(std::string_view text, std::size_t width, std::size_t most) {
+    constexpr std::string_view kMore = "...";
+    std::vector<std::string> lines;
+    if (width <= kMore.size() || most == 0) return lines;
+    while (!text.empty()) {
+        if (lines.size() == most) {
+            std::string& last = lines.back();
+            last = last.substr(0, width - kMore.size()).append(kMore);
+            break;
+        }
+        std::size_t length = std::min(width, text.size());
+        if (length < text.size()) {
+            const std::size_t blank = text.rfind(' ', length);
+            if (blank != std::string_view::npos && blank > 0) length = blank;
+        }
+        lines.emplace_back(text.substr(0, length));
+        text.remove_prefix(length);
+        text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+    }
+    return lines;
 }
 
 }  // namespace nplc::macreg

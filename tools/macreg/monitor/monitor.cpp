@@ -1,4 +1,4 @@
-#include "macreg/words.h"
+#include "macreg/monitor.h"
 
 #include <fmt/format.h>
 
