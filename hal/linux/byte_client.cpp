@@ -8,6 +8,7 @@
 #include <ctime>
 
 #include "descriptor_client.h"
+#include "host/endpoint.h"
 
 namespace nplc::hal_linux {
 namespace {
@@ -55,17 +56,23 @@ base::Instant DescriptorClient::now() const {
 namespace nplc::host {
 
 ByteClient::Opened ByteClient::open(const std::string& endpoint, std::uint32_t baud, Holding holding) {
-    const auto after = [&](const char* kind) -> std::optional<std::string> {
-        const std::string prefix = std::string(kind) + ":";
-        if (!endpoint.starts_with(prefix)) return std::nullopt;
-        return endpoint.substr(prefix.size());
-    };
-    if (const auto path = after("pty"); path && !path->empty())
-        return hal_linux::open_terminal_client(*path, endpoint, baud, holding);
-    if (const auto path = after("unix"); path && !path->empty()) return hal_linux::open_unix_client(*path);
-    if (const auto where = after("tcp"); where && !where->empty()) return hal_linux::open_tcp_client(*where);
-    if (endpoint.find('/') != std::string::npos && endpoint.find(':') > endpoint.find('/'))
-        return hal_linux::open_terminal_client(endpoint, endpoint, baud, holding);
+    const Endpoint line(endpoint);
+    const bool is_path = endpoint.find('/') < endpoint.find(':');
+    if (!line.place.empty()) {
+        switch (line.kind) {
+            case Endpoint::Kind::device:
+                if (!is_path) break;
+                [[fallthrough]];
+            case Endpoint::Kind::pty:
+                return hal_linux::open_terminal_client(line.place, endpoint, baud, holding);
+            case Endpoint::Kind::unix_socket:
+                return hal_linux::open_unix_client(line.place);
+            case Endpoint::Kind::tcp:
+                return hal_linux::open_tcp_client(line.place);
+            case Endpoint::Kind::can:
+                break;
+        }
+    }
     return {nullptr, "'" + endpoint + "': write " + forms(), true};
 }
 

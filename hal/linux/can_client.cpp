@@ -7,6 +7,7 @@
 #include <ctime>
 
 #include "hal_linux/socket_can.h"
+#include "host/endpoint.h"
 
 namespace nplc::hal_linux {
 namespace {
@@ -17,7 +18,7 @@ constexpr base::Microseconds kWriteAgain{1'000};
 class SocketCanClient final : public host::CanClient {
   public:
     SocketCanClient(std::unique_ptr<SocketCan> can, const std::string& interface)
-        : can_(std::move(can)), name_("can:" + interface) {}
+        : can_(std::move(can)), name_(host::Endpoint::text(host::Endpoint::Kind::can, interface)) {}
 
     const std::string& name() const override { return name_; }
 
@@ -65,7 +66,8 @@ namespace nplc::host {
 
 CanClient::Opened CanClient::open(const std::string& interface) {
     auto opened = hal_linux::SocketCan::open({.interface = interface});
-    if (opened.can == nullptr) return {nullptr, "can:" + interface + ": " + opened.error};
+    if (opened.can == nullptr)
+        return {nullptr, Endpoint::text(Endpoint::Kind::can, interface) + ": " + opened.error};
     return {std::make_unique<hal_linux::SocketCanClient>(std::move(opened.can), interface), {}};
 }
 

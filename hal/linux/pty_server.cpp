@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include "file_descriptor.h"
+#include "host/endpoint.h"
 #include "name_lock.h"
 #include "reason.h"
 
@@ -26,7 +27,7 @@ class PtyServer final : public ByteServer {
           master_(std::move(master)),
           path_(path),
           terminal_(std::move(terminal)),
-          name_("pty:" + path) {}
+          name_(host::Endpoint::text(host::Endpoint::Kind::pty, path)) {}
     ~PtyServer() override {
         // Whoever made another link of it since keeps that one.
         std::error_code error;
@@ -85,7 +86,7 @@ std::string what_else_is_at(const std::string& path) {
 }  // namespace
 
 ByteServer::Opened open_pty_server(const std::string& path, bool at_once) {
-    const std::string name = "pty:" + path;
+    const std::string name = host::Endpoint::text(host::Endpoint::Kind::pty, path);
     auto [lock, taken] = NameLock::take(name, path, at_once);
     if (!taken.empty()) return {nullptr, taken};
     if (const std::string foreign = what_else_is_at(path); !foreign.empty())

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "descriptor_client.h"
+#include "host/endpoint.h"
 #include "port_holder.h"
 #include "socket_address.h"
 
@@ -54,7 +55,7 @@ int join(int socket, const sockaddr* address, socklen_t size) {
 }  // namespace
 
 host::ByteClient::Opened open_unix_client(const std::string& path) {
-    const std::string name = "unix:" + path;
+    const std::string name = host::Endpoint::text(host::Endpoint::Kind::unix_socket, path);
     const auto address = unix_address(path);
     if (!address) return {nullptr, name + ": the path is too long for a socket; name a shorter one", true};
     FileDescriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
@@ -66,7 +67,7 @@ host::ByteClient::Opened open_unix_client(const std::string& path) {
 }
 
 host::ByteClient::Opened open_tcp_client(const std::string& where) {
-    const std::string name = "tcp:" + where;
+    const std::string name = host::Endpoint::text(host::Endpoint::Kind::tcp, where);
     const auto address = tcp_address(where);
     if (!address || address->sin_port == 0)
         return {nullptr, name + ": write tcp:127.0.0.1:PORT (this machine only), PORT 1..65535", true};

@@ -17,6 +17,7 @@
 
 #include "file_descriptor.h"
 #include "hal_linux/group.h"
+#include "host/endpoint.h"
 #include "name_lock.h"
 #include "reason.h"
 #include "socket_address.h"
@@ -204,15 +205,16 @@ std::string tcp_name(int listener) {
     sockaddr_in address{};
     socklen_t size = sizeof address;
     ::getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size);
-    char host[INET_ADDRSTRLEN] = {};
-    ::inet_ntop(AF_INET, &address.sin_addr, host, sizeof host);
-    return std::string("tcp:") + host + ":" + std::to_string(ntohs(address.sin_port));
+    char text[INET_ADDRSTRLEN] = {};
+    ::inet_ntop(AF_INET, &address.sin_addr, text, sizeof text);
+    return host::Endpoint::text(host::Endpoint::Kind::tcp,
+                                std::string(text) + ":" + std::to_string(ntohs(address.sin_port)));
 }
 
 }  // namespace
 
 ByteServer::Opened open_unix_server(const std::string& path, const ByteServer::Settings& settings) {
-    const std::string name = "unix:" + path;
+    const std::string name = host::Endpoint::text(host::Endpoint::Kind::unix_socket, path);
     const auto address = unix_address(path);
     if (!address) return {nullptr, name + ": the path is too long for a socket; name a shorter one"};
     auto [lock, taken] = NameLock::take(name, path, settings.at_once);
@@ -238,15 +240,15 @@ ByteServer::Opened open_unix_server(const std::string& path, const ByteServer::S
 }
 
 ByteServer::Opened open_tcp_server(const std::string& where, std::size_t seats) {
+    const std::string asked = host::Endpoint::text(host::Endpoint::Kind::tcp, where);
     const auto address = tcp_address(where);
-    if (!address)
-        return {nullptr, "tcp:" + where + ": write tcp:127.0.0.1:PORT (this machine only), PORT 0..65535"};
+    if (!address) return {nullptr, asked + ": write tcp:127.0.0.1:PORT (this machine only), PORT 0..65535"};
     FileDescriptor listener = make_socket(AF_INET);
     const int on = 1;
     if (listener) ::setsockopt(listener.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     if (!listener || ::bind(listener.get(), generic(*address), sizeof *address) != 0 ||
         ::listen(listener.get(), SOMAXCONN) != 0) {
-        return {nullptr, "tcp:" + where + ": " + reason()};
+        return {nullptr, asked + ": " + reason()};
     }
     const std::string name = tcp_name(listener.get());
     return {std::make_unique<SocketServer>(std::move(listener), name, BoundPath(), seats, true), {}};

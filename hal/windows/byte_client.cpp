@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "clients.h"
+#include "host/endpoint.h"
 
 namespace nplc::hal_windows {
 namespace {
@@ -34,9 +35,10 @@ namespace nplc::host {
 ByteClient::Opened ByteClient::open(const std::string& endpoint, std::uint32_t baud, Holding /*holding*/) {
     if (const std::string port = hal_windows::com_port(endpoint); !port.empty())
         return hal_windows::open_com_client(port, baud);
-    if (endpoint.starts_with("tcp:") && endpoint.size() > 4)
-        return hal_windows::open_tcp_client(endpoint.substr(4));
-    if (endpoint.starts_with("pty:") || endpoint.starts_with("unix:"))
+    const Endpoint line(endpoint);
+    if (line.kind == Endpoint::Kind::tcp && !line.place.empty())
+        return hal_windows::open_tcp_client(line.place);
+    if (line.kind == Endpoint::Kind::pty || line.kind == Endpoint::Kind::unix_socket)
         return {nullptr, "'" + endpoint + "': Windows has no such lines; write " + forms(), true};
     return {nullptr, "'" + endpoint + "': write " + forms(), true};
 }

@@ -1,9 +1,13 @@
 #include "host/can_client.h"
 
+#include "host/endpoint.h"
+
 namespace nplc::host {
 
 CanClient::Opened CanClient::open(const std::string& interface) {
-    return {nullptr, "can:" + interface + ": Windows has no CAN interfaces of its own; use Linux for this",
+    return {nullptr,
+            Endpoint::text(Endpoint::Kind::can, interface) +
+                ": Windows has no CAN interfaces of its own; use Linux for this",
             true};
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "clients.h"
+#include "host/endpoint.h"
 #include "host/loopback.h"
 #include "words.h"
 
@@ -126,7 +127,7 @@ std::string cannot_connect(const std::string& name, int reason) {
 }  // namespace
 
 host::ByteClient::Opened open_tcp_client(const std::string& where) {
-    const std::string name = "tcp:" + where;
+    const std::string name = host::Endpoint::text(host::Endpoint::Kind::tcp, where);
     const auto known = host::loopback_address(where);
     if (!known || known->port == 0)
         return {nullptr, name + ": write tcp:127.0.0.1:PORT (this machine only), PORT 1..65535", true};

@@ -6,6 +6,7 @@
 #include <bit>
 #include <utility>
 
+#include "host/endpoint.h"
 #include "words.h"
 
 namespace nplc::boards {
@@ -47,7 +48,7 @@ void Axis::watch_all() {
     for (const int descriptor : input_bits_.descriptors()) loop_->watch(descriptor, line_mark++);
     watch_ports();
     if (!user_server_) return;
-    const bool is_terminal = config_.user_port.text.starts_with("pty:");
+    const bool is_terminal = host::Endpoint(config_.user_port.text).kind == host::Endpoint::Kind::pty;
     loop_->watch(
         user_server_->descriptor(), mark_ + kUserServer,
         is_terminal ? hal_linux::EventLoop::Wakes::at_news : hal_linux::EventLoop::Wakes::while_readable);

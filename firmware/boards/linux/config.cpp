@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 
+#include "host/endpoint.h"
 #include "registers/gateway.h"
 #include "section.h"
 
@@ -132,7 +133,7 @@ class Reader {
             user.complain("socket_mode", "is no mode; write four octal digits such as \"0660\"");
         else if (mode)
             axis.socket_mode = static_cast<unsigned>(std::stoul(*mode, nullptr, 8));
-        const bool is_socket = axis.user_port.text.starts_with("unix:");
+        const bool is_socket = host::Endpoint(axis.user_port.text).kind == host::Endpoint::Kind::unix_socket;
         for (const char* key : {"socket_mode", "socket_group"}) {
             if (!is_socket && user.any(key) != nullptr)
                 user.complain(key, "is for a port unix:PATH; leave it out, or name such a port");

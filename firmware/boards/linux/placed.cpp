@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "host/endpoint.h"
+
 namespace nplc::boards {
 
 Placed placed(Section& section, const std::string& key) {
@@ -9,8 +11,16 @@ Placed placed(Section& section, const std::string& key) {
     return {text && *text != "none" ? *text : "", section.line_of(key), section.path() + "." + key};
 }
 
+namespace {
+
+bool is_open_to_network(const host::Endpoint& port) {
+    return port.kind == host::Endpoint::Kind::tcp && !port.place.starts_with("127.");
+}
+
+}  // namespace
+
 bool is_endpoint(const std::string& port) {
-    return port.starts_with("pty:") || port.starts_with("unix:") || port.starts_with("tcp:");
+    return host::Endpoint(port).is_served();
 }
 
 void check_port(Section& section, const Placed& port, bool may_be_endpoint) {
@@ -22,7 +32,7 @@ void check_port(Section& section, const Placed& port, bool may_be_endpoint) {
         section.complain(key, fmt::format("{} is no port; write \"/dev/ttyUSB1\", \"unix:PATH\", "
                                           "\"pty:PATH\", \"tcp:127.0.0.1:PORT\" or \"none\"",
                                           port.text));
-    else if (port.text.starts_with("tcp:") && !port.text.starts_with("tcp:127."))
+    else if (is_open_to_network(host::Endpoint(port.text)))
         section.complain(key, fmt::format("{} is open to the network; write \"tcp:127.0.0.1:PORT\" and "
                                           "come in through ssh -L",
                                           port.text));
