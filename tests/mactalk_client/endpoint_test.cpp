@@ -62,9 +62,9 @@ struct Endpoint : testing::Test {
     std::string path(const std::string& name) const { return folder_ / name; }
 
     static void expect_exchange(const std::string& endpoint) {
-        const OpenedWire opened = open_wire(endpoint, 115'200);
+        const host::ByteClient::Opened opened = host::ByteClient::open(endpoint, 115'200);
         ASSERT_EQ(opened.error, "");
-        Master master(*opened.wire, {.patience = std::chrono::seconds{5}});
+        Master master(*opened.client, {.patience = std::chrono::seconds{5}});
         // 0A 0D 11 13: what a terminal that is not raw would change.
         for (const std::uint32_t value : {600U, 0x0D0AU, 0x1113U, 0x0304U}) {
             master.write(8, 5, value, Width::word);
@@ -95,13 +95,13 @@ TEST_F(Endpoint, TcpSocket) {
 
 TEST_F(Endpoint, ASecondClientIsToldWhoHoldsThePort) {
     const Server server("pty:" + path("tty"));
-    const OpenedWire first = open_wire(path("tty"), 19'200);
+    const host::ByteClient::Opened first = host::ByteClient::open(path("tty"), 19'200);
     ASSERT_EQ(first.error, "");
     const pid_t child = ::fork();
     if (child == 0) {
-        const OpenedWire second = open_wire(path("tty"), 19'200);
+        const host::ByteClient::Opened second = host::ByteClient::open(path("tty"), 19'200);
         const std::string who = "(process " + std::to_string(::getppid()) + ") holds this port";
-        ::_exit(second.wire == nullptr && second.error.find(who) != std::string::npos ? 0 : 1);
+        ::_exit(second.client == nullptr && second.error.find(who) != std::string::npos ? 0 : 1);
     }
     int status = -1;
     ::waitpid(child, &status, 0);
@@ -110,10 +110,10 @@ TEST_F(Endpoint, ASecondClientIsToldWhoHoldsThePort) {
 
 TEST_F(Endpoint, AConnectionThatIsClosedIsSaid) {
     const Server server("unix:" + path("socket"));
-    const OpenedWire first = open_wire("unix:" + path("socket"), 19'200);
-    Master(*first.wire, {.patience = std::chrono::seconds{5}}).read(8, 5);
-    const OpenedWire second = open_wire("unix:" + path("socket"), 19'200);
-    Master turned_away(*second.wire, {.patience = std::chrono::seconds{5}});
+    const host::ByteClient::Opened first = host::ByteClient::open("unix:" + path("socket"), 19'200);
+    Master(*first.client, {.patience = std::chrono::seconds{5}}).read(8, 5);
+    const host::ByteClient::Opened second = host::ByteClient::open("unix:" + path("socket"), 19'200);
+    Master turned_away(*second.client, {.patience = std::chrono::seconds{5}});
     try {
         turned_away.read(8, 5);
         FAIL();
@@ -125,8 +125,8 @@ TEST_F(Endpoint, AConnectionThatIsClosedIsSaid) {
 
 TEST_F(Endpoint, AServerThatEndsIsNotTakenForABusyOne) {
     auto server = std::make_unique<Server>("unix:" + path("socket"));
-    const OpenedWire opened = open_wire("unix:" + path("socket"), 19'200);
-    Master master(*opened.wire, {.patience = std::chrono::seconds{5}});
+    const host::ByteClient::Opened opened = host::ByteClient::open("unix:" + path("socket"), 19'200);
+    Master master(*opened.client, {.patience = std::chrono::seconds{5}});
     master.read(8, 5);
     server.reset();
     try {
@@ -141,9 +141,9 @@ TEST_F(Endpoint, AServerThatEndsIsNotTakenForABusyOne) {
 TEST_F(Endpoint, WhatCannotBeOpenedIsNamedWithWhatToDo) {
     const auto expect_error = [](const std::string& endpoint, std::uint32_t baud, const std::string& words,
                                  bool never = true) {
-        const OpenedWire opened = open_wire(endpoint, baud);
+        const host::ByteClient::Opened opened = host::ByteClient::open(endpoint, baud);
         EXPECT_EQ(opened.never, never) << endpoint;
-        EXPECT_EQ(opened.wire, nullptr) << endpoint;
+        EXPECT_EQ(opened.client, nullptr) << endpoint;
         EXPECT_NE(opened.error.find(words), std::string::npos) << opened.error;
         EXPECT_EQ(opened.error.find('\n'), std::string::npos) << opened.error;
     };

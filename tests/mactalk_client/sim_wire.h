@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mactalk_client/wire.h"
+#include "host/byte_client.h"
 #include "sim/serial_line.h"
 
 namespace nplc::mactalk_client {
@@ -22,7 +22,7 @@ class Unit {
 
 /// A line in virtual time that loses and damages characters. The unit is polled every 250 us and after each
 /// character.
-class SimWire final : public Wire {
+class SimWire final : public host::ByteClient {
   public:
     SimWire(Unit& unit, std::uint32_t baud, std::uint64_t seed)
         : unit_(unit), to_unit_(baud, seed), from_unit_(baud, seed + 1) {}
@@ -42,7 +42,7 @@ class SimWire final : public Wire {
         received_.erase(received_.begin(), received_.begin() + static_cast<std::ptrdiff_t>(count));
         return count;
     }
-    base::Instant now() override {
+    base::Instant now() const override {
         return base::Instant{std::chrono::duration_cast<base::Microseconds>(now_)};
     }
 

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "mactalk_client/wire.h"
+#include "host/byte_client.h"
 #include "midi_rack.h"
 
 namespace nplc::midi_client {
 
 /// Virtual modules on a serial line in virtual time, from the client's end.
-class RackWire final : public mactalk_client::Wire {
+class RackWire final : public host::ByteClient {
   public:
     explicit RackWire(const std::vector<sim::MidiUnit>& units) : rack(units, 0) {}
 
@@ -36,7 +36,7 @@ class RackWire final : public mactalk_client::Wire {
         received_.erase(received_.begin(), received_.begin() + static_cast<std::ptrdiff_t>(count));
         return count;
     }
-    base::Instant now() override {
+    base::Instant now() const override {
         return base::Instant{std::chrono::duration_cast<base::Microseconds>(rack.now())};
     }
 

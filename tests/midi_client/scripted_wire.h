@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "mactalk_client/wire.h"
+#include "host/byte_client.h"
 
 namespace nplc::midi_client {
 
 /// A line whose other end answers each message as written down, some time later.
-class ScriptedWire final : public mactalk_client::Wire {
+class ScriptedWire final : public host::ByteClient {
   public:
     struct Reply {
         std::vector<std::uint8_t> bytes{};
@@ -40,7 +40,7 @@ class ScriptedWire final : public mactalk_client::Wire {
         }
         return count;
     }
-    base::Instant now() override { return now_; }
+    base::Instant now() const override { return now_; }
 
     std::deque<Reply> script;
     std::vector<std::vector<std::uint8_t>> sent;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "host/endpoint.h"
 #include "host/interruption.h"
 #include "host/terminal.h"
 #include "mactalk_client/master.h"
@@ -113,20 +114,20 @@ int run(arguments::App& app, Common& common, int argc, char** argv) {
     return common.exit_code;
 }
 
-std::unique_ptr<mactalk_client::Wire> open_port(const Common& common, mactalk_client::Holding holding) {
+std::unique_ptr<host::ByteClient> open_port(const Common& common, host::ByteClient::Holding holding) {
     if (common.port.empty())
         throw UserError(
             fmt::format("no port; name one with --port or in the environment's {}", port_variable(common)));
     // A serial line says by itself what it can; a socket would take anything for the time that messages take.
-    const bool socket = common.port.starts_with("tcp:") || common.port.starts_with("unix:");
+    const bool socket = host::Endpoint(common.port).is_socket();
     if (socket && std::find(kSpeeds.begin(), kSpeeds.end(), common.baud) == kSpeeds.end())
         throw UserError(fmt::format("--baud {}: no line has that speed; take one of {}", common.baud,
                                     fmt::join(kSpeeds, ", ")));
-    auto opened = mactalk_client::open_wire(common.port, common.baud, holding);
+    auto opened = host::ByteClient::open(common.port, common.baud, holding);
     if (opened.never) throw UserError(opened.error);
-    if (opened.wire == nullptr)
+    if (opened.client == nullptr)
         throw mactalk_client::LineError(mactalk_client::LineError::Kind::port_gone, opened.error);
-    return std::move(opened.wire);
+    return std::move(opened.client);
 }
 
 void guard(Common& common, const std::function<void()>& what) {

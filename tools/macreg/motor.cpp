@@ -56,7 +56,7 @@ constexpr int kCalls = 3;
 
 class Finder {
   public:
-    Finder(mactalk_client::Wire& wire, const FinderOptions& options)
+    Finder(host::ByteClient& wire, const FinderOptions& options)
         : options_(options),
           master_(wire, {.baud = options.baud, .patience = options.patience, .attempts = 1}) {}
 
@@ -263,7 +263,7 @@ bool Motor::is_behind_gateway() {
     return *gateway_;
 }
 
-Found find_units(mactalk_client::Wire& wire, const FinderOptions& options) {
+Found find_units(host::ByteClient& wire, const FinderOptions& options) {
     return Finder(wire, options).run();
 }
 

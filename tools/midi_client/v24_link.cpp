@@ -11,7 +11,6 @@ namespace v24 = protocol::midi_v24;
 
 namespace {
 
-constexpr base::Microseconds kLongestDrain{2'000'000};
 constexpr std::size_t kAcceptedBytes = 3;
 constexpr std::size_t kValueBytes = kAcceptedBytes + v24::ReplyBytes{}.size();
 
@@ -36,6 +35,14 @@ Answer answer_of(const v24::Answer& heard) {
 
 }  // namespace
 
+V24Link::V24Link(host::ByteClient& wire, const V24Options& options)
+    : line_(wire, {.baud = options.baud,
+                   .patience = options.patience,
+                   .full = "it serves one client at a time",
+                   .perhaps_full = "it serves one client at a time, and another one probably holds it; end "
+                                   "that one first",
+                   .received = [this](std::span<const std::uint8_t> bytes) { count_answers(bytes); }}) {}
+
 Answer V24Link::ask(const Request& request) {
     const auto first = static_cast<std::uint8_t>(request.query ? v24::kFirstQuery : 0);
     const v24::Request message{.address = request.address,
@@ -43,30 +50,29 @@ Answer V24Link::ask(const Request& request) {
                                .sub_index = request.sub_index,
                                .data = request.data};
     const v24::RequestBytes bytes = v24::encode(message);
-    settle();
+    line_.settle(true);
     asked_ = request.address;
     counter(asked_).asked();
     sent_.assign(bytes.begin(), bytes.end());
     heard_.clear();
-    if (!wire_.write(bytes)) gone();
+    line_.send(bytes);
     v24::AnswerDecoder decoder;
     decoder.expect(message);
-    const base::Instant end = wire_.now() + options_.patience + on_line(bytes.size() + kValueBytes);
-    std::array<std::uint8_t, 64> received{};
-    for (base::Instant now = wire_.now(); now < end; now = wire_.now()) {
-        const std::size_t count = receive(received, end - now);
-        heard_.insert(heard_.end(), received.begin(), received.begin() + static_cast<std::ptrdiff_t>(count));
-        for (std::size_t i = 0; i < count; ++i) {
-            const v24::Answer answer = decoder.receive(received[i]);
+    Answer told;
+    const auto take = [&](std::span<const std::uint8_t> received) {
+        heard_.insert(heard_.end(), received.begin(), received.end());
+        for (const std::uint8_t byte : received) {
+            const v24::Answer answer = decoder.receive(byte);
             if (answer.kind == v24::Answer::Kind::none) continue;
-            unsettled_ = answer.kind == v24::Answer::Kind::unclear;
-            Answer told = answer_of(answer);
-            told.by_18h = told.kind == Answer::Kind::refused && received[i] == v24::kXonErrorInTheField;
-            return told;
+            told = answer_of(answer);
+            told.by_18h = told.kind == Answer::Kind::refused && byte == v24::kXonErrorInTheField;
+            return true;
         }
-    }
-    unsettled_ = true;
-    return {.kind = heard_.empty() ? Answer::Kind::silence : Answer::Kind::unclear};
+        return false;
+    };
+    if (!line_.listen(bytes.size() + kValueBytes, take) && !heard_.empty()) told.kind = Answer::Kind::unclear;
+    if (told.kind == Answer::Kind::unclear || told.kind == Answer::Kind::silence) line_.expect_late_answer();
+    return told;
 }
 
 Answer V24Link::synchronise() {
@@ -74,13 +80,7 @@ Answer V24Link::synchronise() {
 }
 
 base::Microseconds V24Link::exchange_time() const {
-    return on_line(v24::RequestBytes{}.size() + kAcceptedBytes);
-}
-
-void V24Link::pause(base::Microseconds time) {
-    const base::Instant end = wire_.now() + time;
-    std::array<std::uint8_t, 64> bytes{};
-    for (base::Instant now = wire_.now(); now < end; now = wire_.now()) receive(bytes, end - now);
+    return line_.time_of(v24::RequestBytes{}.size() + kAcceptedBytes);
 }
 
 std::string V24Link::last_sent() const {
@@ -91,47 +91,11 @@ std::string V24Link::last_heard() const {
     return fmt::format("{:02X}", fmt::join(heard_, " "));
 }
 
-/// Reads over what came before the request.
-void V24Link::settle() {
-    std::array<std::uint8_t, 64> bytes{};
-    const base::Instant last = wire_.now() + kLongestDrain;
-    const base::Microseconds wait = unsettled_ ? options_.patience : base::Microseconds{0};
-    while (receive(bytes, wait) > 0 && wire_.now() < last) {
-    }
-    unsettled_ = false;
-}
-
-std::size_t V24Link::receive(std::span<std::uint8_t> out, base::Microseconds wait) {
-    const auto count = wire_.read(out, wait);
-    if (!count) gone();
-    heard_any_ = heard_any_ || *count > 0;
-    // Either character begins an answer, and no reply holds one. Whose it is it does not say.
-    for (const std::uint8_t byte : out.first(*count)) {
+/// Either character begins an answer, and no reply holds one. Whose it is it does not say.
+void V24Link::count_answers(std::span<const std::uint8_t> bytes) {
+    for (const std::uint8_t byte : bytes) {
         if (byte == v24::kAck || byte == v24::kNack) counter(asked_).answered();
     }
-    return *count;
-}
-
-base::Microseconds V24Link::on_line(std::size_t bytes) const {
-    return base::Microseconds{static_cast<std::int64_t>(bytes) * 10'000'000 / options_.baud};
-}
-
-void V24Link::gone() {
-    const bool socket = name().starts_with("unix:") || name().starts_with("tcp:");
-    const std::string other = socket && !heard_any_ ? wire_.other_client() : std::string();
-    if (!other.empty())
-        throw LineError(
-            LineError::Kind::port_gone,
-            fmt::format("{}: it serves one client at a time, and {} is connected; end that one first", name(),
-                        other));
-    throw LineError(
-        LineError::Kind::port_gone,
-        name() + (socket && !heard_any_
-                      ? ": the other end closed the connection before anything came: it serves one client "
-                        "at a time, and another one probably holds it; end that one first"
-                  : socket ? ": the other end closed the connection; has its program ended?"
-                           : ": the other end closed the connection; was the device unplugged, or its "
-                             "program ended?"));
 }
 
 }  // namespace nplc::midi_client

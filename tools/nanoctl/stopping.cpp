@@ -7,8 +7,8 @@
 
 namespace nplc::nanoctl {
 
+using host::ByteClient;
 using mactalk_client::LineError;
-using mactalk_client::Wire;
 
 namespace {
 
@@ -68,7 +68,7 @@ class Stopping {
     bool is_idle(const Status& status) const { return holds() && status.run_state == gw::RunState::stopped; }
 
     [[noreturn]] void fail(const std::optional<Status>& status) const {
-        Wire& wire = gateway_.master().wire();
+        ByteClient& wire = gateway_.master().wire();
         const std::string holder = wire.holder();
         const std::string why =
             status ? fmt::format("the sequence is {}", name_of(status->run_state))

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/session.h"
+#include "host/endpoint.h"
 #include "host/terminal.h"
 #include "macreg/monitor.h"
 #include "macreg/motor.h"
@@ -37,10 +38,9 @@ class Search {
     Search(Common& common, const FindArguments& options) : common_(common), options_(options) {}
 
     void run() {
-        const bool socket = common_.port.starts_with("unix:") || common_.port.starts_with("tcp:") ||
-                            common_.port.starts_with("pty:");
-        if (socket || options_.this_speed) {
-            at(common_.baud, socket);
+        const bool served = host::Endpoint(common_.port).is_served();
+        if (served || options_.this_speed) {
+            at(common_.baud, served);
         } else {
             for (const std::uint32_t baud : command_line::kSpeeds) {
                 if (units_.empty() || options_.every_speed) at(baud, false);
@@ -58,7 +58,7 @@ class Search {
     }
 
   private:
-    void at(std::uint32_t baud, bool socket) {
+    void at(std::uint32_t baud, bool served) {
         look_for_interruption();
         Common here = common_;
         here.baud = baud;
@@ -71,7 +71,7 @@ class Search {
         };
         const Found found = find_units(*wire, options);
         noise_ = noise_ || found.noise;
-        for (const FoundUnit& unit : found.units) add(unit, baud, socket);
+        for (const FoundUnit& unit : found.units) add(unit, baud, served);
     }
 
     base::Microseconds patience(std::uint32_t baud) const {
@@ -80,8 +80,8 @@ class Search {
                base::Microseconds{20'000'000 / static_cast<std::int64_t>(baud)};
     }
 
-    void add(const FoundUnit& unit, std::uint32_t baud, bool socket) {
-        const std::string speed = socket ? "" : fmt::format(", {} baud", baud);
+    void add(const FoundUnit& unit, std::uint32_t baud, bool served) {
+        const std::string speed = served ? "" : fmt::format(", {} baud", baud);
         if (!text_.empty()) text_ += '\n';
         if (unit.gateway) {
             text_ += fmt::format("address {:>3}{}: a NanoPLC gateway; the motor behind it answers here too",
@@ -257,7 +257,7 @@ void replay(const Common& common, const MonitorArguments& options) {
 void listen(const Common& common, const MonitorArguments& options) {
     const auto monitor = make(common, options);
     struct Line {
-        std::unique_ptr<mactalk_client::Wire> wire;
+        std::unique_ptr<host::ByteClient> wire;
         Side side;
     };
     std::vector<Line> lines;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "host/endpoint.h"
 #include "host/interruption.h"
 
 namespace nplc::macreg::cli {
@@ -11,7 +12,6 @@ using midi_client::LineError;
 namespace {
 
 constexpr unsigned kAttempts = 6;
-constexpr std::string_view kCan = "can:";
 constexpr base::Microseconds kLook{100'000};
 constexpr base::Microseconds kLongestRamp{10'000'000};
 
@@ -48,7 +48,7 @@ std::optional<midi::reg::Model> midi_model(const MidiCommon& midi) {
 }
 
 bool is_can(const MidiCommon& midi) {
-    return midi.common.port.starts_with(kCan);
+    return host::Endpoint(midi.common.port).kind == host::Endpoint::Kind::can;
 }
 
 void look_at_address(const MidiCommon& midi, const char* what, int address) {
@@ -81,7 +81,7 @@ MidiSession::MidiSession(const MidiCommon& options, std::uint32_t baud, base::Mi
 }
 
 void MidiSession::open_can(const MidiCommon& options, base::Microseconds patience) {
-    const std::string interface = options.common.port.substr(kCan.size());
+    const std::string interface = host::Endpoint(options.common.port).place;
     if (interface.empty()) throw UserError("--port can: write the interface's name too: can:can0");
     auto opened = host::CanClient::open(interface);
     if (opened.never) throw UserError(opened.error);

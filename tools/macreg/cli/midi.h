@@ -49,7 +49,7 @@ class MidiSession {
     void open_can(const MidiCommon& options, base::Microseconds patience);
 
     const Common& common_;
-    std::unique_ptr<mactalk_client::Wire> wire_;
+    std::unique_ptr<host::ByteClient> wire_;
     std::unique_ptr<host::CanClient> can_;
     std::unique_ptr<midi_client::Link> link_;
     midi_client::CanLink* can_link_ = nullptr;

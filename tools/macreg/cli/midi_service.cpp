@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "cli/midi.h"
+#include "host/endpoint.h"
 #include "macreg/midi/raw.h"
 
 namespace nplc::macreg::cli {
@@ -138,9 +139,8 @@ class MidiSearch {
     MidiSearch(const MidiCommon& midi, const MidiFindArguments& options) : midi_(midi), options_(options) {}
 
     void run() {
-        const std::string& port = midi_.common.port;
-        const bool one = is_can(midi_) || port.starts_with("unix:") || port.starts_with("tcp:") ||
-                         port.starts_with("pty:") || options_.this_speed;
+        const host::Endpoint port(midi_.common.port);
+        const bool one = port.kind != host::Endpoint::Kind::device || options_.this_speed;
         if (one) {
             at(midi_baud(midi_));
         } else {

@@ -68,7 +68,7 @@ Model find_model(mactalk_client::Master& master, std::uint8_t address, const Com
 }
 
 /// What is wrong in the command line is told before anybody is asked.
-std::unique_ptr<mactalk_client::Wire> open(const Common& common) {
+std::unique_ptr<host::ByteClient> open(const Common& common) {
     static_cast<void>(model_option(common));
     return command_line::open_port(common);
 }

@@ -64,7 +64,7 @@ class Session {
 
   private:
     const Common& common_;
-    std::unique_ptr<mactalk_client::Wire> wire_;
+    std::unique_ptr<host::ByteClient> wire_;
     mactalk_client::Master master_;
     std::unique_ptr<Motor> motor_;
 };

@@ -23,7 +23,7 @@ void ui(Common& common) {
     options.line = {
         .baud = common.baud, .patience = base::Milliseconds{common.patience_ms}, .attempts = kAttempts};
     options.title = fmt::format("macreg {} {} at {}", options.model_name, options.address, common.port);
-    options.reopen = [&] { return mactalk_client::open_wire(common.port, common.baud); };
+    options.reopen = [&] { return host::ByteClient::open(common.port, common.baud); };
     try {
         run_ui(command_line::open_port(common), options);
     } catch (const mactalk_client::LineError&) {

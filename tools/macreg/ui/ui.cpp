@@ -34,9 +34,9 @@ std::uint8_t gateway_beside(std::uint8_t motor) {
 }
 
 /// A wire that a monitor listens to.
-class TappedWire final : public mactalk_client::Wire {
+class TappedWire final : public host::ByteClient {
   public:
-    TappedWire(std::unique_ptr<mactalk_client::Wire> wire, Monitor& monitor)
+    TappedWire(std::unique_ptr<host::ByteClient> wire, Monitor& monitor)
         : wire_(std::move(wire)), monitor_(monitor) {}
 
     const std::string& name() const override { return wire_->name(); }
@@ -50,16 +50,16 @@ class TappedWire final : public mactalk_client::Wire {
             monitor_.receive(Side::motor, out[i], wire_->now());
         return count;
     }
-    base::Instant now() override { return wire_->now(); }
+    base::Instant now() const override { return wire_->now(); }
 
   private:
-    std::unique_ptr<mactalk_client::Wire> wire_;
+    std::unique_ptr<host::ByteClient> wire_;
     Monitor& monitor_;
 };
 
 class App {
   public:
-    App(std::unique_ptr<mactalk_client::Wire> wire, const UiOptions& options)
+    App(std::unique_ptr<host::ByteClient> wire, const UiOptions& options)
         : options_(options),
           model_(options.model),
           monitor_(
@@ -80,7 +80,7 @@ class App {
     }
 
   private:
-    void connect(std::unique_ptr<mactalk_client::Wire> wire) {
+    void connect(std::unique_ptr<host::ByteClient> wire) {
         motor_.reset();
         master_.reset();
         wire_ = std::make_unique<TappedWire>(std::move(wire), *monitor_);
@@ -265,8 +265,8 @@ class App {
     void reconnect() {
         if (!options_.reopen) return;
         auto opened = options_.reopen();
-        if (opened.wire == nullptr) return;
-        connect(std::move(opened.wire));
+        if (opened.client == nullptr) return;
+        connect(std::move(opened.client));
         model_.set_trouble("NO ANSWER, asking again");
     }
 
@@ -284,7 +284,7 @@ class App {
 
 }  // namespace
 
-void run_ui(std::unique_ptr<mactalk_client::Wire> wire, const UiOptions& options) {
+void run_ui(std::unique_ptr<host::ByteClient> wire, const UiOptions& options) {
     App(std::move(wire), options).run();
 }
 

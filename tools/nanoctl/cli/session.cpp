@@ -10,9 +10,8 @@
 
 namespace nplc::nanoctl::cli {
 
-using mactalk_client::Holding;
+using host::ByteClient;
 using mactalk_client::LineError;
-using mactalk_client::Wire;
 
 namespace {
 
@@ -21,7 +20,7 @@ constexpr base::Milliseconds kTurnWait{60'000};
 
 }  // namespace
 
-Session::Session(const Common& common, Holding holding)
+Session::Session(const Common& common, ByteClient::Holding holding)
     : common_(common),
       wire_(command_line::open_port(common, holding)),
       master_(*wire_, {.baud = common.baud,
@@ -59,10 +58,10 @@ const Names& Session::names() {
 }
 
 void Session::pause(base::Microseconds time) {
-    Wire::Rest rest = wire_->rest(time);
-    if (rest == Wire::Rest::not_shared) return master_.pause(time);
+    ByteClient::Rest rest = wire_->rest(time);
+    if (rest == ByteClient::Rest::not_shared) return master_.pause(time);
     const base::Instant end = now() + kTurnWait;
-    while (rest == Wire::Rest::still_taken && goes_on()) {
+    while (rest == ByteClient::Rest::still_taken && goes_on()) {
         if (now() >= end)
             throw LineError(LineError::Kind::port_gone,
                             fmt::format("{}: {} has held this port for a minute; end it first", wire_->name(),
@@ -102,7 +101,7 @@ void tell_failures(const std::function<void()>& what) {
 void work(Common& common, const std::function<void(Session&)>& what) {
     command_line::guard(common, [&] {
         tell_failures([&] {
-            Session session(common, Holding::in_turns);
+            Session session(common, ByteClient::Holding::in_turns);
             session.gateway().identify();
             what(session);
         });
@@ -115,7 +114,7 @@ void stop_work(Common& common, const std::function<void(Session&)>& what) {
     command_line::guard(common, [&] {
         std::optional<Session> session;
         try {
-            session.emplace(common, Holding::at_once);
+            session.emplace(common, ByteClient::Holding::at_once);
         } catch (const LineError& error) {
             throw command_line::Failure(kNotConfirmed, fmt::format("{}: {}", error.what(), kMayStillRun));
         } catch (const UserError& error) {

@@ -28,7 +28,7 @@ inline constexpr int kNotConfirmed = 4;
 class Session {
   public:
     /// `holding`: of a serial line.
-    explicit Session(const Common& common, mactalk_client::Holding holding);
+    explicit Session(const Common& common, host::ByteClient::Holding holding);
 
     GatewayClient& gateway() { return gateway_; }
     /// Those of --sym; numbers, and a note on standard error, if it cannot be read or is another table's.
@@ -53,7 +53,7 @@ class Session {
     Names read_names();
 
     const Common& common_;
-    std::unique_ptr<mactalk_client::Wire> wire_;
+    std::unique_ptr<host::ByteClient> wire_;
     mactalk_client::Master master_;
     GatewayClient gateway_;
     std::optional<Names> names_;

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "arguments/arguments.h"
-#include "mactalk_client/wire.h"
+#include "host/byte_client.h"
 
 /// What the programs that talk over a MacTalk line have in common: options, exit codes, signals, how results
 /// and failures are told.
@@ -94,8 +94,8 @@ Added<Options> add_command(arguments::App& app, const std::string& name, const s
 int run(arguments::App& app, Common& common, int argc, char** argv);
 
 /// Throws UserError without a port, LineError if it cannot be opened.
-std::unique_ptr<mactalk_client::Wire> open_port(
-    const Common& common, mactalk_client::Holding holding = mactalk_client::Holding::alone);
+std::unique_ptr<host::ByteClient> open_port(
+    const Common& common, host::ByteClient::Holding holding = host::ByteClient::Holding::alone);
 
 /// Does the work of a subcommand; sets the exit code and tells what went wrong.
 void guard(Common& common, const std::function<void()>& what);

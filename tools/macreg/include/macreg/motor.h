@@ -136,6 +136,6 @@ struct Found {
 
 /// At one speed. Silence to 255 ends it at once; a single motor is known by its own answer, several by asking
 /// each address. Writes nothing. Throws LineError if the port is gone, mactalk_client::Interrupted.
-Found find_units(mactalk_client::Wire& wire, const FinderOptions& options);
+Found find_units(host::ByteClient& wire, const FinderOptions& options);
 
 }  // namespace nplc::macreg

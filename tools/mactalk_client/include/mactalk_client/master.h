@@ -3,12 +3,11 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "base/time.h"
-#include "mactalk_client/wire.h"
+#include "mactalk_client/line.h"
 #include "protocol/mactalk.h"
 
 /// A MacTalk master (001 §5.1): asks units on a line, one question at a time. Answers that belong to no
@@ -20,26 +19,6 @@ struct MasterOptions {
     /// Beyond the time that question and answer take on the line; what a host's driver delays included.
     base::Microseconds patience{150'000};
     unsigned attempts = 4;
-};
-
-class LineError : public std::runtime_error {
-  public:
-    enum class Kind : std::uint8_t {
-        port_gone,
-        no_answer,
-        no_message,  ///< what no message can say: register 0, a wrong length
-    };
-    LineError(Kind kind, const std::string& what) : std::runtime_error(what), kind_(kind) {}
-    Kind kind() const { return kind_; }
-
-  private:
-    Kind kind_;
-};
-
-/// The user has had enough: thrown by what takes long, between two questions.
-class Interrupted : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
 };
 
 /// Bytes of a register's write. On MAC50-141 a longword written to a number reaches the next number too.
@@ -56,7 +35,7 @@ class Master {
         std::uint64_t stray_bytes = 0;  ///< received and part of no answer
     };
 
-    explicit Master(Wire& wire, const MasterOptions& options = {}) : wire_(wire), options_(options) {}
+    explicit Master(host::ByteClient& wire, const MasterOptions& options = {});
 
     /// The four bytes of the answer: on MAC50-141 a 16-bit register in the lower word and the next one above.
     std::uint32_t read(std::uint8_t address, std::uint8_t reg);
@@ -92,7 +71,7 @@ class Master {
     /// Lets time pass; what comes meanwhile is read over.
     void pause(base::Microseconds time);
 
-    Wire& wire() { return wire_; }
+    host::ByteClient& wire() { return line_.port(); }
     const Counters& counters() const { return counters_; }
 
   private:
@@ -110,20 +89,12 @@ class Master {
     std::optional<Reply> ask_once(const Question& question);
     Reply ask(const Question& question);
     Reply ask(const protocol::mactalk::Request& request, std::size_t data_bytes, unsigned attempts);
-    void send(std::span<const std::uint8_t> bytes);
-    std::size_t receive(std::span<std::uint8_t> out, base::Microseconds wait);
-    void settle(bool for_accept);
-    base::Microseconds on_line(std::size_t bytes) const;
     [[noreturn]] void no_answer(std::uint8_t address, unsigned attempts, std::uint64_t bytes) const;
-    [[noreturn]] void gone();
 
-    Wire& wire_;
-    MasterOptions options_;
+    Line line_;
+    unsigned attempts_;
     Counters counters_;
     std::uint64_t heard_ = 0;  ///< bytes since the question
-    bool heard_any_ = false;
-    bool unsettled_ = false;  ///< an answer may still be on its way
-    base::Instant silent_since_{};
 };
 
 }  // namespace nplc::mactalk_client

@@ -16,35 +16,28 @@ struct V24Options {
 /// must have been silent for `patience` before the next one, for an answer does not say whose it is.
 class V24Link final : public Link {
   public:
-    explicit V24Link(mactalk_client::Wire& wire, const V24Options& options = {})
-        : wire_(wire), options_(options) {}
+    explicit V24Link(host::ByteClient& wire, const V24Options& options = {});
 
-    const std::string& name() const override { return wire_.name(); }
+    const std::string& name() const override { return line_.name(); }
     bool is_can() const override { return false; }
     Answer ask(const Request& request) override;
     Answer synchronise() override;
     std::uint8_t everyone() const override { return 0xFF; }
     std::uint8_t usual_address() const override { return 0; }
     base::Microseconds exchange_time() const override;
-    void pause(base::Microseconds time) override;
-    base::Instant now() override { return wire_.now(); }
+    void pause(base::Microseconds time) override { line_.pause(time); }
+    base::Instant now() override { return line_.now(); }
     std::string last_sent() const override;
     std::string last_heard() const override;
-    bool heard_anything() const override { return heard_any_; }
+    bool heard_anything() const override { return line_.heard_anything(); }
 
   private:
-    void settle();
-    std::size_t receive(std::span<std::uint8_t> out, base::Microseconds wait);
-    base::Microseconds on_line(std::size_t bytes) const;
-    [[noreturn]] void gone();
+    void count_answers(std::span<const std::uint8_t> bytes);
 
-    mactalk_client::Wire& wire_;
-    V24Options options_;
+    mactalk_client::Line line_;
     std::vector<std::uint8_t> sent_;
     std::vector<std::uint8_t> heard_;
-    bool heard_any_ = false;
     std::uint8_t asked_ = 0;  ///< last
-    bool unsettled_ = false;
 };
 
 }  // namespace nplc::midi_client

@@ -16,11 +16,11 @@ struct UiOptions {
     mactalk_client::MasterOptions line{};
     std::string title{};
     /// Opens the port anew after it was lost.
-    std::function<mactalk_client::OpenedWire()> reopen{};
+    std::function<host::ByteClient::Opened()> reopen{};
 };
 
 /// The full screen, until a person quits it or a signal ends it. A motor that goes away is shown, and looked
 /// for again. Throws std::runtime_error if there is no terminal.
-void run_ui(std::unique_ptr<mactalk_client::Wire> wire, const UiOptions& options);
+void run_ui(std::unique_ptr<host::ByteClient> wire, const UiOptions& options);
 
 }  // namespace nplc::macreg
