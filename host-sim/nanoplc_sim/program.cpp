@@ -44,7 +44,7 @@ Program compile(const std::string& file) {
     program.table = compilation.table;
     program.name = compilation.symbols.program;
     program.names = names_of(compilation.symbols);
-    program.midi = compilation.symbols.midi;
+    program.drive = compilation.symbols.drive;
     if (const auto warnings = compilation.diagnostics.size(); warnings != 0) {
         program.remark = fmt::format("{}: {} warning{}; `seqc check {}` shows {}", file, warnings,
                                      warnings == 1 ? "" : "s", file, warnings == 1 ? "it" : "them");
@@ -59,7 +59,7 @@ void take_names(Program& program, const std::string& file, const std::string& ot
     if (!reading.error.empty()) throw InputError(fmt::format("{}: {}; {}", file, reading.error, otherwise));
     program.name = reading.file.symbols.program;
     program.names = names_of(reading.file.symbols);
-    program.midi = reading.file.symbols.midi;
+    program.drive = reading.file.symbols.drive;
     program.symbols = file;
 }
 

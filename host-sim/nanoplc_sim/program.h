@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "registers/midi.h"
+#include "registers/family.h"
 #include "sim/names.h"
 
 namespace nplc::sim {
@@ -18,8 +18,8 @@ struct Program {
     std::uint32_t crc32 = 0;  ///< of the table, its end term included
     std::string name;         ///< as the source has it; empty for a table without names
     Names names;
-    std::optional<registers::midi::Model> midi;  ///< the drive that the source names
-    std::string symbols;                         ///< the file that the names of a table come from, or empty
+    const registers::DriveModel* drive = nullptr;  ///< as in Symbols
+    std::string symbols;                           ///< the file that the names of a table come from, or empty
     std::string nameless;  ///< one line for the user why a table's symbols were left out, or empty
     std::string remark;    ///< one line for the user about the source, or empty
 };

@@ -159,8 +159,8 @@ std::unique_ptr<hal_linux::FileStorage> open_flash(const RunOptions& options) {
 /// A JVL motor stands in for the drive of a program unless one is asked for; the drive is slower to take
 /// orders, and waits.
 void tell_stand_in(const RunOptions& options, const Program& program) {
-    if (!program.midi || options.midi_motor || options.motor) return;
-    const std::string_view drive = registers::midi::facts_of(*program.midi).name;
+    if (program.drive == nullptr || options.midi_motor || options.motor) return;
+    const std::string_view drive = program.drive->name;
     fmt::print(stderr, "{}: a {} stands in for the MIDI drive; --motor {} takes the drive\n", program.file,
                registers::name_of(program.names.motor), drive);
 }

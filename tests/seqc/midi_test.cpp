@@ -41,9 +41,9 @@ TEST(MidiPrograms, TheTableIsThatOfAMac140) {
         const auto midi = compile(program(name, kValues));
         ASSERT_TRUE(midi.ok) << name;
         EXPECT_EQ(midi.table, jvl.table) << name;
-        EXPECT_TRUE(midi.symbols.midi) << name;
+        EXPECT_TRUE(midi.symbols.drive) << name;
     }
-    EXPECT_FALSE(jvl.symbols.midi);
+    EXPECT_FALSE(jvl.symbols.drive);
 }
 
 TEST(MidiPrograms, TheListingHasTheDrivesOwnSteps) {
@@ -135,7 +135,7 @@ TEST(MidiPrograms, ARegisterThatIsNeverGivenIsWarnedOf) {
 TEST(MidiPrograms, DecompileNamesTheDrive) {
     const Compilation program_34 = compile(program("MAC34", kValues));
     DecompileOptions options{.origin = "p.bin", .motor = registers::Model::mac140};
-    options.midi = registers::midi::Model::mac34_1;
+    options.drive = registers::find_drive("MAC34-1");
     const Decompilation said = decompile(program_34.table, options);
     EXPECT_NE(said.text.find("\nMOTOR MAC34;\n"), std::string::npos) << said.text;
     EXPECT_EQ(compile(said.text).table, program_34.table);
@@ -153,7 +153,7 @@ TEST(MidiPrograms, DecompileNamesADriveOnlyForWhatItCanDo) {
         "STEP T: OWN ERROR; IF IN1 THEN NEXT := S; END_IF END_STEP\nEND_PROGRAM\n");
     ASSERT_TRUE(homing.ok);
     DecompileOptions options{.origin = "p.bin", .motor = registers::Model::mac140};
-    options.midi = registers::midi::Model::mac34_1;
+    options.drive = registers::find_drive("MAC34-1");
     const Decompilation result = decompile(homing.table, options);
     EXPECT_NE(result.text.find("\nMOTOR MAC140;\n"), std::string::npos) << result.text;
     EXPECT_NE(result.text.find("// It is written for a MAC140, because a MAC34 cannot execute HOME.\n"),
@@ -168,7 +168,7 @@ TEST(MidiPrograms, TheDriveStandsInTheSymbolFile) {
     EXPECT_NE(text.find("\"motor\": \"MAC34\""), std::string::npos) << text;
     const SymbolReading back = read_symbols(text);
     EXPECT_EQ(back.error, "");
-    EXPECT_TRUE(back.file.symbols.midi);
+    EXPECT_TRUE(back.file.symbols.drive);
     EXPECT_EQ(back.file.symbols.motor, registers::Model::mac140);
 }
 

@@ -7,7 +7,7 @@
 
 #include "base/bytes.h"
 #include "base/crc32.h"
-#include "registers/midi_motor.h"
+#include "registers/family.h"
 #include "sequencer/state.h"
 #include "sequencer/table.h"
 #include "store/settings.h"
@@ -151,18 +151,17 @@ void upload_whole(GatewayClient& gateway, std::span<const std::uint8_t> table, c
         });
 }
 
-/// What a MIDI drive has not; empty where nobody knows.
+/// Why the gateway's drive cannot do what a term orders; empty where that is not known.
 std::string_view why_not(GatewayClient& gateway, std::span<const std::uint8_t> table, std::uint16_t term) {
     constexpr auto kMotorKind =
         static_cast<std::uint8_t>(gw::SETTINGS + static_cast<int>(store::Setting::motor_kind));
     const auto loaded = sequencer::Table::load(table);
     if (!loaded.ok || term >= loaded.table.size()) return {};
-    const auto model = gw::model_of_kind(gateway.read(kMotorKind));
-    if (!model) return {};
+    const registers::DriveModel* drive = registers::drive_of_kind(gateway.read(kMotorKind));
+    if (drive == nullptr) return {};
     const auto order = sequencer::order_of(loaded.table.term(term));
-    return registers::midi::text_of(
-        order.is_flex ? registers::midi::lack_of_write(*model, order.reg, order.longword, order.value)
-                      : registers::midi::lack_of_command(order.command));
+    return order.is_flex ? drive->family->refuses_write(*drive, order.reg, order.longword, order.value)
+                         : drive->family->refuses_command(*drive, order.command);
 }
 
 void give_up(GatewayClient& gateway) {

@@ -104,9 +104,9 @@ Compilation compile(std::string_view source) {
     if (syntax_sound && !checks.has_errors()) {
         check_motor_state(plan, result.symbols.motor, checks);
         check_invisible_limits(plan, result.symbols.motor, checks);
-        if (result.symbols.midi) {
-            check_midi_motion(plan, *result.symbols.midi, checks, result.roundings);
-            check_midi_registers(plan, *result.symbols.midi, checks);
+        if (result.symbols.drive != nullptr) {
+            check_drive_motion(plan, *result.symbols.drive, checks, result.roundings);
+            check_drive_registers(plan, *result.symbols.drive, checks);
         }
     }
     std::vector<LoweredTerm> terms;

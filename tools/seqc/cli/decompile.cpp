@@ -25,9 +25,9 @@ int decompile(const DecompileArguments& options) {
     if (!options.motor.empty()) {
         const auto choice = motor_named(options.motor);
         if (!choice)
-            return file_problem(fmt::format("there is no motor '{}': {}", options.motor, kMotorNames));
+            return file_problem(fmt::format("there is no motor '{}': {}", options.motor, motor_names_text()));
         wanted.motor = choice->map;
-        wanted.midi = choice->midi;
+        wanted.drive = choice->drive;
     }
     const Input input = read_input(options.table);
     if (input.exit_code != kOk) return input.exit_code;

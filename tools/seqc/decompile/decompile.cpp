@@ -36,7 +36,7 @@ class Decompiler {
           options_(options),
           layout_(layout_of(table)),
           motor_(choose_motor()),
-          midi_(choose_drive()),
+          drive_(choose_drive()),
           drafter_(layout_, motor_) {}
 
     Decompilation run() {
@@ -59,9 +59,9 @@ class Decompiler {
         if (options_.motor) return *options_.motor;
         return options_.symbols != nullptr ? options_.symbols->motor : fitting_motor(layout_);
     }
-    std::optional<registers::midi::Model> choose_drive() const {
-        if (options_.motor) return options_.midi;
-        return options_.symbols != nullptr ? options_.symbols->midi : std::nullopt;
+    const registers::DriveModel* choose_drive() const {
+        if (options_.motor) return options_.drive;
+        return options_.symbols != nullptr ? options_.symbols->drive : nullptr;
     }
     bool motor_is_sure() const { return options_.motor || options_.symbols != nullptr; }
 
@@ -76,7 +76,7 @@ class Decompiler {
     bool attempt(const Bans& bans) {
         draft_ = drafter_.draft(bans);
         Naming naming = naming_of(bans.given_names ? nullptr : options_.symbols, stem(), motor_);
-        naming.symbols.midi = midi_;
+        naming.symbols.drive = drive_;
         const Speech speech{naming, motor_, motor_is_sure(), draft_.power_up.has_value()};
         count();
         manuscript_ = write_program(layout_, draft_, speech, head(naming));
@@ -88,14 +88,14 @@ class Decompiler {
 
     /// A program that names a drive is refused for what the drive cannot do; the table may hold that.
     bool drops_drive() {
-        if (!midi_) return false;
+        if (drive_ == nullptr) return false;
         const auto& all = compilation_.diagnostics;
         const auto found = std::find_if(all.begin(), all.end(), [](const Diagnostic& d) {
             return d.severity == Severity::error && d.code == kNotForDrive;
         });
         if (found == all.end()) return false;
         why_no_drive_ = found->message;
-        midi_.reset();
+        drive_ = nullptr;
         return true;
     }
 
@@ -218,7 +218,7 @@ class Decompiler {
     const DecompileOptions& options_;
     Layout layout_;
     Model motor_;
-    std::optional<registers::midi::Model> midi_;
+    const registers::DriveModel* drive_ = nullptr;
     std::string why_no_drive_;
     Drafter drafter_;
     Draft draft_;

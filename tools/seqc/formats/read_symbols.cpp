@@ -167,9 +167,9 @@ void read_table(const Node& table, const Node& terms, SymbolFile& file) {
 
 void read_motor(const Node& node, Symbols& symbols) {
     const auto choice = motor_named(node.text());
-    if (!choice) node.fail(std::string(kMotorNames));
+    if (!choice) node.fail(motor_names_text());
     symbols.motor = choice->map;
-    symbols.midi = choice->midi;
+    symbols.drive = choice->drive;
 }
 
 SymbolFile read(const Node& root) {

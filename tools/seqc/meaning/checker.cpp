@@ -1,4 +1,4 @@
-#include "meaning/checker.h"
+#include "meaning/drive.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <bitset>
 
 #include "meaning/actions.h"
+#include "meaning/drive.h"
 #include "meaning/motors.h"
 #include "meaning/seen_branches.h"
 #include "meaning/single_term.h"
-#include "registers/midi_motor.h"
 #include "sequencer/term.h"
 #include "syntax/names.h"
 
@@ -405,24 +405,17 @@ class Checker {
         } else if (term.is_flex && term.flex.reg == 0) {
             report_.warning("W009", raw.span, "register 0: a gateway refuses a table with this term",
                             "bits 6..0 of the fourth byte name the register, 1..127");
-        } else if (const auto drive = symbols_.midi) {
+        } else if (const auto* drive = symbols_.drive) {
             warn_if_not_for_drive(raw.span, term, *drive);
         }
     }
 
-    void warn_if_not_for_drive(Span span, const sequencer::Term& term, registers::midi::Model drive) {
-        using registers::midi::Lack;
-        Lack lack = Lack::none;
-        if (term.is_flex) {
-            const std::uint32_t value = std::uint32_t{term.flex.high_word} << 16 | term.flex.low_word;
-            lack = registers::midi::lack_of_write(drive, term.flex.reg, term.flex.longword, value);
-        } else if (term.fast.sends) {
-            lack = registers::midi::lack_of_command(term.fast.command);
-        }
-        if (lack == Lack::none) return;
+    void warn_if_not_for_drive(Span span, const sequencer::Term& term, const registers::DriveModel& drive) {
+        const registers::Refusal why = refusal_of(drive, term);
+        if (why.empty()) return;
         report_.warning("W009", span,
-                        fmt::format("a gateway with a {} refuses a table with this term", name_of(drive)),
-                        std::string(text_of(lack)));
+                        fmt::format("a gateway with a {} refuses a table with this term", drive.program_name),
+                        std::string(why));
     }
 
     using StepSet = std::bitset<sequencer::kEndOfTable + 1U>;

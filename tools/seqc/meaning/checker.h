@@ -14,14 +14,14 @@ Plan check(const ast::Program& program, Scope& scope, Report& report);
 /// what waits for an INPOS that never comes.
 void check_motor_state(const Plan& plan, registers::Model model, Report& report);
 
-/// What a MIDI drive makes of a program's moves: ramps, which depend on velocity and acceleration together
-/// and go into `roundings`, and orders that wait until it stands.
-void check_midi_motion(const Plan& plan, registers::midi::Model model, Report& report,
-                       std::vector<Rounding>& roundings);
+/// What a drive that the gateway translates for makes of a program's moves: ramps, which depend on velocity
+/// and acceleration together and go into `roundings`, and orders that wait until it stands.
+void check_drive_motion(const Plan& plan, const registers::DriveModel& drive, Report& report,
+                        std::vector<Rounding>& roundings);
 
-/// Registers that a program for a MIDI drive selects and never gives a value: a JVL motor has them in its
+/// Registers that a program for such a drive selects and never gives a value: a JVL motor has them in its
 /// flash, the gateway begins with 0 and with the drive's own.
-void check_midi_registers(const Plan& plan, registers::midi::Model model, Report& report);
+void check_drive_registers(const Plan& plan, const registers::DriveModel& drive, Report& report);
 
 /// Limits of the motor that a program sets, although reaching them does not show in ERROR (001 §5.2.1.6).
 void check_invisible_limits(const Plan& plan, registers::Model model, Report& report);

@@ -1,28 +1,28 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
-#include "registers/mac.h"
-#include "registers/midi.h"
+#include "registers/family.h"
 #include "seqc/seqc.h"
 
 namespace nplc::seqc {
 
-/// What MOTOR chooses. A program for a MIDI drive has the registers of MAC50-141, which the gateway
-/// translates.
+/// What MOTOR chooses.
 struct MotorChoice {
     registers::Model map = registers::Model::mac140;
-    std::optional<registers::midi::Model> midi{};
+    const registers::DriveModel* drive = nullptr;  ///< as in Symbols
 };
 
 /// MAC50 .. MAC800, MAC23, MAC34 (also MAC34_1 and MAC34_2: for a table they are the same). Case counts not.
 std::optional<MotorChoice> motor_named(std::string_view name);
-inline constexpr std::string_view kMotorNames =
-    "the motors are MAC50, MAC95, MAC140, MAC141 and MAC800, and MIDI's MAC23 and MAC34";
+/// All that MOTOR takes, without aliases.
+std::vector<std::string_view> motor_names();
+/// "the motors are ...", by family.
+std::string motor_names_text();
 
-/// MAC23 or MAC34.
-std::string_view name_of(registers::midi::Model model);
 std::string_view motor_name(const Symbols& symbols);
 
 }  // namespace nplc::seqc

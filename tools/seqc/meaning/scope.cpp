@@ -68,15 +68,15 @@ void Scope::declare_motor(const ast::Program& program) {
     motor_span_ = program.motor->span;
     if (const auto choice = motor_named(program.motor->text)) {
         model_ = choice->map;
-        midi_ = choice->midi;
+        drive_ = choice->drive;
         result_.symbols.motor = model_;
-        result_.symbols.midi = midi_;
+        result_.symbols.drive = drive_;
         return;
     }
-    std::string help =
-        suggestion(program.motor->text, {"MAC50", "MAC95", "MAC140", "MAC141", "MAC800", "MAC23", "MAC34"});
+    const auto names = motor_names();
+    std::string help = suggestion(program.motor->text, {names.begin(), names.end()});
     report_.error("E030", program.motor->span, fmt::format("there is no motor '{}'", program.motor->text),
-                  help.empty() ? std::string(kMotorNames) : help);
+                  help.empty() ? motor_names_text() : help);
 }
 
 void Scope::declare_scale(const ast::Program& program) {

@@ -52,7 +52,7 @@ class Scope {
     std::optional<std::uint32_t> value(const ast::Value& value, const registers::Register& reg,
                                        std::string_view shown);
 
-    /// Reports what a MIDI drive has nothing for; true if there is nothing to report.
+    /// Reports what the drive cannot do; true if there is nothing to report.
     bool is_for_drive(const Send& send);
 
     /// Register values of VAR_MOTOR, in order.
@@ -93,7 +93,7 @@ class Scope {
     void note_drive_value(const ast::Value& value, const registers::Register& reg, std::string_view shown,
                           double exact, double per_unit, std::uint32_t bits);
     std::string motor_name() const;
-    void report_lack(const Send& send, std::string message);
+    void report_refusal(const Send& send, std::string message);
     bool is_on_drive(const registers::Register& reg, Span span);
     std::string_view text(Span span) const { return source_.substr(span.offset, span.length); }
 
@@ -101,7 +101,7 @@ class Scope {
     Report& report_;
     Compilation& result_;
     registers::Model model_ = registers::Model::mac140;
-    std::optional<registers::midi::Model> midi_;
+    const registers::DriveModel* drive_ = nullptr;
     bool motor_known_ = false;
     Span motor_span_;
     std::optional<LengthUnit> length_;

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "meaning/commands.h"
-#include "meaning/midi_value.h"
+#include "meaning/drive.h"
 #include "meaning/motors.h"
 #include "meaning/scope.h"
 #include "syntax/names.h"
@@ -48,43 +48,41 @@ std::string Scope::motor_name() const {
 }
 
 bool Scope::is_for_drive(const Send& send) {
-    if (!midi_ || lack_of(*midi_, send) == registers::midi::Lack::none) return true;
-    report_lack(send,
-                send.reg != nullptr
-                    ? fmt::format("a {} cannot take {} for {}", motor_name(), text(send.span), send.reg->name)
-                    : fmt::format("a {} cannot execute {}", motor_name(), describe_command(send.command)));
+    if (drive_ == nullptr || refusal_of(*drive_, send).empty()) return true;
+    report_refusal(
+        send, send.reg != nullptr
+                  ? fmt::format("a {} cannot take {} for {}", motor_name(), text(send.span), send.reg->name)
+                  : fmt::format("a {} cannot execute {}", motor_name(), describe_command(send.command)));
     return false;
 }
 
-void Scope::report_lack(const Send& send, std::string message) {
-    report_
-        .error("E044", send.span, std::move(message),
-               std::string(registers::midi::text_of(lack_of(*midi_, send))))
+void Scope::report_refusal(const Send& send, std::string message) {
+    report_.error("E044", send.span, std::move(message), std::string(refusal_of(*drive_, send)))
         .notes.push_back({motor_span_, "the drive is chosen here"});
 }
 
 /// Whether it is there at all, whatever the value.
 bool Scope::is_on_drive(const Register& reg, Span span) {
-    if (!midi_) return true;
+    if (drive_ == nullptr) return true;
     const Send zero{&reg, 0, 0, span};
     const Send one{&reg, 0, 1, span};
-    const auto lack = lack_of(*midi_, zero);
-    if (lack == registers::midi::Lack::none || lack != lack_of(*midi_, one)) return true;
-    report_lack(zero, fmt::format("a {} has no {}", motor_name(), reg.name));
+    const registers::Refusal why = refusal_of(*drive_, zero);
+    if (why.empty() || why != refusal_of(*drive_, one)) return true;
+    report_refusal(zero, fmt::format("a {} has no {}", motor_name(), reg.name));
     return false;
 }
 
 /// What becomes of a value that the drive can take.
 void Scope::note_drive_value(const ast::Value& value, const Register& reg, std::string_view shown_name,
                              double exact, double per_unit, std::uint32_t bits) {
-    const auto drive = drive_value(*midi_, reg, bits);
+    const auto drive = drive_->family->value_of(*drive_, reg, bits);
     if (!drive) return;
     const double error = exact == 0 ? 0 : (drive->raw - exact) / std::fabs(exact);
     const std::string_view unit = value.is_time ? std::string_view("ms") : value.unit.text;
     const std::string what =
         fmt::format("{} := {} is {}, on a {} {} ({:.6g}{}{}, {:+.3f} %)", shown_name, text(value.span),
-                    static_cast<std::int64_t>(number_of_bits(bits, reg.format)), motor_name(), drive->text,
-                    drive->raw / per_unit, unit.empty() ? "" : " ", unit, error * 100);
+                    static_cast<std::int64_t>(number_of_bits(bits, reg.format)), motor_name(),
+                    text_of(*drive), drive->raw / per_unit, unit.empty() ? "" : " ", unit, error * 100);
     result_.roundings.push_back({value.span, what});
     if (std::fabs(error) <= kWorthAWarning) return;
     Diagnostic& d =
@@ -226,7 +224,8 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& value, const Registe
     const auto all_bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(raw));
     const std::uint32_t bits = registers::is_32_bit(reg.format) ? all_bits : all_bits & 0xFFFFU;
     if (!is_for_drive({&reg, 0, bits, value.span})) return std::nullopt;
-    const bool by_drive = midi_ && raw != 0 && drive_value(*midi_, reg, bits);
+    const bool by_drive =
+        drive_ != nullptr && raw != 0 && drive_->family->value_of(*drive_, reg, bits).has_value();
     if (by_drive)
         note_drive_value(value, reg, shown_name, exact, *per_unit, bits);
     else if (!note_rounding(value, shown_name, exact, raw, *per_unit))

@@ -38,8 +38,8 @@ std::string listing(const Compilation& compilation, std::string_view source, std
         if (!symbols.steps[i].empty()) text += fmt::format("{:5}  {}\n", i, symbols.steps[i]);
     }
     if (!compilation.roundings.empty())
-        text += symbols.midi ? fmt::format("\nconstants on a {}:\n", motor_name(symbols))
-                             : std::string("\nrounded constants:\n");
+        text += symbols.drive != nullptr ? fmt::format("\nconstants on a {}:\n", motor_name(symbols))
+                                         : std::string("\nrounded constants:\n");
     for (const Rounding& rounding : compilation.roundings) {
         text += fmt::format("{:>12}  {}\n", fmt::format("line {}", positions.of(rounding.span.offset).line),
                             rounding.text);

@@ -117,12 +117,14 @@ const Transition* longest_from_start(const TableReport& report) {
 }
 
 /// The times are those of FastMAC and FlexMAC.
-bool is_for_midi(const TableReport& report) {
-    return report.symbols && report.symbols->midi;
+bool is_translated(const TableReport& report) {
+    return report.symbols && report.symbols->drive != nullptr;
 }
 
 std::string line_heading(const TableReport& report) {
-    if (is_for_midi(report)) return "\nhow long a MIDI drive's line is kept is not worked out\n";
+    if (is_translated(report))
+        return fmt::format("\nhow long a {} drive's line is kept is not worked out\n",
+                           report.symbols->drive->family->name());
     const auto ms = [&](std::uint32_t characters) { return milliseconds(characters, report.settings.baud); };
     std::string text = fmt::format("\nmotor's line at {} baud, {} communication\n", report.settings.baud,
                                    report.settings.safe_communication ? "safe" : "rapid");
@@ -136,7 +138,7 @@ std::string line_heading(const TableReport& report) {
 
 std::string line_text(const TableReport& report) {
     std::string text = line_heading(report);
-    if (is_for_midi(report)) return text;
+    if (is_translated(report)) return text;
     text += "\n chars   line ms   until done, ms    sent\n";
     std::size_t silent = 0;
     std::set<std::vector<std::string>> seen;
@@ -159,7 +161,7 @@ Json json_of(const Transition& transition, const TableReport& report) {
               {"to", transition.to},
               {"condition", condition_of(transition, report)},
               {"orders", transition.orders}};
-    if (is_for_midi(report)) return json;
+    if (is_translated(report)) return json;
     json["messages"] = line.messages;
     json["characters"] = line.characters;
     json["line_ms"] = ms(line.characters);
@@ -180,7 +182,7 @@ std::string summary_of(const TableReport& report) {
     std::string text = room_text(report) + line_heading(report);
     const auto later = std::find_if(report.transitions.begin(), report.transitions.end(),
                                     [](const Transition& t) { return t.from != 0 && !t.orders.empty(); });
-    if (later == report.transitions.end() || is_for_midi(report)) return text;
+    if (later == report.transitions.end() || is_translated(report)) return text;
     const auto ms = [&](std::uint32_t characters) { return milliseconds(characters, report.settings.baud); };
     return text + fmt::format("longest after it: {} -> {}, {}: {:.2f} to {:.2f} ms\n",
                               name_of(report, later->from), name_of(report, later->to),

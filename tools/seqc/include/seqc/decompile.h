@@ -14,7 +14,7 @@ struct DecompileOptions {
     std::string origin;                     ///< the table's file, for the comment at the head
     std::optional<registers::Model> motor;  ///< nothing: that of `symbols`, else the one that fits
     /// The drive that a gateway translates for, if `motor` is said; else that of `symbols`.
-    std::optional<registers::midi::Model> midi{};
+    const registers::DriveModel* drive = nullptr;
     const Symbols* symbols = nullptr;  ///< names to use; those that are no names are made up
 };
 

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "registers/family.h"
 #include "registers/mac.h"
-#include "registers/midi.h"
 #include "seqc/diagnostic.h"
 
 namespace nplc::seqc {
@@ -36,7 +36,8 @@ struct Scale {
 struct Symbols {
     std::string program;
     registers::Model motor = registers::Model::mac140;  ///< whose registers they are
-    std::optional<registers::midi::Model> midi{};       ///< the drive that the gateway translates them for
+    /// The drive that the gateway translates them for; null: the motor has them itself.
+    const registers::DriveModel* drive = nullptr;
     std::optional<Scale> scale;
     std::array<std::string, 63> steps;   ///< by step number; empty where the table has no such step
     std::array<std::string, 6> inputs;   ///< as declared, else IN0..IN5

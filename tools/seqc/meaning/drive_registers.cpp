@@ -1,4 +1,4 @@
-// Registers that a program for a MIDI drive selects and never gives a value.
+// Registers that a program for a drive without registers selects and never gives a value.
 #include <fmt/format.h>
 
 #include <set>
@@ -34,8 +34,8 @@ std::uint8_t register_of(Group group, unsigned index) {
 
 class UnsetRegisters {
   public:
-    UnsetRegisters(const Plan& plan, registers::midi::Model model, Report& report)
-        : plan_(plan), model_(model), report_(report) {
+    UnsetRegisters(const Plan& plan, const registers::DriveModel& drive, Report& report)
+        : plan_(plan), drive_(drive), report_(report) {
         for (const RawTerm& term : plan.terms) take(term);
         for (const StepPlan& step : plan.steps) {
             for (const RawTerm& term : step.terms) take(term);
@@ -81,10 +81,10 @@ class UnsetRegisters {
         const bool is_place = group == Group::p;
         report_.warning(
             "W017", send.span,
-            is_place
-                ? fmt::format("{} is never given a value: with a {} it is the place 0", name, name_of(model_))
-                : fmt::format("{} is never given a value: with a {} selecting it changes nothing", name,
-                              name_of(model_)),
+            is_place ? fmt::format("{} is never given a value: with a {} it is the place 0", name,
+                                   drive_.program_name)
+                     : fmt::format("{} is never given a value: with a {} selecting it changes nothing", name,
+                                   drive_.program_name),
             fmt::format(
                 "give it one in VAR_MOTOR; the gateway keeps {} for the drive, and forgets it when it "
                 "is switched off",
@@ -92,7 +92,7 @@ class UnsetRegisters {
     }
 
     const Plan& plan_;
-    registers::midi::Model model_;
+    const registers::DriveModel& drive_;
     Report& report_;
     std::set<std::uint8_t> given_;
     std::set<std::pair<std::uint32_t, std::uint8_t>> judged_;
@@ -100,8 +100,8 @@ class UnsetRegisters {
 
 }  // namespace
 
-void check_midi_registers(const Plan& plan, registers::midi::Model model, Report& report) {
-    UnsetRegisters(plan, model, report).run();
+void check_drive_registers(const Plan& plan, const registers::DriveModel& drive, Report& report) {
+    UnsetRegisters(plan, drive, report).run();
 }
 
 }  // namespace nplc::seqc

@@ -1,4 +1,4 @@
-// Velocities, accelerations and motion of a MIDI drive from step to step.
+// Velocities, accelerations and motion of a drive that the gateway translates for, from step to step.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,15 +8,13 @@
 
 #include "meaning/checker.h"
 #include "meaning/commands.h"
-#include "meaning/midi_value.h"
+#include "meaning/drive.h"
 #include "meaning/motors.h"
 #include "meaning/units.h"
-#include "registers/midi_scale.h"
 
 namespace nplc::seqc {
 namespace {
 
-namespace midi = registers::midi;
 using protocol::fastmac::Group;
 using protocol::fastmac::Mode;
 using protocol::fastmac::Number;
@@ -110,10 +108,11 @@ Effect effect_of(const Send& send) {
     return effect;
 }
 
-class MidiWalk {
+class DriveWalk {
   public:
-    MidiWalk(const Plan& plan, midi::Model model, Report& report, std::vector<Rounding>& roundings)
-        : plan_(plan), model_(model), report_(report), roundings_(roundings) {
+    DriveWalk(const Plan& plan, const registers::DriveModel& drive, Report& report,
+              std::vector<Rounding>& roundings)
+        : plan_(plan), drive_(drive), report_(report), roundings_(roundings) {
         for (const StepPlan& step : plan.steps) {
             for (const Rule& rule : step.rules) {
                 for (const Send& send : rule.action.sends) {
@@ -197,67 +196,64 @@ class MidiWalk {
                            : effect.a                 ? "an acceleration"
                            : effect.v && !to_velocity ? "the velocity of moves to positions"
                                                       : nullptr;
-        if (what == nullptr || !waited_.insert(send.span.offset).second) return;
+        if (what == nullptr || !drive_.family->waits_for_standstill() ||
+            !waited_.insert(send.span.offset).second)
+            return;
         report_
-            .warning(
-                "W015", send.span,
-                fmt::format("this waits until the motor stands: in motion a {} takes no {}", name_of(model_),
-                            std::string_view(what).substr(std::string_view(what).find(' ') + 1)),
-                "wait for INPOS before, or STOP first; leave it if waiting is what you want")
+            .warning("W015", send.span,
+                     fmt::format("this waits until the motor stands: in motion a {} takes no {}",
+                                 drive_.program_name,
+                                 std::string_view(what).substr(std::string_view(what).find(' ') + 1)),
+                     "wait for INPOS before, or STOP first; leave it if waiting is what you want")
             .notes.push_back({state.motion, "it may still move since this"});
     }
 
     void judge_ramps(const Send& send, const DriveState& state) {
         std::vector<std::string> impossible;
-        midi::Lack lack = midi::Lack::none;
+        registers::Refusal why;
         for (const std::int16_t v : state.v) {
             for (const std::uint16_t a : state.a) {
-                const midi::Lack found = midi::lack_of_profile(model_, v, a);
-                if (found == midi::Lack::none) {
+                const registers::Refusal found = drive_.family->refuses_profile(drive_, v, a);
+                if (found.empty()) {
                     note_ramp(send, v, a);
                 } else {
-                    lack = found;
+                    why = found;
                     impossible.push_back(fmt::format("{:.6g} rpm with {:.6g} rpm/s", rpm(v), rpm_per_s(a)));
                 }
             }
         }
         if (impossible.empty() || !refused_.insert(send.span.offset).second) return;
         const bool always = impossible.size() == state.v.size() * state.a.size();
-        const std::string message = fmt::format("a {} cannot reach {}", name_of(model_), impossible.front());
+        const std::string message =
+            fmt::format("a {} cannot reach {}", drive_.program_name, impossible.front());
         if (always)
-            report_.error("E044", send.span, message, std::string(midi::text_of(lack)));
+            report_.error("E044", send.span, message, std::string(why));
         else
-            report_.warning("W016", send.span, message + ", if they meet here",
-                            std::string(midi::text_of(lack)));
+            report_.warning("W016", send.span, message + ", if they meet here", std::string(why));
     }
 
-    /// The ramp is rounded up, so the motor accelerates at most as fast as wanted; what that costs is less
-    /// than 120 increments, so it is told and not warned of.
+    /// Too small a difference to warn of.
     void note_ramp(const Send& send, std::int16_t v, std::uint16_t a) {
-        const auto period = midi::period_of_v_soll(model_, v);
-        if (v == 0 || !period || !noted_.insert({v, a}).second) return;
-        const int ramp = midi::ramp_of_a_soll(model_, a, *period).value_or(0);
-        const midi::Facts& facts = midi::facts_of(model_);
-        const double speed = static_cast<double>(midi::kTicksPerSecond) / *period;  // increments a second
-        const double done =
-            speed * speed / (2.0 * midi::kRampIncrements * ramp) / facts.increments_per_rev * 60;
+        const auto ramp = drive_.family->ramp_of(drive_, v, a);
+        if (!ramp || !noted_.insert({v, a}).second) return;
+        const double done = ramp->raw / raw_per_rpm_per_s();
         const double error = (done - rpm_per_s(a)) / rpm_per_s(a);
-        const std::string what = fmt::format(
-            "{:.6g} rpm with {:.6g} rpm/s, on a {} a ramp of {} x {} increments ({:.6g} rpm/s, {:+.3f} %)",
-            rpm(v), rpm_per_s(a), name_of(model_), ramp, midi::kRampIncrements, done, error * 100);
-        roundings_.push_back({send.span, what});
+        roundings_.push_back(
+            {send.span,
+             fmt::format("{:.6g} rpm with {:.6g} rpm/s, on a {} {} ({:.6g} rpm/s, "
+                         "{:+.3f} %)",
+                         rpm(v), rpm_per_s(a), drive_.program_name, text_of(*ramp), done, error * 100)});
     }
 
     double rpm(std::int16_t v) const { return v / *raw_per_unit(*reg(registers::V_SOLL), kMap, {}, "rpm"); }
-    double rpm_per_s(std::uint16_t a) const {
-        return a / *raw_per_unit(*reg(registers::A_SOLL), kMap, {}, "rpm/s");
-    }
+    double rpm_per_s(std::uint16_t a) const { return a / raw_per_rpm_per_s(); }
+    double raw_per_rpm_per_s() const { return *raw_per_unit(*reg(registers::A_SOLL), kMap, {}, "rpm/s"); }
     static const registers::Register* reg(std::uint8_t number) { return registers::find(kMap, number); }
 
     static constexpr registers::Model kMap = registers::Model::mac140;
 
     const Plan& plan_;
-    midi::Model model_;
+    const registers::DriveModel& drive_;
     Report& report_;
     std::vector<Rounding>& roundings_;
     std::map<std::uint8_t, std::set<std::uint32_t>> given_;  ///< every value that a register is given
@@ -269,9 +265,9 @@ class MidiWalk {
 
 }  // namespace
 
-void check_midi_motion(const Plan& plan, midi::Model model, Report& report,
-                       std::vector<Rounding>& roundings) {
-    MidiWalk(plan, model, report, roundings).run();
+void check_drive_motion(const Plan& plan, const registers::DriveModel& drive, Report& report,
+                        std::vector<Rounding>& roundings) {
+    DriveWalk(plan, drive, report, roundings).run();
 }
 
 }  // namespace nplc::seqc
