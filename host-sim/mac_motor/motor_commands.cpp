@@ -1,46 +1,46 @@
-#include "sim/mac_motor.h"
+#include "sim/motor_commands.h"
 
 namespace nplc::sim {
 
 namespace fastmac = protocol::fastmac;
 
-void MacMotor::execute(const fastmac::Command& command) {
+void MotorCommands::execute(const fastmac::Command& command) {
     if (command.mode == fastmac::Mode::command) {
         return execute_number(static_cast<fastmac::Number>(command.number));
     }
     select(command.group, command.index);
-    request_mode(
+    modes_.request_mode(
         static_cast<std::uint16_t>(command.mode));  // init, velocity and position have MODE_REG's numbers
 }
 
 // 001 §5.2.1.4. The link's own commands do not come here.
-void MacMotor::execute_number(fastmac::Number number) {
+void MotorCommands::execute_number(fastmac::Number number) {
     const auto set_p_fnc = [&](int n) {
         const std::int64_t follow_error = memory_.get(cell::FLWERR);
         memory_.set(cell::P_FNC, wrap32((follow_error - memory_.get(cell::P1[n - 1])) * 16));
     };
     const auto set_p_soll = [&](int n) {
-        memory_.set(cell::P_SOLL,
-                    wrap32(std::int64_t{p_ist()} + memory_.get(cell::P1[n - 1]) - memory_.get(cell::FLWERR)));
+        memory_.set(cell::P_SOLL, wrap32(std::int64_t{state_.p_ist()} + memory_.get(cell::P1[n - 1]) -
+                                         memory_.get(cell::FLWERR)));
     };
     using enum fastmac::Number;
     switch (number) {
         case reset_error:
-            return set_error_bits(bits().resettable, false);
+            return state_.set_error_bits(state_.bits().resettable, false);
         case clear_p_soll:
             memory_.set(cell::P_SOLL, 0);
-            return clear_in_position();
+            return profile_.clear_in_position();
         case clear_p_ist:
             return memory_.set(cell::P_IST, 0);
         case clear_p_fnc:
             memory_.set(cell::P_FNC, 0);
-            return clear_in_position();
+            return profile_.clear_in_position();
         case clear_v_soll:
             return memory_.set(cell::V_SOLL, 0);
         case clear_t_soll:
             return memory_.set(cell::T_SOLL, 0);
         case clear_in_pos:
-            return clear_in_position();
+            return profile_.clear_in_position();
         case move_p7_by_p_fnc:
             return set_p_fnc(7);
         case move_p8_by_p_fnc:
@@ -54,7 +54,7 @@ void MacMotor::execute_number(fastmac::Number number) {
         case use_set_4:
             return select_set(4);
         case home:
-            return request_home();
+            return modes_.request_home();
         case move_p7_by_p_soll:
             return set_p_soll(7);
         case move_p8_by_p_soll:
@@ -70,10 +70,10 @@ void MacMotor::execute_number(fastmac::Number number) {
     }
 }
 
-void MacMotor::select(fastmac::Group group, int index) {
+void MotorCommands::select(fastmac::Group group, int index) {
     switch (group) {
         case fastmac::Group::p:
-            return select_position(index);
+            return profile_.select_position(index);
         case fastmac::Group::v:
             return copy(cell::V1[index - 1], cell::V_SOLL);
         case fastmac::Group::a:
@@ -87,28 +87,13 @@ void MacMotor::select(fastmac::Group group, int index) {
     }
 }
 
-// 001 §3.2.35 bits 9 and 10. R: P_FNC wins if both are set.
-void MacMotor::select_position(int index) {
-    const auto flags = static_cast<std::uint32_t>(
-        memory_.get(bits().relpos_in_cntrl_bits ? cell::CNTRL_BITS : cell::ERR_STAT));
-    const std::int64_t position = memory_.get(cell::P1[index - 1]);
-    if ((flags & bits().relpos_p_fnc) != 0) {
-        memory_.set(cell::P_FNC, wrap32(memory_.get(cell::P_FNC) - 16 * position));
-    } else if ((flags & bits().relpos_p_soll) != 0) {
-        memory_.set(cell::P_SOLL, wrap32(memory_.get(cell::P_SOLL) + position));
-    } else {
-        memory_.set(cell::P_SOLL, wrap32(position));
-    }
-    clear_in_position();
-}
-
-void MacMotor::select_set(int index) {
+void MotorCommands::select_set(int index) {
     using enum fastmac::Group;
     for (const auto group : {p, v, a, t, l, z}) select(group, index);
 }
 
 // 001 §3.2.43 - 48. R: a pointer out of range is left as it is and does nothing.
-void MacMotor::act_on_pointers() {
+void MotorCommands::act_on_pointers() {
     using enum fastmac::Group;
     struct Pointer {
         Cell cell;
@@ -125,60 +110,13 @@ void MacMotor::act_on_pointers() {
     }
 }
 
-void MacMotor::set_relative(bool p_soll, bool p_fnc) {
-    const Cell where = bits().relpos_in_cntrl_bits ? cell::CNTRL_BITS : cell::ERR_STAT;
+void MotorCommands::set_relative(bool p_soll, bool p_fnc) {
+    const Cell where = state_.bits().relpos_in_cntrl_bits ? cell::CNTRL_BITS : cell::ERR_STAT;
     auto flags = static_cast<std::uint32_t>(memory_.get(where));
-    flags &= ~(bits().relpos_p_soll | bits().relpos_p_fnc);
-    if (p_soll) flags |= bits().relpos_p_soll;
-    if (p_fnc) flags |= bits().relpos_p_fnc;
+    flags &= ~(state_.bits().relpos_p_soll | state_.bits().relpos_p_fnc);
+    if (p_soll) flags |= state_.bits().relpos_p_soll;
+    if (p_fnc) flags |= state_.bits().relpos_p_fnc;
     memory_.set(where, static_cast<std::int32_t>(flags));
-}
-
-void MacMotor::show_framing_error(bool seen) {
-    if (bits().frame_err_tx != 0) set_error_bits(bits().frame_err_tx, seen);
-}
-
-std::uint8_t MacMotor::my_address() const {
-    return static_cast<std::uint8_t>(memory_.get(cell::MYADDR));
-}
-
-std::uint32_t MacMotor::read_register(std::uint8_t reg, bool longword) const {
-    return memory_.read(reg, longword);
-}
-
-void MacMotor::write_register(std::uint8_t reg, std::uint32_t value, bool longword) {
-    const std::uint16_t mode_before = mode();
-    memory_.write(reg, value, longword);
-    const auto touches = [&](Cell cell) {
-        const int words = longword && !is_mac800(model()) ? 2 : 1;
-        const int last = cell.small + (cell.kind == Cell::Kind::long_int && !is_mac800(model()) ? 1 : 0);
-        return reg <= last && reg + words > cell.small;
-    };
-    if (touches(cell::FLWERR)) follow_error_16_ = 16 * std::int64_t{memory_.get(cell::FLWERR)};
-    if (touches(cell::MODE_REG)) {
-        const std::uint16_t wanted = mode();
-        set_mode(mode_before);
-        request_mode(wanted);
-    }
-    act_on_pointers();
-}
-
-std::int32_t MacMotor::read(std::uint8_t reg) const {
-    if (reg == 0) return 0;
-    const registers::Register* entry = registers::find(model(), reg);
-    const bool wide = is_mac800(model()) || (entry != nullptr && registers::is_32_bit(entry->format));
-    const std::uint32_t value = memory_.read(reg, wide);
-    const bool has_sign = entry != nullptr && entry->min < 0;
-    return !wide && has_sign ? static_cast<std::int16_t>(value) : static_cast<std::int32_t>(value);
-}
-
-void MacMotor::write(std::uint8_t reg, std::int32_t value, bool longword) {
-    write_register(reg, static_cast<std::uint32_t>(value), longword);
-}
-
-void MacMotor::write(std::uint8_t reg, std::int32_t value) {
-    const registers::Register* entry = registers::find(model(), reg);
-    write(reg, value, is_mac800(model()) || (entry != nullptr && registers::is_32_bit(entry->format)));
 }
 
 }  // namespace nplc::sim

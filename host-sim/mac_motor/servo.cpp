@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/analogue_input.h"
 #include "sim/bounds.h"
+#include "sim/terminals.h"
 
 namespace nplc::sim {
 namespace {

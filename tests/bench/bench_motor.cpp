@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <tuple>
-#include <vector>
 
 #include "bench_main.h"
 #include "sim/mac_motor.h"
@@ -26,8 +26,7 @@ void set(MacMotor& motor, int reg, std::int32_t value) {
 /// Moves to and fro in position mode, so that every part of a move is timed.
 void samples(benchmark::State& state, registers::Model model, Servo::Depth depth) {
     const auto count = static_cast<std::size_t>(state.range(0));
-    std::vector<MacMotor> motors;
-    motors.reserve(count);
+    std::deque<MacMotor> motors;
     for (std::size_t i = 0; i < count; ++i) {
         MacMotorOptions options;
         options.depth = depth;

@@ -65,14 +65,20 @@ struct Scene {
     Servo::Depth depth = Servo::Depth::current_loop;
 };
 
-MacMotor motor_of(const Scene& scene) {
+MacMotorOptions options_of(const Scene& scene) {
     MacMotorOptions options{.depth = scene.depth};
     options.load.inertia_256 = scene.kvout * 256 * scene.percent / 100;
     options.load.friction_torque = scene.friction;
-    MacMotor motor(scene.big ? registers::Model::mac800 : registers::Model::mac140, options);
+    return options;
+}
+
+registers::Model model_of(const Scene& scene) {
+    return scene.big ? registers::Model::mac800 : registers::Model::mac140;
+}
+
+void enter_position_mode(MacMotor& motor, const Scene& scene) {
     set(motor, KVOUT, scene.kvout * (scene.big ? 0x10000 : 0x100));
     set(motor, MODE_REG, 2);
-    return motor;
 }
 
 /// Makes the move; answers how far beyond the target the shaft was. Profile: V_SOLL and A_SOLL at every
@@ -115,7 +121,8 @@ TEST(MotorMoves, NoOvershootWhereKvoutIsRight) {
                           .percent = 100,
                           .friction = between(random, 0, 8),
                           .depth = n % 4 == 0 ? Servo::Depth::outer_loop : Servo::Depth::current_loop};
-        MacMotor motor = motor_of(scene);
+        MacMotor motor(model_of(scene), options_of(scene));
+        enter_position_mode(motor, scene);
         const Move move = random_move(random, scene.kvout);
         SCOPED_TRACE("seed 1, move " + std::to_string(n));
         const std::int64_t beyond = beyond_of(motor, move);
@@ -138,7 +145,8 @@ TEST(MotorMoves, OvershootIsBoundedWhereKvoutIsWrong) {
                           .kvout = between(random, 1, 5),
                           .percent = nearly ? between(random, 80, 125) : between(random, 50, 200),
                           .friction = between(random, 0, 8)};
-        MacMotor motor = motor_of(scene);
+        MacMotor motor(model_of(scene), options_of(scene));
+        enter_position_mode(motor, scene);
         const Move move = random_move(random, scene.kvout);
         SCOPED_TRACE("seed 1, move " + std::to_string(n));
         const std::int64_t beyond = beyond_of(motor, move);
@@ -165,7 +173,8 @@ TEST(MotorMoves, ChangesOnTheWayKeepVelocityAccelerationAndTarget) {
     for (int n = 0; n < kMoves / 4; ++n) {
         const Scene scene{
             .big = n % 3 == 0, .kvout = 1, .percent = 100, .friction = 5, .depth = Servo::Depth::outer_loop};
-        MacMotor motor = motor_of(scene);
+        MacMotor motor(model_of(scene), options_of(scene));
+        enter_position_mode(motor, scene);
         SCOPED_TRACE("seed 1, move " + std::to_string(n));
         std::int64_t velocity = 0;
         for (int change = 0; change < 4; ++change) {

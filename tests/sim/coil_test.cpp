@@ -1,5 +1,5 @@
 // COIL_MODE (001 §4.4.20).
-#include "sim/coil.h"
+#include "sim/profile_blocks.h"
 
 #include "motor_bench.h"
 

@@ -1,5 +1,5 @@
 // The virtual motor's bits against the register maps' names for them.
-#include "sim/error_bits.h"
+#include "sim/motor_state.h"
 
 #include <gtest/gtest.h>
 

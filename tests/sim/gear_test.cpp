@@ -1,4 +1,4 @@
-#include "sim/gear.h"
+#include "sim/profile_blocks.h"
 
 #include <cstdlib>
 

@@ -1,4 +1,4 @@
-#include "sim/homing.h"
+#include "sim/profile_blocks.h"
 
 #include <cstdlib>
 

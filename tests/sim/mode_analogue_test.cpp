@@ -1,5 +1,5 @@
 // The modes that the analogue input steers, with numbers of 001 §4.1 and §4.4.
-#include "sim/analogue_blocks.h"
+#include "sim/profile_blocks.h"
 
 #include <cstdlib>
 

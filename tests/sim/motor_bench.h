@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <initializer_list>
+#include <memory>
 #include <vector>
 
 #include "protocol/fastmac.h"
@@ -13,10 +14,14 @@ namespace nplc::sim {
 /// A motor on a 19200 baud line in virtual time: every character takes 10 bits, both directions run at once,
 /// samples come at the motor's own period.
 class MotorBench {
+    std::unique_ptr<MacMotor> owned_;  // so that a bench can be moved
+
   public:
     explicit MotorBench(registers::Model model = registers::Model::mac140,
                         const MacMotorOptions& options = {})
-        : motor(model, options), character_(std::chrono::nanoseconds(10'000'000'000 / options.baud)) {}
+        : owned_(std::make_unique<MacMotor>(model, options)),
+          motor(*owned_),
+          character_(std::chrono::nanoseconds(10'000'000'000 / options.baud)) {}
 
     void send(std::initializer_list<int> bytes) {
         for (const int byte : bytes) send_one(static_cast<std::uint8_t>(byte));
@@ -63,7 +68,7 @@ class MotorBench {
     void set(int number, std::int32_t value) { motor.write(static_cast<std::uint8_t>(number), value); }
     base::Instant at() const { return base::Instant(std::chrono::duration_cast<base::Microseconds>(now_)); }
 
-    MacMotor motor;
+    MacMotor& motor;
     std::vector<std::uint8_t> sent;  ///< by the motor
 
   private:

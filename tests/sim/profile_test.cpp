@@ -1,4 +1,4 @@
-#include "sim/profile.h"
+#include "sim/profile_blocks.h"
 
 #include <gtest/gtest.h>
 

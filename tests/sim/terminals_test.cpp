@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "motor_bench.h"
-#include "sim/analogue_input.h"
 
 namespace nplc::sim {
 namespace {

@@ -1,13 +1,58 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "sim/current_regulator.h"
-#include "sim/motor_constants.h"
 #include "sim/plant.h"
-#include "sim/winding.h"
 
 namespace nplc::sim {
+
+/// Three windings in a star whose middle is open, on a rotor with a sinusoidal field. Currents and voltages
+/// in the registers' units, the voltages at the nominal supply; a step is a sample of the inner loop.
+class Winding {
+  public:
+    struct Constants {
+        double resistance;  ///< voltage a current
+        double decay;       ///< what is left of a current after a step without voltage: exp(-T R / L)
+        double emf;         ///< voltage a count/step
+        double torque;      ///< 1023 over the current that full torque takes
+    };
+    struct Step {
+        double torque;  ///< as in T_SOLL
+        double power;   ///< into the windings, voltage x current
+    };
+
+    explicit Winding(const Constants& constants)
+
+        : decay_(constants.decay),
+          conductance_((1 - constants.decay) / constants.resistance),
+          emf_(constants.emf),
+          torque_(constants.torque / 3.0) {}
+
+    /// `voltage` at the terminals, times `supply` (1: nominal); rotor at `angle`, 0 to 2047, at `velocity`
+    /// counts/step. The torque is that of the currents' mean.
+    Step step(Phases voltage, double supply, std::int32_t angle, double velocity) {
+        const double middle = voltage.sum() * (1 / 3.0);
+        const Phases shapes = kSine.phases(angle);
+        const Phases across = (voltage - middle) * supply;
+        const Phases before = current_;
+        const Phases kept = before * decay_ - shapes * (emf_ * velocity * conductance_);
+        current_ = kept + (voltage - middle) * (supply * conductance_);
+        const Phases twice = before + current_;
+        return {.torque = (twice * shapes).sum() * torque_, .power = (twice * across).sum() * 0.5};
+    }
+
+    Phases currents() const { return current_; }
+    void rest() { current_ = {}; }
+
+  private:
+    Phases decay_;
+    double conductance_;
+    double emf_;
+    double torque_;  // of the sum of the currents before and after a step
+    Phases current_;
+};
 
 /// The current loop at its own rate, with the windings and the rotor that it acts on (001 §1.2, §4.3).
 /// A sample is `sense`, one call that sets voltages, then `move`.
@@ -107,6 +152,58 @@ class InnerLoop {
     std::int32_t v_eldeg_ = 0;
     bool every_mark_ = false;
     bool at_mark_ = false;  // has been at the hall elements' mark
+};
+
+/// What windings and current loop do in an outer sample, in one step: the torque comes as the loop with the
+/// coefficients from the box gives it, within what the supply can drive against the EMF. Currents and
+/// voltages in the registers' units.
+class QuickLoop {
+  public:
+    struct Step {
+        double squares;  ///< of the three currents, summed
+        double watts;    ///< into the windings
+    };
+
+    explicit QuickLoop(const MotorConstants& constants);
+
+    /// No torque in the sample before.
+    void rest() { torque_before_ = 0; }
+
+    /// A sample with `torque` asked for and `volts` on the bus.
+    Step drive(std::int32_t torque, double volts, Plant& plant) {
+        const double asked = torque_before_ + (torque - torque_before_) * kRise;
+        torque_before_ = torque;
+        const double before = plant.velocity();
+        const double given = reachable(asked, before, volts);
+        plant.step(given);
+        const double current = given * current_of_torque_;
+        const double emf = emf_ / 2 * (before + plant.velocity());
+        return {.squares = 1.5 * current * current,
+                .watts = (emf + current * resistance_) * current * watts_of_one_};
+    }
+    /// A sample with shorted windings: they brake with the current that their EMF drives.
+    Step brake(Plant& plant);
+
+  private:
+    /// Of a change of torque, what the current loop gives on the average of the sample: after n samples of
+    /// its own 1 - (1 + 0.6 n) 0.4^n, with the coefficients from the box.
+    static constexpr double kRise = 0.878;
+
+    double reachable(double torque, double velocity, double volts) const {
+        const double voltage = std::abs(emf_ * velocity) + (resistance_ + reactance_ * std::abs(velocity)) *
+                                                               current_of_torque_ * std::abs(torque);
+        if (voltage <= volts * range_of_volt_) return torque;
+        return at_the_supplys_limit(torque, velocity, volts);
+    }
+    double at_the_supplys_limit(double torque, double velocity, double volts) const;
+
+    double emf_;        // a count/sample of the shaft
+    double reactance_;  // a current unit and a count/sample
+    double resistance_;
+    double current_of_torque_;
+    double range_of_volt_;  // of the voltage registers, a volt of the supply
+    double watts_of_one_;   // three phases' with an amplitude of one voltage and one current unit
+    double torque_before_ = 0;
 };
 
 }  // namespace nplc::sim

@@ -3,28 +3,22 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
-#include <cstdlib>
 #include <deque>
 #include <optional>
 #include <string_view>
 
 #include "base/time.h"
 #include "registers/mac.h"
-#include "sim/analogue_input.h"
-#include "sim/coil.h"
-#include "sim/error_bits.h"
 #include "sim/fastmac_slave.h"
-#include "sim/gear.h"
-#include "sim/homing.h"
 #include "sim/mactalk_slave.h"
-#include "sim/mode_table.h"
-#include "sim/motor_memory.h"
-#include "sim/profile.h"
-#include "sim/pulse_input.h"
-#include "sim/sample_buffer.h"
+#include "sim/mode_control.h"
+#include "sim/motion_profile.h"
+#include "sim/motor_commands.h"
+#include "sim/motor_inputs.h"
+#include "sim/motor_monitor.h"
+#include "sim/motor_state.h"
+#include "sim/sample_recorder.h"
 #include "sim/servo.h"
-#include "sim/surroundings.h"
-#include "sim/terminals.h"
 
 namespace nplc::sim {
 
@@ -43,14 +37,14 @@ struct MacMotorOptions {
 /// A virtual MAC motor with its user interface set to FastMAC/FlexMAC. It has no clock: the caller gives it
 /// bytes with their times, fetches bytes when the line is free, and calls `sample` once every
 /// `sample_period`. Deterministic: the same calls give the same motion on every machine.
-class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerWatcher {
+class MacMotor final : private LinkTarget, private MacTalkTarget {
   public:
     explicit MacMotor(registers::Model model, const MacMotorOptions& options = {});
 
-    registers::Model model() const { return memory_.model(); }
-    std::int32_t counts_per_revolution() const;
+    registers::Model model() const { return state_.model(); }
+    std::int32_t counts_per_revolution() const { return state_.counts_per_revolution(); }
     /// Of the outer loop: exactly 15 / 7812.5 Hz on MAC50-141, 1 / 770 Hz (to the nanosecond) on MAC800.
-    std::chrono::nanoseconds sample_period() const;
+    std::chrono::nanoseconds sample_period() const { return state_.sample_period(); }
 
     /// One outer sample: shaft, encoder, profile, regulator, flags, monitoring (001 §4).
     [[gnu::flatten]] void sample();
@@ -76,20 +70,20 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     void write(std::uint8_t reg, std::int32_t value);
 
     /// MODE_REG
-    std::uint16_t mode() const { return static_cast<std::uint16_t>(memory_.get(cell::MODE_REG)); }
-    bool is_mode(MotorMode mode) const { return this->mode() == number(mode); }
-    std::int32_t p_ist() const { return memory_.get(cell::P_IST); }
-    std::int32_t v_ist() const { return memory_.get(cell::V_IST); }
-    std::int32_t torque() const { return memory_.get(cell::VF_OUT); }
+    std::uint16_t mode() const { return state_.mode(); }
+    bool is_mode(MotorMode mode) const { return state_.is_mode(mode); }
+    std::int32_t p_ist() const { return state_.p_ist(); }
+    std::int32_t v_ist() const { return state_.v_ist(); }
+    std::int32_t torque() const { return state_.memory.get(cell::VF_OUT); }
     double rpm() const;
     bool in_position() const { return (error_status() & err::IN_POS) != 0; }
     std::uint32_t err_stat() const { return error_status(); }
 
     /// Why the motor stands in the mode that it was asked for, as a sentence: a gear mode without the pins of
     /// the pulse input, or TESTTQ, of which the manual says nothing. Empty if all is well.
-    std::string_view note() const { return note_; }
+    std::string_view note() const { return modes_.note(); }
     /// As if I2T had been above its limit for a moment: I2T_ERR and all that follows from it.
-    void overload() { fail(err::I2T_ERR); }
+    void overload() { modes_.fail(err::I2T_ERR); }
     /// The output for a holding brake (004, MAN_NO_BRAKE): on while the motor is passive. A brake that
     /// is built in (Load::brake_torque) then holds the shaft.
     bool brake_output() const;
@@ -123,185 +117,44 @@ class MacMotor final : private LinkTarget, private MacTalkTarget, private InnerW
     /// Changeable at any time; U_SUPPLY (MAC800: U_BUS) follows.
     Supply& supply() { return servo_.supply(); }
     /// What is wired to the analogue and the pulse input, changeable at any time.
-    Terminals& terminals() { return terminals_; }
-    Surroundings& surroundings() { return surroundings_; }
+    Terminals& terminals() { return inputs_.terminals; }
+    Surroundings& surroundings() { return inputs_.surroundings; }
 
   private:
-    void set_up_user_interface();
-    std::uint16_t first_mode() const;
-
-    // LinkTarget, and what FastMAC commands do: motor_commands.cpp
-    void execute(const protocol::fastmac::Command& command) override;
+    // LinkTarget and MacTalkTarget
+    void execute(const protocol::fastmac::Command& command) override { commands_.execute(command); }
     std::uint32_t read_register(std::uint8_t reg, bool longword) const override;
     void write_register(std::uint8_t reg, std::uint32_t value, bool longword) override;
-    std::uint32_t error_status() const override {
-        return static_cast<std::uint32_t>(memory_.get(cell::ERR_STAT));
-    }
+    std::uint32_t error_status() const override { return state_.error_status(); }
     void show_framing_error(bool seen) override;
     bool in_safe_mode() const override { return is_mode(MotorMode::safe); }
     std::uint8_t my_address() const override;
-    void execute_number(protocol::fastmac::Number number);
-    void select(protocol::fastmac::Group group, int index);
-    void select_position(int index);
-    void select_set(int index);
-    void act_on_pointers();
-    void copy(Cell from, Cell to) { memory_.set(to, memory_.get(from)); }
-    void set_relative(bool p_soll, bool p_fnc);
-    void clear_in_position() {
-        samples_within_ = 0;
-        set_error_bits(err::IN_POS, false);
-    }
+    SampleBuffer::Sample next_sample() override { return recorder_.next(); }
 
-    // MacTalk's own: motor_service.cpp
-    static void clear_volatile(MotorMemory& memory);
-    void load_parameters(std::uint16_t command);
-    void run_sample_buffer() {
-        const auto control = static_cast<std::uint32_t>(memory_.get(cell::CNTRL_BITS));
-        if ((control & (bits().rewind | bits().record)) != 0) rewind_or_record(control);
-    }
-    void rewind_or_record(std::uint32_t control);
-    bool records_inner(std::uint32_t control) const;
-    void rewind_samples();
-    void record();
-    void inner_sample() override;
-    SampleBuffer::Sample sampled_registers() const;
-    SampleBuffer::Sample next_sample() override;
-
-    // Modes and monitoring: motor_modes.cpp
-    void request_mode(std::uint16_t mode);
-    void request_home();
-    void request_init();
-    void enter(std::uint16_t mode);
-    void set_mode(std::uint16_t mode) {
-        memory_.set(cell::MODE_REG, mode);
-        facts_ = facts_of(mode);
-    }
-    void leave_for(std::uint16_t mode);
-    void go_passive(bool emergency);
-    void begin_stop(std::uint16_t then, bool emergency);
-    void begin_at_measured_speed();
-    /// 001 §4.1.8, §4.4.5, §4.4.9 to §4.4.11: what a mode does without being asked.
-    void end_mode_by_itself() {
-        if (is_driven() && !is_mode(MotorMode::stop) && !coasting_) return;
-        end_stop_or_test();
-    }
-    void end_stop_or_test();
-    bool error_keeps_mode() const;
-    const ModeFacts& facts() const { return *facts_; }
-    bool is_driven() const { return facts().driven(); }
-    bool below_300_rpm() const;
-    void begin_correction();
-    std::string_view why_it_stands(std::uint16_t mode) const;
-
-    // Monitoring: monitoring.cpp
-    [[gnu::flatten]] void monitor();
-    void fail(std::uint32_t error);
-    void watch_limits();
-    void watch_supply();
-    void watch_currents();
-    void watch_mac800();
-    /// A limit of 0 is none (001 §4.5.4, §4.5.5).
-    bool exceeds(Cell value, Cell limit) const {
-        const std::int64_t most = memory_.get(limit);
-        return most > 0 && std::abs(std::int64_t{memory_.get(value)}) > most;
-    }
-    bool is_above(Cell value, Cell limit) const { return memory_.get(value) > memory_.get(limit); }
-
-    // MANI, TESTU, TESTA, BREAK, TESTKI: mode_test.cpp
-    void begin_test();
-    Drive test_drive() const;
-    void set_recording(bool on);
-    void end_test();
-    bool is_braked() const;
-
-    // Homing: motor_homing.cpp
-    void begin_homing();
-    void search_home();
-    void end_homing();
-    std::int32_t beyond_index() const;
-    void set_home_done(bool done);
-
-    // One sample: mac_motor.cpp
     void measure();
     void show_v_ist_16(std::int32_t v_ist);
-    void read_inputs();
-    void resynchronise();
-    bool resynchronises_by_itself() const;
-    void stay_passive();
-
-    // Profile and regulator: motor_profile.cpp
-    [[gnu::flatten]] void run_profile();
-    void run_position();
-    void run_gear();
-    void run_coil();
-    Coil::Setup coil_setup() const;
-    void show_gear_error();
-    std::int32_t analogue_v_soll() const;
-    /// P_SOLL or P_FNC of the position block, where the voltage sets them.
-    void set_target_by_voltage() {
-        if (is_mode(MotorMode::analogue_two_positions)) set_target_by_level();
-        if (is_mode(MotorMode::analogue_position)) set_target_by_place();
-    }
-    void set_target_by_place();
-    void set_target_by_level();
-    void run_to(std::int64_t distance);
-    std::int32_t braking(std::int64_t distance, std::int32_t acceleration);
-    void go_on_from(std::int32_t fnc_out, bool thrown_back);
-    void learn_braking(std::int32_t wanted, std::int32_t correction);
-    void regulate(std::int32_t fnc_out);
-    void show_profile(std::int32_t fnc_out);
-    [[gnu::flatten]] void judge_in_position();
-    bool within_window() const;
-    std::int64_t distance_16() const;
-    std::int32_t acceleration() const;
-    std::int32_t torque_limit() const;
-    std::int32_t v_soll() const;
-    void set_error_bits(std::uint32_t mask, bool on) { show_error_bits(mask, on ? mask : 0); }
-    /// Those of `mask` become those of `on`.
-    void show_error_bits(std::uint32_t mask, std::uint32_t on) {
-        const std::uint32_t status = error_status();
-        const std::uint32_t wanted = (status & ~mask) | on;
-        if (wanted != status) memory_.set(cell::ERR_STAT, static_cast<std::int32_t>(wanted));
-    }
-    const FamilyBits& bits() const { return *bits_; }
+    bool has_user_interface() const;
+    std::uint16_t first_mode() const;
+    void load_parameters(std::uint16_t command);
 
     MacMotorOptions options_;
-    MotorMemory memory_;
+    MotorState state_;
     MotorMemory stored_;
-    const FamilyBits* bits_;
-    const ModeFacts* facts_ = facts_of(0);  // of MODE_REG
     Servo servo_;
-    Terminals terminals_;
-    Surroundings surroundings_;
-    PulseInput pulse_input_;
-    AnalogueVoltage analogue_voltage_;
-    AnalogueLevel analogue_level_;
-    bool analogue_was_on_ = false;  // in the sample before
-    Gear gear_;
-    Coil coil_;
-    Homing homing_;
+    MotorInputs inputs_;
+    MotionProfile profile_;
+    ModeControl modes_;
+    MotorMonitor monitor_;
+    MotorCommands commands_;
+    SampleRecorder recorder_;
     FastMacSlave link_;
     MacTalkSlave mactalk_;
-    SampleBuffer samples_;
 
     std::uint32_t flash_writes_ = 0;
     bool link_on_ = true;
-    std::int32_t v_old_ = 0;              // V_OLD, 1/16 counts/sample
-    std::int32_t v_from_ = 0;             // what the next profile begins with: V_OLD, 0 if it was thrown back
-    std::int64_t follow_error_16_ = 0;    // FLWERR, 1/16 counts
-    std::int32_t corrected_braking_ = 0;  // what brakes in torque limit, 1/16 counts/sample^2; 0: A_SOLL does
-    std::int64_t distance_to_go_ = 0;     // as the last sample of position mode left it, 1/16 counts
-    std::int32_t samples_within_ = 0;
-    std::uint16_t mode_after_stop_ = 0;
-    bool emergency_ = false;
-    bool coasting_ = false;             // AT on its way to INIT
-    int test_samples_ = 0;              // of TESTU and TESTA
-    std::int32_t brake_direction_ = 0;  // BREAK: the sign of the motion that it ends
-    std::int32_t uv_timer_ = 0;         // UV_TIMER, samples
-    std::array<std::int32_t, 16> v_history_{};
+    std::array<std::int32_t, 16> v_history_{};  // of V_IST, for V_IST_16
     std::size_t v_next_ = 0;
     std::int32_t v_sum_ = 0;
-    std::string_view note_;
 };
 
 }  // namespace nplc::sim

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "registers/mac.h"
 #include "sim/bounds.h"
 
 namespace nplc::sim {
@@ -118,5 +119,87 @@ class Plant {
     std::int64_t position_ = 0;  // 1/kCount counts
     double velocity_ = 0;        // counts/step
 };
+
+/// The motor's power supply: a source that gives but does not take, the capacitor of the bus, and the power
+/// dump that turns what comes back from the shaft into heat (001 §3.2.18, §4.5.2).
+class Supply {
+  public:
+    struct Constants {
+        double source_volts;  ///< without load
+        double dump_volts;    ///< above it the dump is on: 52 V on MAC50-141 (001 §3.2.18)
+        double source_ohms;
+        double dump_ohms;
+        double farads;
+    };
+    static constexpr double kLeast = 1;  // V, what keeps a division alive
+    static constexpr double kMost = 1000;
+    static constexpr double kBleedSeconds = 0.5;  ///< time constant with which the bus falls to its source
+    static constexpr double kHold = 1.004;        ///< times dump_volts: what the dump keeps the bus at
+
+    /// `seconds`: of a step.
+    Supply(const Constants& constants, double seconds)
+        : constants_(constants),
+          volts_of_ampere_(seconds / constants.farads),
+          charged_(volts_of_ampere_ / (volts_of_ampere_ + constants.source_ohms)),
+          bled_(seconds / (seconds + kBleedSeconds)),
+          dumped_(volts_of_ampere_ / (volts_of_ampere_ + constants.dump_ohms)),
+          held_(constants.dump_volts * kHold),
+          volts_(constants.source_volts) {}
+
+    /// What the source gives without load; may be changed at any time.
+    void set_source(double volts) { constants_.source_volts = std::clamp(volts, 0.0, kMost); }
+    double source() const { return constants_.source_volts; }
+
+    double volts() const { return volts_; }
+    bool dumping() const { return volts_ > constants_.dump_volts; }
+
+    /// `watts` go to the windings for a step; negative: they come back. Source and dump in implicit steps,
+    /// which no step is too long for.
+    void step(double watts) {
+        double volts = volts_ - watts / volts_ * volts_of_ampere_;
+        if (volts > held_) volts = std::max(volts - volts * dumped_, held_);
+        if (volts > constants_.source_volts) volts = std::max(volts - volts * bled_, constants_.source_volts);
+        if (volts < constants_.source_volts) volts += (constants_.source_volts - volts) * charged_;
+        volts_ = within(volts, kLeast, kMost);
+    }
+    /// The bus of a source that was switched off and on, or one that has had time.
+    void settle() { volts_ = std::max(constants_.source_volts, kLeast); }
+
+  private:
+    Constants constants_;
+    double volts_of_ampere_;
+    double charged_;  // of what is missing, in a step
+    double bled_;
+    double dumped_;
+    double held_;  // what the dump keeps the bus at
+    double volts_;
+};
+
+/// The iron and copper of a family, ours; the folder's README says from what. MAC50, 95, 140 and 141 share
+/// one.
+struct MotorConstants {
+    double outer_period;       ///< s
+    double full_acceleration;  ///< of the bare motor at full torque, counts/sample^2 of the outer loop
+    double emf_inertia;        ///< of the motor's, what a rising EMF makes of it with the box's current loop
+    std::int32_t counts_a_field;  ///< encoder counts in a turn of the field
+    double full_current;          ///< peak phase current at full torque, register units
+    double resistance;            ///< voltage units a current unit
+    double decay;                 ///< of a current in a sample of the inner loop
+    double emf;                   ///< voltage units a count of the inner loop
+    double volts_of_one;          ///< V a voltage unit at the nominal supply
+    double amperes_of_one;        ///< A a current unit
+    double nominal_volts;         ///< of the supply
+    double volts_register;        ///< U_SUPPLY or U_BUS, units a volt
+    Supply::Constants supply;
+    double dump_watts;      ///< that the dump bears for ever: UIT becomes 10000
+    double dump_seconds;    ///< its time constant
+    double copper_seconds;  ///< time constant of I2T; 10000 at a third of full torque
+    double warming;         ///< degrees above the air at I2T = 10000 (MAC800)
+};
+
+/// Samples of the inner loop in one of the outer (001 §1.2; R: on MAC800 too).
+inline constexpr int kInnerSamples = 15;
+
+const MotorConstants& constants_of(registers::Model model);
 
 }  // namespace nplc::sim

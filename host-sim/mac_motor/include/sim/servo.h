@@ -2,13 +2,11 @@
 
 #include <cstdint>
 
-#include "sim/drive.h"
 #include "sim/inner_loop.h"
+#include "sim/mode_table.h"
 #include "sim/motor_memory.h"
 #include "sim/plant.h"
-#include "sim/quick_loop.h"
 #include "sim/regulator.h"
-#include "sim/supply.h"
 #include "sim/terminals.h"
 
 namespace nplc::sim {

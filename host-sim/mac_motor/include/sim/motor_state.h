@@ -1,8 +1,11 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 
 #include "registers/mac.h"
+#include "sim/mode_table.h"
+#include "sim/motor_memory.h"
 
 namespace nplc::sim {
 
@@ -87,5 +90,64 @@ inline constexpr FamilyBits kMac800Bits{.frame_err_tx = 0,
 constexpr const FamilyBits& family_bits(registers::Model model) {
     return model == registers::Model::mac800 ? kMac800Bits : kSmallBits;
 }
+
+/// The motor's registers, and what its program reads of them in every sample. All parts of a motor share one.
+class MotorState {
+  public:
+    explicit MotorState(registers::Model model) : memory(model), bits_(&family_bits(model)) {}
+    MotorState(const MotorState&) = delete;
+    MotorState& operator=(const MotorState&) = delete;
+
+    MotorMemory memory;
+    bool emergency = false;  ///< STOP_MODE brakes with ACC_EMERG (001 §4.1.8)
+
+    registers::Model model() const { return memory.model(); }
+    bool is_mac800() const { return sim::is_mac800(model()); }
+    const FamilyBits& bits() const { return *bits_; }
+    std::int32_t counts_per_revolution() const { return is_mac800() ? 8000 : 4096; }
+    /// Of the outer loop.
+    std::chrono::nanoseconds sample_period() const {
+        return std::chrono::nanoseconds(is_mac800() ? 1'298'701 : 1'920'000);
+    }
+
+    std::uint16_t mode() const { return static_cast<std::uint16_t>(memory.get(cell::MODE_REG)); }
+    bool is_mode(MotorMode mode) const { return this->mode() == number(mode); }
+    /// `mode` is one of the table.
+    void set_mode(std::uint16_t mode) {
+        memory.set(cell::MODE_REG, mode);
+        facts_ = facts_of(mode);
+    }
+    const ModeFacts& facts() const { return *facts_; }
+
+    std::int32_t p_ist() const { return memory.get(cell::P_IST); }
+    std::int32_t v_ist() const { return memory.get(cell::V_IST); }
+    /// |V_IST| as an integer that compares with speed_at.
+    std::int64_t speed() const {
+        constexpr std::int64_t kNanosecondsInMinute = 60'000'000'000;
+        const std::int64_t v = v_ist();
+        return (v < 0 ? -v : v) * kNanosecondsInMinute;
+    }
+    std::int64_t speed_at(std::int64_t rpm) const {
+        return rpm * counts_per_revolution() * sample_period().count();
+    }
+
+    /// CNTRL_BITS
+    std::uint32_t control() const { return static_cast<std::uint32_t>(memory.get(cell::CNTRL_BITS)); }
+    void set_control(std::uint32_t bits) { memory.set(cell::CNTRL_BITS, static_cast<std::int32_t>(bits)); }
+
+    /// ERR_STAT
+    std::uint32_t error_status() const { return static_cast<std::uint32_t>(memory.get(cell::ERR_STAT)); }
+    void set_error_bits(std::uint32_t mask, bool on) { show_error_bits(mask, on ? mask : 0); }
+    /// Those of `mask` become those of `on`.
+    void show_error_bits(std::uint32_t mask, std::uint32_t on) {
+        const std::uint32_t status = error_status();
+        const std::uint32_t wanted = (status & ~mask) | on;
+        if (wanted != status) memory.set(cell::ERR_STAT, static_cast<std::int32_t>(wanted));
+    }
+
+  private:
+    const FamilyBits* bits_;
+    const ModeFacts* facts_ = facts_of(0);  // of MODE_REG
+};
 
 }  // namespace nplc::sim
