@@ -85,8 +85,9 @@ MODULES = [
          "mactalk_client", "command_line", "whole_files"),
     ),
     Module("tools/registers_reference", "registers_reference", ("base", "registers")),
+    Module("tools/verify", "verify", ("base", "sequencer")),
     Module("tools/seqc", "seqc", ("arguments", "base", "sequencer", "protocol", "registers", "host", "intel_hex",
-                                    "whole_files")),
+                                    "verify", "whole_files")),
     Module(
         "tools/macreg",
         "macreg",

@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
     add_fmt(app, exit_code);
     add_graph(app, exit_code);
     add_report(app, exit_code);
+    add_verify(app, exit_code);
     try {
         using Kind = nplc::arguments::Outcome::Kind;
         const auto outcome = app.parse(argc, argv);

@@ -14,5 +14,6 @@ void add_explain(arguments::App& app, int& exit_code);
 void add_fmt(arguments::App& app, int& exit_code);
 void add_graph(arguments::App& app, int& exit_code);
 void add_report(arguments::App& app, int& exit_code);
+void add_verify(arguments::App& app, int& exit_code);
 
 }  // namespace nplc::seqc::cli

@@ -1,0 +1,147 @@
+"""seqc verify held against a naive explorer, on random small tables and properties.
+
+usage: differential_test.py SEQC NANOPLC_SIM CASES [SEED]
+"""
+
+import json
+import os
+import random
+import subprocess
+import sys
+import tempfile
+
+import naive
+import random_cases
+
+PROPERTIES = 8
+
+
+class Case:
+    def __init__(self, seqc, nanoplc_sim, folder):
+        self.seqc, self.nanoplc_sim, self.folder = seqc, nanoplc_sim, folder
+
+    def path(self, name, content=None):
+        path = os.path.join(self.folder, name)
+        if content is not None:
+            with open(path, "wb") as file:
+                file.write(content)
+        return path
+
+    def verify(self, assume):
+        done = subprocess.run([self.seqc, "verify", self.path("t.bin"), "--property", self.path("p.prop"),
+                               "--assume", assume, "--json"], capture_output=True, text=True, timeout=120, check=False)
+        if done.returncode not in (0, 1, 4):
+            raise AssertionError(f"exit code {done.returncode}: {done.stderr}")
+        document = json.loads(done.stdout)
+        verdicts = {r["verdict"] for r in document["results"] if r["severity"] == "error"}
+        expected = 1 if "broken" in verdicts else 4 if "undecided" in verdicts else 0
+        if done.returncode != expected:
+            raise AssertionError(f"exit code {done.returncode} with {verdicts}")
+        return document
+
+    def replay(self, course):
+        """State after each scan of a course, before time is taken off, by nanoplc-sim."""
+        rows = [f"{s['dt_ms']},{s['inputs']},{s['inpos']},{s['error']}" for s in course]
+        stimulus = self.path("s.csv", ("\n".join(["dt_ms,inputs,inpos,error", *rows]) + "\n").encode())
+        done = subprocess.run([self.nanoplc_sim, "scan", self.path("t.bin"), "--stimulus", stimulus],
+                              capture_output=True, text=True, timeout=60, check=True)
+        return [[int(v) for v in line.split(",")[1:5]] for line in done.stdout.split("\n")[1:-1]]
+
+
+def image_of(scan):
+    return scan["inputs"] | scan["inpos"] << 6 | scan["error"] << 7
+
+
+def judge_course(case, table, prop, course, explorer):
+    """Whether a course breaks the property (reaches it), played by nanoplc-sim and by the manual."""
+    form, c, d, ms, _ = prop
+    state, states = (0, 0, 0, 0), []
+    for scan, row in zip(course, case.replay(course), strict=True):
+        after = naive.scan(table, state, image_of(scan))
+        states.append(after)
+        state = (after[0], after[1], max(0, after[2] - scan["dt_ms"]), after[3])
+        assert list(state[:1] + (state[2], state[3], state[1])) == row, (state, row)
+    image = image_of(course[-1])
+    if form in ("never", "reachable"):
+        return naive.holds(c, image, states[-1])
+    if form == "always":
+        return not naive.holds(c, image, states[-1])
+    if form == "possible":
+        if explorer is None:
+            return True
+        ways = explorer.ways_to(c)
+        return not naive.holds(c, image, states[-1]) and not any(
+            e in ways for e in explorer.elapsed(states[-1], explorer.longest))
+    due = None
+    time = 0
+    for scan, after in zip(course, states, strict=True):
+        if naive.holds(d, image_of(scan), after):
+            due = None
+        elif due is None and naive.holds(c, image_of(scan), after):
+            due = time + ms
+        time += scan["dt_ms"]
+        if due is not None and time > due:
+            return True
+    return False
+
+
+def check_any(case, table, properties, steps, report, explorer):
+    begun = explorer.begun | {0}
+    with_terms = {t[0] & 0x3F for t in table[:-1]}
+    assert set(report["unreachable"]) == {s for s in with_terms if s not in begun}, report["unreachable"]
+    results = {r["name"]: r for r in report["results"] if "code" not in r}
+    for number, prop in enumerate(properties):
+        holds, shortest = explorer.verdict(prop[0], prop[1], prop[2])
+        result = results[f"P{number}"]
+        assert result["verdict"] == ("proved" if holds else "broken"), (prop[4], result["verdict"])
+        if shortest is None:
+            assert "course" not in result
+            continue
+        assert len(result["course"]) == shortest, (prop[4], len(result["course"]), shortest)
+        assert judge_course(case, table, prop, result["course"], explorer), prop[4]
+
+
+def check_driver(case, table, properties, report, free):
+    """Each course of the driver's is one of `any`."""
+    assert set(report["unreachable"]) >= set(free["unreachable"])
+    results = {r["name"]: r for r in report["results"] if "code" not in r}
+    for other in free["results"]:
+        if "code" in other:
+            continue
+        result = results[other["name"]]
+        prop = properties[int(other["name"][1:])]
+        if prop[0] == "reachable":
+            assert (result["verdict"], other["verdict"]) != ("proved", "broken"), prop[4]
+        elif prop[0] != "possible":
+            assert (result["verdict"], other["verdict"]) != ("broken", "proved"), prop[4]
+        if "course" in result:
+            assert judge_course(case, table, prop, result["course"], None), prop[4]
+    return [r["verdict"] for r in results.values()]
+
+
+def main():
+    seqc, nanoplc_sim, cases = sys.argv[1], sys.argv[2], int(sys.argv[3])
+    seed = int(sys.argv[4]) if len(sys.argv) > 4 else random.randrange(1 << 32)
+    verdicts = []
+    with tempfile.TemporaryDirectory() as folder:
+        case = Case(seqc, nanoplc_sim, folder)
+        for number in range(cases):
+            rng = random.Random(seed * 1_000_003 + number)
+            table, steps = random_cases.random_table(rng)
+            properties = random_cases.random_properties(rng, steps, PROPERTIES)
+            case.path("t.bin", b"".join(table))
+            text = "\n".join(p[4] for p in properties)
+            case.path("p.prop", text.encode())
+            try:
+                explorer = naive.Naive(table, random_cases.images(), 3)
+                free = case.verify("any")
+                check_any(case, table, properties, steps, free, explorer)
+                verdicts += check_driver(case, table, properties, case.verify("driver"), free)
+            except AssertionError:
+                print(f"case {number} of seed {seed}:\n" + "\n".join(t.hex(" ") for t in table) + "\n" + text)
+                raise
+    print(f"{cases} tables, {len(verdicts)} properties; under driver "
+          + ", ".join(f"{verdicts.count(v)} {v}" for v in ("proved", "broken", "undecided")))
+
+
+main()

@@ -1,0 +1,88 @@
+#include "verify/property.h"
+
+#include <gtest/gtest.h>
+
+namespace nplc::verify {
+namespace {
+
+Names names() {
+    Names result;
+    result.steps[0] = "POWER_UP";
+    result.steps[1] = "Idle";
+    result.steps[2] = "Push";
+    result.inputs = {"Start", "Door", "IN2", "IN3", "IN4", "IN5"};
+    result.outputs = {"Clamp", "OUT1", "OUT2", "OUT3"};
+    return result;
+}
+
+Property only(std::string_view text) {
+    const PropertyReading reading = read_properties(text, names());
+    EXPECT_EQ(reading.error, "");
+    EXPECT_EQ(reading.properties.size(), 1U);
+    return reading.properties.empty() ? Property{} : reading.properties[0];
+}
+
+bool condition(std::string_view text, std::uint8_t image, const View& view) {
+    return holds(only("PROPERTY P: NEVER " + std::string(text) + ";").condition, image, view);
+}
+
+TEST(Property, NamesAndAddressesMeanTheSame) {
+    const View view{.step = 1, .outputs = 1};
+    EXPECT_TRUE(condition("Start AND Clamp AND step = Idle", 0x01, view));
+    EXPECT_TRUE(condition("in0 AND OUT0 AND STEP = 1", 0x01, view));
+    EXPECT_TRUE(condition("%IX0.0 AND %QX0.0 AND step = idle", 0x01, view));
+    EXPECT_FALSE(condition("Door OR OUT1 OR step = Push", 0x01, view));
+}
+
+TEST(Property, NotBindsTightestAndOrLoosest) {
+    EXPECT_TRUE(condition("NOT IN0 AND IN1 OR IN2", 0b100, {}));
+    EXPECT_TRUE(condition("IN0 OR IN1 AND IN2", 0b001, {}));
+    EXPECT_FALSE(condition("(IN0 OR IN1) AND IN2", 0b001, {}));
+    EXPECT_TRUE(condition("IN0 XOR IN1 AND IN2", 0b001, {}));
+}
+
+TEST(Property, ErrorCountsOnlyWhereItIsNamed) {
+    EXPECT_TRUE(condition("IN0", 0x81, {}));
+    EXPECT_TRUE(condition("IN0 AND ERROR", 0x81, {}));
+    EXPECT_FALSE(condition("IN0 AND NOT ERROR", 0x81, {}));
+    EXPECT_TRUE(condition("INPOS", 0x40, {}));
+}
+
+TEST(Property, TimerAndCounterAreTrueAtZero) {
+    EXPECT_TRUE(condition("TIMER.Q AND NOT COUNTER.Q", 0, {.timer_zero = true, .counter_zero = false}));
+}
+
+TEST(Property, EveryFormIsRead) {
+    EXPECT_EQ(only("PROPERTY P: NEVER IN0;").form, Form::never);
+    EXPECT_EQ(only("PROPERTY P: ALWAYS IN0;").form, Form::always);
+    EXPECT_EQ(only("PROPERTY P: ALWAYS POSSIBLE IN0;").form, Form::always_possible);
+    EXPECT_EQ(only("PROPERTY P: step = Push IS REACHABLE;").form, Form::reachable);
+    const Property property = only("property P : whenever IN0 then IN1 within 1.5 s ; // comment");
+    EXPECT_EQ(property.form, Form::whenever);
+    EXPECT_EQ(property.within_ms, 1500U);
+    EXPECT_EQ(property.text, "whenever IN0 then IN1 within 1.5 s");
+    EXPECT_EQ(only("PROPERTY P: WHENEVER IN0 THEN IN1 WITHIN T#1s500ms;").within_ms, 1500U);
+    EXPECT_EQ(only("PROPERTY P: WHENEVER IN0 THEN IN1 WITHIN 20ms;").within_ms, 20U);
+}
+
+TEST(Property, MistakesNameTheirLine) {
+    const auto error = [](std::string_view text) {
+        const PropertyReading reading = read_properties(text, names());
+        EXPECT_TRUE(reading.properties.empty()) << text;
+        return std::to_string(reading.line) + ": " + reading.error;
+    };
+    EXPECT_EQ(
+        error("(* a\n*)\nPROPERTY P: NEVER Stert;"),
+        "3: an input, an output, INPOS, ERROR, TIMER.Q, COUNTER.Q or 'step = Name' is expected, not 'Stert'");
+    EXPECT_EQ(error("PROPERTY P: NEVER step = Nowhere;"),
+              "1: there is no step 'Nowhere'; a step is a name or 0 to 62");
+    EXPECT_EQ(error("PROPERTY P: NEVER step = 63;"), "1: there is no step '63'; a step is a name or 0 to 62");
+    EXPECT_EQ(error("PROPERTY P: NEVER IN0"),
+              "1: ';' is expected at the end of the property, not the end of the text");
+    EXPECT_EQ(error("PROPERTY P: NEVER IN0; PROPERTY p: NEVER IN1;"), "1: there are two properties 'p'");
+    EXPECT_NE(error("PROPERTY P: WHENEVER IN0 THEN IN1 WITHIN 1.5 ms;"), "");
+    EXPECT_NE(error("PROPERTY P: NEVER " + std::string(200, '(') + "IN0"), "");
+}
+
+}  // namespace
+}  // namespace nplc::verify

@@ -1,0 +1,70 @@
+"""Random small tables and properties."""
+
+IN = [0, 1, 6, 7]  # bits of HW_INP that the tables and properties name
+
+
+def images():
+    result = [0]
+    for bit in IN:
+        result += [image | 1 << bit for image in result]
+    return result
+
+
+def random_term(rng, steps):
+    timer_bit, counter_bit = rng.random() < 0.7, rng.random() < 0.7
+    state = rng.randrange(steps) | (0x80 if timer_bit else 0) | (0x40 if counter_bit else 0)
+    care = sum(1 << bit for bit in IN if bit != 7 and rng.random() < 0.4)
+    wanted = sum(1 << bit for bit in IN if rng.random() < (0.15 if bit == 7 else 0.5))
+    if rng.random() < 0.1:
+        return bytes([state, wanted, care | 0x80, rng.randrange(1, 128), rng.randrange(256), 0, 0, 0])
+    next_step = rng.choice([0x3E, *range(steps), *range(steps)])
+    counter_preset = rng.random() < 0.5
+    preset = rng.choice([0, 0, 1, 2, 3])
+    command = 0x61 if rng.random() < 0.2 else 0x80
+    output = rng.randrange(4) | (0x40 if rng.random() < 0.1 else 0) | (0x80 if rng.random() < 0.3 else 0)
+    return bytes([state, wanted, care, next_step | (0x40 if counter_preset else 0), command, output, preset, 0])
+
+
+def random_table(rng):
+    steps = rng.randint(2, 5)
+    terms = [random_term(rng, steps) for _ in range(rng.randint(steps, 4 * steps))]
+    return terms + [bytes([0x3F, 0, 0, 0, 0, 0, 0, 0])], steps
+
+
+def random_condition(rng, steps, depth=2):
+    if depth == 0 or rng.random() < 0.3:
+        return rng.choice([("in", rng.choice(IN)), ("out", rng.randrange(2)), ("timer",), ("counter",),
+                           ("step", rng.randrange(steps)), ("step", rng.randrange(steps))])
+    kind = rng.choice(["not", "and", "and", "or", "xor"])
+    if kind == "not":
+        return (kind, random_condition(rng, steps, depth - 1))
+    return (kind, random_condition(rng, steps, depth - 1), random_condition(rng, steps, depth - 1))
+
+
+def text_of(condition):
+    kind = condition[0]
+    if kind == "in":
+        return {6: "INPOS", 7: "ERROR"}.get(condition[1], f"IN{condition[1]}")
+    if kind == "out":
+        return f"OUT{condition[1]}"
+    if kind == "step":
+        return f"step = {condition[1]}"
+    if kind in ("timer", "counter"):
+        return f"{kind.upper()}.Q"
+    if kind == "not":
+        return f"NOT ({text_of(condition[1])})"
+    return f"({text_of(condition[1])}) {kind.upper()} ({text_of(condition[2])})"
+
+
+def random_properties(rng, steps, count):
+    """(form, c, d, milliseconds, text)"""
+    result = []
+    for number in range(count):
+        form = rng.choice(["never", "always", "reachable", "possible", "whenever"])
+        c, d = random_condition(rng, steps), random_condition(rng, steps)
+        ms = rng.choice([0, 1, 2, 5, 20])
+        words = {"never": f"NEVER {text_of(c)}", "always": f"ALWAYS {text_of(c)}",
+                 "reachable": f"{text_of(c)} IS REACHABLE", "possible": f"ALWAYS POSSIBLE {text_of(c)}",
+                 "whenever": f"WHENEVER {text_of(c)} THEN {text_of(d)} WITHIN {ms} ms"}[form]
+        result.append((form, c, d, ms, f"PROPERTY P{number}: {words};"))
+    return result

@@ -1,0 +1,131 @@
+#include "verify/verify.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace nplc::verify {
+namespace {
+
+constexpr std::uint8_t kAny = 0xC0;        // STATE: neither timer nor counter need be zero
+constexpr std::uint8_t kTimerZero = 0x40;  // STATE: the timer must be zero
+
+/// A term in FastMAC format without a command.
+struct Row {
+    std::uint8_t state, input, care, next, output;
+    std::uint16_t preset = 0;
+    std::uint8_t command = 0x80;
+};
+
+class Bench {
+  public:
+    Bench(std::initializer_list<Row> rows) {
+        for (const Row& r : rows) {
+            for (const unsigned byte :
+                 {unsigned{r.state}, unsigned{r.input}, unsigned{r.care}, unsigned{r.next},
+                  unsigned{r.command}, unsigned{r.output}, r.preset & 0xFFU, r.preset >> 8U})
+                bytes_.push_back(static_cast<std::uint8_t>(byte));
+        }
+        bytes_.insert(bytes_.end(), {0x3F, 0, 0, 0, 0, 0, 0, 0});
+        loaded_ = sequencer::Table::load(bytes_);
+        EXPECT_TRUE(loaded_.ok);
+    }
+
+    Result judge(const std::string& form, Assume assume) {
+        const PropertyReading reading = read_properties("PROPERTY P: " + form + ";", {});
+        EXPECT_EQ(reading.error, "");
+        Options options;
+        options.assume = assume;
+        options.order_time = [](std::span<const sequencer::MotorOrder>) { return Delay{4, 8}; };
+        const Report report = verify(loaded_.table, {}, reading.properties, options);
+        for (const Result& result : report.results) {
+            if (result.name == "P") return result;
+        }
+        return {};
+    }
+    Verdict verdict(const std::string& form, Assume assume = Assume::any) {
+        return judge(form, assume).verdict;
+    }
+
+  private:
+    std::vector<std::uint8_t> bytes_;
+    sequencer::Table::LoadResult loaded_;
+};
+
+/// Step 0 to 1 when IN0 comes, with the timer at 500; 1 to 2 when the timer is zero, with OUT0.
+Bench timed() {
+    return {{kAny, 0x01, 0x01, 1, 0, 500}, {kTimerZero | 1, 0, 0, 2, 1}};
+}
+
+TEST(Verify, TheTimerIsWaitedFor) {
+    EXPECT_EQ(timed().verdict("NEVER step = 2 AND NOT OUT0"), Verdict::proved);
+    for (const Assume assume : {Assume::any, Assume::driver}) {
+        const Result result = timed().judge("NEVER OUT0", assume);
+        EXPECT_EQ(result.verdict, Verdict::broken);
+        ASSERT_TRUE(result.course);
+        std::uint32_t time = 0;
+        for (const PlayedScan& scan : *result.course) time += scan.dt_ms;
+        EXPECT_EQ(time, 500U);
+        EXPECT_EQ(result.course->size(),
+                  assume == Assume::any ? 2U : 252U);  // 500 ms in scans of 2 ms, and two
+    }
+}
+
+TEST(Verify, DeadlinesKnowTheTimer) {
+    EXPECT_EQ(timed().verdict("WHENEVER IN0 THEN step = 1 OR step = 2 WITHIN 0 ms", Assume::driver),
+              Verdict::proved);
+    EXPECT_EQ(timed().verdict("WHENEVER step = 1 THEN step = 2 WITHIN 502 ms", Assume::driver),
+              Verdict::broken);
+    // ERROR stops the terms above. Without it the step ends with the first scan after 500 ms.
+    Bench whatever_error{{kAny, 0x01, 0x01, 1, 0, 500},
+                         {kTimerZero | 1, 0x00, 0x00, 2, 1},
+                         {kTimerZero | 1, 0x80, 0x00, 2, 1}};
+    EXPECT_EQ(whatever_error.verdict("WHENEVER step = 1 THEN step = 2 WITHIN 502 ms", Assume::driver),
+              Verdict::proved);
+    EXPECT_EQ(whatever_error.verdict("WHENEVER step = 1 THEN step = 2 WITHIN 500 ms", Assume::driver),
+              Verdict::broken);
+    EXPECT_EQ(whatever_error.verdict("WHENEVER step = 1 THEN step = 2 WITHIN 499 ms", Assume::driver),
+              Verdict::broken);
+    EXPECT_EQ(whatever_error.verdict("WHENEVER step = 1 THEN step = 2 WITHIN 502 ms", Assume::any),
+              Verdict::broken);
+}
+
+TEST(Verify, AnInputKeepsItsLevelUnderDriver) {
+    // IN0 on, off, on in three scans: nothing else lets time pass, for every step but the last goes on at
+    // once.
+    Bench flicker{{kAny, 0x01, 0x01, 1, 0},
+                  {kAny | 1, 0x00, 0x01, 2, 0},
+                  {kAny | 1, 0x01, 0x01, 4, 0},
+                  {kAny | 2, 0x01, 0x01, 3, 1},
+                  {kAny | 2, 0x00, 0x01, 4, 0}};
+    EXPECT_EQ(flicker.verdict("NEVER step = 3", Assume::any), Verdict::broken);
+    EXPECT_NE(flicker.verdict("NEVER step = 3", Assume::driver), Verdict::broken);
+}
+
+TEST(Verify, ErrorStaysUntilItIsResetUnderDriver) {
+    constexpr std::uint8_t kResetError = 0x61;
+    Bench without{{kAny, 0x80, 0, 1, 0}, {kAny | 1, 0x00, 0, 0, 0}};
+    EXPECT_EQ(without.verdict("ALWAYS POSSIBLE step = 0", Assume::any), Verdict::proved);
+    EXPECT_EQ(without.verdict("ALWAYS POSSIBLE step = 0", Assume::driver), Verdict::broken);
+    Bench with{
+        {kAny, 0x80, 0, 1, 0}, {kAny | 1, 0x00, 0, 0, 0}, {kAny | 1, 0x81, 1, 0x3E, 0, 0, kResetError}};
+    EXPECT_EQ(with.verdict("ALWAYS POSSIBLE step = 0", Assume::driver), Verdict::proved);
+    Bench with_in_pos{
+        {kAny, 0x80, 0, 1, 0}, {kAny | 1, 0x00, 0, 0, 0}, {kAny | 1, 0xC0, 0x40, 0x3E, 0, 0, kResetError}};
+    EXPECT_EQ(with_in_pos.verdict("ALWAYS POSSIBLE step = 0", Assume::driver),
+              Verdict::broken);  // a lost link
+}
+
+TEST(Verify, TheCounterIsExact) {
+    // Counts 3 down with IN0, then goes on.
+    Bench counts{{kAny, 0, 0, 1 | 0x40, 0, 3}, {kAny | 1, 1, 1, 0x3E, 0x80}, {0x80 | 1, 0, 1, 2, 1}};
+    const Result result = counts.judge("NEVER step = 2", Assume::any);
+    EXPECT_EQ(result.verdict, Verdict::broken);
+    ASSERT_TRUE(result.course);
+    EXPECT_EQ(result.course->size(), 5U);
+}
+
+}  // namespace
+}  // namespace nplc::verify

@@ -1,0 +1,210 @@
+#include "verify/verify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "cli/input.h"
+#include "cli/json.h"
+#include "cli/subcommands.h"
+#include "cli/views_input.h"
+#include "sequencer/table.h"
+#include "verify/story.h"
+#include "views/line_time.h"
+#include "whole_files/whole_files.h"
+
+namespace nplc::seqc::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using verify::Assume;
+using verify::Verdict;
+
+constexpr int kBroken = 1;
+constexpr int kUndecided = 4;
+
+struct VerifyArguments {
+    InputFile table;
+    std::string properties;
+    std::string assume = "driver";
+    std::string stimulus;
+    bool json = false;
+};
+
+verify::Names names_for(const Input& input) {
+    verify::Names names;
+    if (!input.symbols) return names;
+    names.steps = input.symbols->steps;
+    names.inputs = input.symbols->inputs;
+    names.outputs = input.symbols->outputs;
+    return names;
+}
+
+/// As `seqc report` works it out, and what the driver's and the gateway's own polls add. What a MIDI drive
+/// takes for an order is known only as the longest that a gateway waits.
+verify::Delay order_time(std::span<const sequencer::MotorOrder> orders, bool midi) {
+    constexpr std::uint32_t kBaud = 19'200;
+    constexpr std::uint32_t kLongestWait = 1'000;
+    if (midi) return {0, kLongestWait};
+    const LineUse use = line_use(orders, true);
+    return {static_cast<std::uint32_t>(milliseconds(use.until_done, kBaud)),
+            static_cast<std::uint32_t>(std::ceil(milliseconds(use.at_most, kBaud))) + use.messages +
+                verify::Machine::kMostIdle};
+}
+
+const char* word_of(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::proved:
+            return "proved";
+        case Verdict::broken:
+            return "broken";
+        case Verdict::undecided:
+            return "undecided";
+    }
+    return "";
+}
+
+int exit_code_of(const verify::Report& report) {
+    const auto any = [&](Verdict verdict) {
+        return std::any_of(report.results.begin(), report.results.end(), [&](const verify::Result& r) {
+            return r.verdict == verdict && r.severity == verify::Severity::fault;
+        });
+    };
+    if (any(Verdict::broken)) return kBroken;
+    return any(Verdict::undecided) ? kUndecided : kOk;
+}
+
+Json course_object(const verify::Course& course, const verify::Names& names) {
+    Json scans = Json::array();
+    for (const verify::PlayedScan& scan : course) {
+        Json& added = scans.emplace_back();
+        added["inputs"] = scan.image & sequencer::kInputsMask;
+        added["inpos"] = (scan.image & sequencer::kInPos) != 0 ? 1 : 0;
+        added["error"] = (scan.image & sequencer::kError) != 0 ? 1 : 0;
+        added["dt_ms"] = scan.dt_ms;
+        added["step"] = verify::step_name(names, scan.after.step);
+        added["outputs"] = scan.after.outputs;
+    }
+    return scans;
+}
+
+Json document_of(const verify::Report& report, const VerifyArguments& options, const Input& input,
+                 const verify::Names& names) {
+    Json document;
+    document["file"] = options.table.file;
+    document["assume"] = options.assume;
+    document["states"] = report.states;
+    document["complete"] = report.complete;
+    document["unreachable"] = Json::array();
+    for (const std::uint8_t step : report.unreachable) {
+        if (input.symbols && !names.steps[step].empty()) {
+            document["unreachable"].push_back(names.steps[step]);
+        } else {
+            document["unreachable"].push_back(step);
+        }
+    }
+    document["results"] = Json::array();
+    for (const verify::Result& result : report.results) {
+        Json& added = document["results"].emplace_back();
+        added["name"] = result.name;
+        if (!result.code.empty()) added["code"] = result.code;
+        added["verdict"] = word_of(result.verdict);
+        added["severity"] = result.severity == verify::Severity::fault ? "error" : "warning";
+        added["property"] = result.text;
+        if (!result.reason.empty()) added["reason"] = result.reason;
+        if (result.course) added["course"] = course_object(*result.course, names);
+    }
+    return document;
+}
+
+const char* assumption_text(const std::string& assume) {
+    return assume == "any" ? "inputs, INPOS, ERROR and the time between scans are free (--assume any)"
+                           : "what the gateway and a real motor can do (--assume driver)";
+}
+
+std::string text_of(const verify::Report& report, const VerifyArguments& options,
+                    const verify::Names& names) {
+    std::string text;
+    for (const verify::Result& result : report.results) {
+        const char* shade = result.verdict == Verdict::proved ? "1;32" : "1;31";
+        text += fmt::format("{} {}{}: {}\n",
+                            painted(stdout, shade, fmt::format("{:<9}", word_of(result.verdict))),
+                            result.code.empty() ? "" : result.code + " ", result.name, result.text);
+        if (!result.reason.empty()) text += fmt::format("  {}\n", result.reason);
+        if (result.verdict == Verdict::broken && result.course) text += story_of(*result.course, names);
+    }
+    for (const std::uint8_t step : report.unreachable)
+        text += fmt::format("step {} is never reached\n", verify::step_name(names, step));
+    return text + fmt::format("{} states explored{}; assumed: {}\n", report.states,
+                              report.complete ? ", all there are" : ", not all",
+                              assumption_text(options.assume));
+}
+
+int write_stimulus(const verify::Report& report, const std::string& file) {
+    for (const verify::Result& result : report.results) {
+        if (result.verdict == Verdict::broken && result.course)
+            return print_or_write(verify::stimulus_of(*result.course), file);
+    }
+    return kOk;
+}
+
+int run(const VerifyArguments& options) {
+    const Input input = read_for_view(options.table);
+    if (input.exit_code != kOk) return kUsageOrFile;
+    const auto loaded = sequencer::Table::load(input.table);
+    if (!loaded.ok) {
+        return file_problem(
+            fmt::format("{}: {}", options.table.file, sequencer::describe(loaded.fault.error)));
+    }
+    const verify::Names names = names_for(input);
+    verify::PropertyReading reading;
+    if (!options.properties.empty()) {
+        const whole_files::FileText text = whole_files::read_text(options.properties);
+        if (!text.error.empty()) return file_problem(text.error);
+        reading = verify::read_properties(text.text, names);
+        if (!reading.error.empty())
+            return file_problem(fmt::format("{}:{}: {}", options.properties, reading.line, reading.error));
+    }
+    const bool midi = input.symbols && input.symbols->midi;
+    verify::Options how;
+    how.assume = options.assume == "any" ? Assume::any : Assume::driver;
+    how.order_time = [midi](std::span<const sequencer::MotorOrder> orders) {
+        return order_time(orders, midi);
+    };
+    const verify::Report report = verify::verify(loaded.table, names, reading.properties, how);
+    if (!options.stimulus.empty()) {
+        const int written = write_stimulus(report, options.stimulus);
+        if (written != kOk) return written;
+    }
+    const int verdict = exit_code_of(report);
+    if (options.json) return print_json(document_of(report, options, input, names), verdict);
+    const int printed = print_or_write(text_of(report, options, names), {});
+    return printed == kOk ? verdict : printed;
+}
+
+}  // namespace
+
+void add_verify(arguments::App& app, int& exit_code) {
+    const auto options = std::make_shared<VerifyArguments>();
+    arguments::App& command = *app.add_subcommand(
+        "verify", "Explore all that a program or table can do, and prove properties or show how they break");
+    command.add_option("file", options->table.file, "A program, F.seq, or a table")->required();
+    add_symbols_option(command, options->table);
+    command.add_option("--property", options->properties, "Properties to prove")->type_name("P.prop");
+    command
+        .add_option("--assume", options->assume,
+                    "driver: what gateway and motor can do (default); any: all inputs and times are free")
+        ->one_of({"driver", "any"});
+    command.add_flag("--json", options->json, "JSON for other programs");
+    command
+        .add_option("--stimulus", options->stimulus,
+                    "Write the course that breaks the first broken property, for nanoplc-sim scan")
+        ->type_name("OUT.csv");
+    command.callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace nplc::seqc::cli

@@ -1,0 +1,134 @@
+#include "decider.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "surely.h"
+
+namespace nplc::verify {
+namespace {
+
+constexpr std::size_t kMostTimedStates = 400'000;
+
+std::string out_of_bounds(const Explorer& explorer) {
+    return fmt::format("{} states were explored, and there are more", explorer.size());
+}
+
+constexpr const char* kNoTimes =
+    "there is a course that breaks it but for the times that an input stays as it is; neither these times "
+    "nor "
+    "another course were found (--assume any leaves such times out)";
+
+constexpr const char* kNotSurely =
+    "a course leads there from each state if timer and inputs are left free; whether one does with their "
+    "times "
+    "was not found (--assume any leaves such times out)";
+
+}  // namespace
+
+Decider::Decider(const sequencer::Table& table, const Machine& machine, const Options& options,
+                 std::vector<Target> targets)
+    : table_(table), machine_(machine), options_(options), targets_(std::move(targets)) {
+    coarse_ = std::make_unique<Explorer>(machine, Precision{.most_states = options.most_states});
+    coarse_->explore(targets_);
+}
+
+std::optional<Course> Decider::realized(const std::vector<CourseScan>& scans,
+                                        const std::optional<Overdue>& overdue) const {
+    return realize({.table = table_, .assume = options_.assume, .debounce_ms = options_.debounce_ms}, scans,
+                   overdue);
+}
+
+const Explorer& Decider::fine() {
+    if (!fine_) {
+        fine_ = std::make_unique<Explorer>(machine_,
+                                           Precision{.times_timer = true, .most_states = kMostTimedStates});
+        fine_->explore(targets_);
+    }
+    return *fine_;
+}
+
+Decider::Finding Decider::scan_of_target(std::size_t target) {
+    if (!coarse_->hit(target)) {
+        if (coarse_->complete()) return {Answer::cannot_be, {}, {}};
+        return {Answer::unknown, {}, out_of_bounds(*coarse_)};
+    }
+    if (auto course = realized(coarse_->course_to(target))) return {Answer::can_be, std::move(course), {}};
+    const Explorer& exact = fine();
+    if (!exact.hit(target)) {
+        if (exact.complete()) return {Answer::cannot_be, {}, {}};
+        return {Answer::unknown, {}, out_of_bounds(exact)};
+    }
+    if (auto course = realized(exact.course_to(target))) return {Answer::can_be, std::move(course), {}};
+    return {Answer::unknown, {}, kNoTimes};
+}
+
+Decider::Finding Decider::missed_deadline(const Property& property) const {
+    std::string why;
+    for (const bool times_timer : {false, true}) {
+        Explorer explorer(
+            machine_,
+            Precision{.times_timer = times_timer, .deadline = &property, .most_states = kMostTimedStates});
+        explorer.explore({});
+        if (!explorer.missed_deadline()) {
+            if (explorer.complete()) return {Answer::cannot_be, {}, {}};
+            why = out_of_bounds(explorer);
+            continue;
+        }
+        const std::vector<CourseScan> scans = explorer.course_to_missed_deadline();
+        Overdue overdue{.from = scans.size() - 1, .more_than_ms = property.within_ms};
+        while (scans[overdue.from].place.pending) --overdue.from;
+        if (auto course = realized(scans, overdue)) return {Answer::can_be, std::move(course), {}};
+        why = kNoTimes;
+    }
+    return {Answer::unknown, {}, why};
+}
+
+const std::vector<bool>& Decider::ways_to(const Target& target) {
+    if (!ways_) {
+        ways_ = std::make_unique<Explorer>(
+            machine_,
+            Precision{.knows_lost_link = true, .keeps_edges = true, .most_states = options_.most_states});
+        ways_->explore({});
+        first_back_.assign(ways_->size() + 1, 0);
+        for (const auto& edge : ways_->edges()) ++first_back_[edge.second + 1];
+        for (std::size_t i = 1; i < first_back_.size(); ++i) first_back_[i] += first_back_[i - 1];
+        back_.resize(ways_->edges().size());
+        std::vector<std::uint32_t> next(first_back_.begin(), first_back_.end());
+        for (const auto& edge : ways_->edges()) back_[next[edge.second]++] = edge.first;
+    }
+    good_.assign(ways_->size(), false);
+    std::vector<Explorer::Node> open;
+    for (Explorer::Node node = 0; node < ways_->size(); ++node) {
+        if (!ways_->can_hit_from(node, target)) continue;
+        good_[node] = true;
+        open.push_back(node);
+    }
+    while (!open.empty()) {
+        const Explorer::Node node = open.back();
+        open.pop_back();
+        for (std::uint32_t i = first_back_[node]; i < first_back_[node + 1]; ++i) {
+            if (good_[back_[i]]) continue;
+            good_[back_[i]] = true;
+            open.push_back(back_[i]);
+        }
+    }
+    return good_;
+}
+
+Decider::Finding Decider::stuck_outside(std::size_t index) {
+    const Target& target = targets_[index];
+    const std::vector<bool>& good = ways_to(target);
+    if (!ways_->complete()) return {Answer::unknown, {}, out_of_bounds(*ways_)};
+    const Explorer::Stuck stuck = ways_->first_stuck(target, good);
+    if (stuck.node == Explorer::kNone) {
+        if (options_.assume == Assume::any) return {Answer::cannot_be, {}, {}};
+        if (surely_possible(*ways_, target)) return {Answer::cannot_be, {}, {}};
+        return {Answer::unknown, {}, kNotSurely};
+    }
+    if (auto course = realized(ways_->course_to(stuck))) return {Answer::can_be, std::move(course), {}};
+    return {Answer::unknown, {}, kNoTimes};
+}
+
+}  // namespace nplc::verify

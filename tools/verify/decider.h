@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "explorer.h"
+#include "realize.h"
+#include "verify/verify.h"
+
+namespace nplc::verify {
+
+/// Whether a scan can be, decided by ever more exact explorations: the timer as zero or running first, in
+/// milliseconds where that finds a course that no times fit.
+class Decider {
+  public:
+    Decider(const sequencer::Table& table, const Machine& machine, const Options& options,
+            std::vector<Target> targets);
+
+    enum class Answer : std::uint8_t { can_be, cannot_be, unknown };
+    struct Finding {
+        Answer answer = Answer::unknown;
+        std::optional<Course> course;
+        std::string why;  ///< it is unknown
+    };
+
+    Finding scan_of_target(std::size_t target);
+    Finding missed_deadline(const Property& property) const;
+    Finding stuck_outside(std::size_t target);
+
+    const Explorer& coarse() const { return *coarse_; }
+
+  private:
+    std::optional<Course> realized(const std::vector<CourseScan>& scans,
+                                   const std::optional<Overdue>& overdue = {}) const;
+    const Explorer& fine();
+    const std::vector<bool>& ways_to(const Target& target);
+
+    const sequencer::Table& table_;
+    const Machine& machine_;
+    const Options& options_;
+    std::vector<Target> targets_;
+    std::unique_ptr<Explorer> coarse_;
+    std::unique_ptr<Explorer> fine_;
+    std::unique_ptr<Explorer> ways_;  ///< with edges
+    std::vector<std::uint32_t> first_back_;
+    std::vector<Explorer::Node> back_;
+    std::vector<bool> good_;
+};
+
+}  // namespace nplc::verify

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sequencer/state.h"
+
+namespace nplc::verify {
+
+/// A scan of a course as it can be played.
+struct PlayedScan {
+    std::uint8_t image = 0;
+    std::uint32_t dt_ms = 0;  ///< to the next scan
+    std::uint8_t step = 0;    ///< in which it began
+    bool repeats = false;     ///< the one before it again, while time passes
+    sequencer::State after;   ///< before any time is taken off the timer
+    std::vector<sequencer::MotorOrder> orders;
+};
+
+using Course = std::vector<PlayedScan>;
+
+}  // namespace nplc::verify

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "verify/course.h"
+#include "verify/verify.h"
+
+/// A course told, and written down to be played.
+namespace nplc::verify {
+
+std::string step_name(const Names& names, std::uint8_t step);
+
+/// A line for each scan that did something or saw something new: time, image, step, what it did.
+std::string story_of(const Course& course, const Names& names);
+
+/// For `nanoplc-sim scan`: a row a scan.
+std::string stimulus_of(const Course& course);
+
+/// For `nanoplc-sim run`: inputs at their times, ERROR as a fault of the drive or a cut line, and the step
+/// that the course ends in. What INPOS does there is up to the virtual motor.
+std::string scenario_of(const Result& result, const Names& names);
+
+}  // namespace nplc::verify

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sequencer/table.h"
+#include "verify/course.h"
+#include "verify/machine.h"
+#include "verify/property.h"
+
+namespace nplc::verify {
+
+enum class Verdict : std::uint8_t { proved, broken, undecided };
+enum class Severity : std::uint8_t { fault, advice };
+
+struct Result {
+    std::string name;
+    std::string code;  ///< of a built-in check
+    std::string text;  ///< the property, or what was checked
+    Verdict verdict = Verdict::undecided;
+    Severity severity = Severity::fault;
+    std::string reason;            ///< why it is broken or undecided
+    std::optional<Course> course;  ///< the shortest way to break it, or to reach what IS REACHABLE
+};
+
+struct Options {
+    Assume assume = Assume::driver;
+    OrderTime order_time;
+    std::uint32_t debounce_ms = 3;
+    std::size_t most_states = 4'000'000;
+};
+
+struct Report {
+    std::size_t states = 0;
+    bool complete = true;                   ///< all states were explored
+    std::vector<std::uint8_t> unreachable;  ///< steps with a name or terms in which no scan begins
+    std::vector<Result> results;            ///< built-in checks, then the properties
+};
+
+Report verify(const sequencer::Table& table, const Names& names, const std::vector<Property>& properties,
+              const Options& options);
+
+}  // namespace nplc::verify

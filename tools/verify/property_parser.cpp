@@ -1,0 +1,346 @@
+#include "property_parser.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <optional>
+
+namespace nplc::verify {
+namespace {
+
+using Kind = Condition::Kind;
+
+struct Operator {
+    std::string_view word;
+    Kind kind;
+};
+
+/// Loosest first, as in programs.
+constexpr std::array kOperators = {
+    Operator{"OR", Kind::any_of},
+    Operator{"XOR", Kind::odd_of},
+    Operator{"AND", Kind::all_of},
+};
+
+char upper_case(char c) {
+    return static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+}
+
+bool same_word(std::string_view a, std::string_view b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](char x, char y) { return upper_case(x) == upper_case(y); });
+}
+
+bool is_word_character(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+/// The number behind `prefix`, one digit below `count`.
+std::optional<std::uint8_t> numbered(std::string_view text, std::string_view prefix, int count) {
+    if (text.size() != prefix.size() + 1 || !same_word(text.substr(0, prefix.size()), prefix))
+        return std::nullopt;
+    const int number = text.back() - '0';
+    if (number < 0 || number >= count) return std::nullopt;
+    return static_cast<std::uint8_t>(number);
+}
+
+template <std::size_t N>
+std::optional<std::uint8_t> named(std::string_view text, const std::array<std::string, N>& names) {
+    for (std::size_t i = 0; i < N; ++i) {
+        if (!names[i].empty() && same_word(names[i], text)) return static_cast<std::uint8_t>(i);
+    }
+    return std::nullopt;
+}
+
+Condition leaf(Kind kind, std::uint8_t number = 0) {
+    return {.kind = kind, .number = number, .operands = {}};
+}
+
+struct Unit {
+    std::string_view word;
+    double milliseconds;
+};
+constexpr std::array kUnits = {Unit{"ms", 1}, Unit{"s", 1'000}, Unit{"min", 60'000}};
+
+}  // namespace
+
+PropertyParser::PropertyParser(std::string_view text, const Names& names) : names_(names) {
+    split(text);
+}
+
+void PropertyParser::split(std::string_view text) {
+    std::size_t line = 1;
+    std::size_t at = 0;
+    const auto run = [&](std::size_t from, auto belongs) {
+        std::size_t end = from;
+        while (end < text.size() && belongs(text[end])) ++end;
+        return end;
+    };
+    while (at < text.size()) {
+        const char c = text[at];
+        const std::string_view rest = text.substr(at);
+        std::size_t end = at + 1;
+        if (c == '\n') {
+            ++line;
+        } else if (std::isspace(static_cast<unsigned char>(c)) != 0 || rest.starts_with("\xEF\xBB\xBF")) {
+            end = c == '\xEF' ? at + 3 : end;
+        } else if (rest.starts_with("//")) {
+            end = run(at, [](char x) { return x != '\n'; });
+        } else if (rest.starts_with("(*") || rest.starts_with("/*")) {
+            const std::size_t close = text.find(rest[0] == '(' ? "*)" : "*/", at + 2);
+            end = close == std::string_view::npos ? text.size() : close + 2;
+            line +=
+                static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(at),
+                                                    text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+        } else if (c == '%') {
+            end = run(at + 1, [](char x) { return is_word_character(x) || x == '.'; });
+            tokens_.push_back({Token::Kind::direct, text.substr(at, end - at), line});
+        } else if ((c == 'T' || c == 't') && rest.size() > 1 && rest[1] == '#') {
+            end = run(at + 2, [](char x) { return is_word_character(x) || x == '.'; });
+            tokens_.push_back({Token::Kind::number, text.substr(at, end - at), line});
+        } else if (std::isdigit(static_cast<unsigned char>(c)) != 0) {
+            end =
+                run(at, [](char x) { return std::isdigit(static_cast<unsigned char>(x)) != 0 || x == '.'; });
+            tokens_.push_back({Token::Kind::number, text.substr(at, end - at), line});
+        } else if (is_word_character(c)) {
+            end = run(at, is_word_character);
+            tokens_.push_back({Token::Kind::word, text.substr(at, end - at), line});
+        } else {
+            tokens_.push_back({Token::Kind::symbol, text.substr(at, 1), line});
+        }
+        at = end;
+    }
+    tokens_.push_back({Token::Kind::end, {}, line});
+}
+
+const PropertyParser::Token& PropertyParser::token(std::size_t ahead) const {
+    return tokens_[std::min(at_ + ahead, tokens_.size() - 1)];
+}
+
+bool PropertyParser::at(std::string_view word, std::size_t ahead) const {
+    const Token& t = token(ahead);
+    return (t.kind == Token::Kind::word || t.kind == Token::Kind::symbol) && same_word(t.text, word);
+}
+
+bool PropertyParser::take(std::string_view word) {
+    if (!at(word)) return false;
+    ++at_;
+    return true;
+}
+
+bool PropertyParser::expect(std::string_view word, std::string_view where) {
+    return take(word) || fail(fmt::format("'{}' is expected {}, not {}", word, where, shown()));
+}
+
+bool PropertyParser::fail(std::string message) {
+    if (reading_.error.empty()) {
+        reading_.error = std::move(message);
+        reading_.line = token().line;
+    }
+    return false;
+}
+
+std::string PropertyParser::shown() const {
+    return token().kind == Token::Kind::end ? "the end of the text"
+                                            : fmt::format("'{}'", token().text.substr(0, 40));
+}
+
+PropertyReading PropertyParser::parse() {
+    while (reading_.error.empty() && token().kind != Token::Kind::end) parse_property();
+    if (!reading_.error.empty()) reading_.properties.clear();
+    return std::move(reading_);
+}
+
+bool PropertyParser::parse_property() {
+    Property property;
+    if (!expect("PROPERTY", "to begin a property")) return false;
+    if (token().kind != Token::Kind::word)
+        return fail(fmt::format("a property needs a name, not {}", shown()));
+    property.name = token().text;
+    for (const Property& other : reading_.properties) {
+        if (same_word(other.name, property.name))
+            return fail(fmt::format("there are two properties '{}'", property.name));
+    }
+    ++at_;
+    if (!expect(":", "behind the property's name")) return false;
+    const std::size_t first = at_;
+    if (!parse_form(property)) return false;
+    for (std::size_t i = first; i < at_; ++i) {
+        const bool glued = i == first || tokens_[i].text == ")" || tokens_[i - 1].text == "(" ||
+                           tokens_[i].text == "." || tokens_[i - 1].text == ".";
+        property.text += glued ? "" : " ";
+        property.text += tokens_[i].text;
+    }
+    if (!expect(";", "at the end of the property")) return false;
+    reading_.properties.push_back(std::move(property));
+    return true;
+}
+
+bool PropertyParser::parse_form(Property& property) {
+    if (take("NEVER")) {
+        property.form = Form::never;
+        return parse_condition(property.condition);
+    }
+    if (at("ALWAYS") && at("POSSIBLE", 1)) {
+        at_ += 2;
+        property.form = Form::always_possible;
+        return parse_condition(property.condition);
+    }
+    if (take("ALWAYS")) {
+        property.form = Form::always;
+        return parse_condition(property.condition);
+    }
+    if (take("WHENEVER")) {
+        property.form = Form::whenever;
+        return parse_condition(property.condition) && expect("THEN", "behind WHENEVER's condition") &&
+               parse_condition(property.then) && expect("WITHIN", "behind THEN's condition") &&
+               parse_time(property.within_ms);
+    }
+    property.form = Form::reachable;
+    return parse_condition(property.condition) && expect("IS", "behind a condition that begins a property") &&
+           expect("REACHABLE", "behind IS");
+}
+
+bool PropertyParser::parse_time(std::uint32_t& milliseconds) {
+    constexpr double kLongest = 3'600'000;
+    std::string_view text = token().text;
+    if (token().kind != Token::Kind::number) return fail(fmt::format("a time is expected, not {}", shown()));
+    double total = 0;
+    if (text.size() > 2 && text[1] == '#') {
+        text.remove_prefix(2);
+    } else {
+        text = {};
+    }
+    const auto add = [&](std::string_view number, std::string_view unit) {
+        double value = 0;
+        const auto read = std::from_chars(number.data(), number.data() + number.size(), value);
+        const auto* found = std::find_if(kUnits.begin(), kUnits.end(),
+                                         [&](const Unit& u) { return same_word(u.word, unit); });
+        if (read.ptr != number.data() + number.size() || number.empty() || found == kUnits.end())
+            return false;
+        total += value * found->milliseconds;
+        return true;
+    };
+    bool sound = true;
+    if (text.empty()) {
+        sound = add(token().text, token(1).text);
+        at_ += 2;
+    } else {
+        ++at_;
+        while (!text.empty() && sound) {
+            const std::size_t digits = std::min(text.find_first_not_of("0123456789._"), text.size());
+            const std::string_view number = text.substr(0, digits);
+            text.remove_prefix(digits);
+            const std::size_t letters = std::min(text.find_first_of("0123456789"), text.size());
+            sound = add(number, text.substr(0, letters));
+            text.remove_prefix(letters);
+        }
+    }
+    if (!sound || total > kLongest || total != static_cast<double>(static_cast<std::uint32_t>(total))) {
+        --at_;
+        return fail("a time is whole milliseconds up to an hour, such as 20 ms, 1.5 s or T#1s500ms");
+    }
+    milliseconds = static_cast<std::uint32_t>(total);
+    return true;
+}
+
+bool PropertyParser::parse_operators(Condition& result, std::size_t level) {
+    if (level == kOperators.size()) return parse_primary(result);
+    if (!parse_operators(result, level + 1)) return false;
+    if (!at(kOperators[level].word)) return true;
+    Condition joined = leaf(kOperators[level].kind);
+    joined.operands.push_back(std::move(result));
+    while (take(kOperators[level].word)) {
+        if (!parse_operators(joined.operands.emplace_back(), level + 1)) return false;
+    }
+    result = std::move(joined);
+    return true;
+}
+
+bool PropertyParser::parse_primary(Condition& result) {
+    if (depth_ == kDeepest) return fail("this condition is nested too deeply");
+    if (take("NOT")) {
+        result = leaf(Kind::negation);
+        ++depth_;
+        const bool sound = parse_primary(result.operands.emplace_back());
+        --depth_;
+        return sound;
+    }
+    if (take("(")) {
+        ++depth_;
+        const bool sound = parse_condition(result);
+        --depth_;
+        return sound && expect(")", "to close the parenthesis");
+    }
+    if (at("step") && at("=", 1)) {
+        at_ += 2;
+        return parse_step(result);
+    }
+    return parse_signal(result);
+}
+
+bool PropertyParser::parse_step(Condition& result) {
+    std::optional<std::uint8_t> number;
+    const std::string_view text = token().text;
+    if (token().kind == Token::Kind::number) {
+        unsigned value = 0;
+        const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (read.ptr == text.data() + text.size() && value < names_.steps.size())
+            number = static_cast<std::uint8_t>(value);
+    } else if (token().kind == Token::Kind::word) {
+        number = named(text, names_.steps);
+        if (!number && same_word(text, "POWER_UP")) number = std::uint8_t{0};
+    }
+    if (!number) return fail(fmt::format("there is no step {}; a step is a name or 0 to 62", shown()));
+    ++at_;
+    result = leaf(Kind::step, *number);
+    return true;
+}
+
+bool PropertyParser::parse_signal(Condition& result) {
+    constexpr std::uint8_t kInPosBit = 6;
+    constexpr std::uint8_t kErrorBit = 7;
+    const std::string_view text = token().text;
+    if (at("TRUE") || at("FALSE")) {
+        result = leaf(Kind::constant, at("TRUE") ? 1 : 0);
+    } else if (at("INPOS")) {
+        result = leaf(Kind::image, kInPosBit);
+    } else if (at("ERROR")) {
+        result = leaf(Kind::image, kErrorBit);
+    } else if (at("ANY") && at("ERROR", 1)) {
+        result = leaf(Kind::constant, 1);
+        ++at_;
+    } else if (at("TIMER") || at("COUNTER")) {
+        result = leaf(at("TIMER") ? Kind::timer_q : Kind::counter_q);
+        if (!at(".", 1) || !at("Q", 2)) return fail("only TIMER.Q and COUNTER.Q can be tested: true at zero");
+        at_ += 2;
+    } else if (const auto input = named(text, names_.inputs)) {
+        result = leaf(Kind::image, *input);
+    } else if (const auto output = named(text, names_.outputs)) {
+        result = leaf(Kind::output, *output);
+    } else if (const auto in = numbered(text, "IN", 6)) {
+        result = leaf(Kind::image, *in);
+    } else if (const auto out = numbered(text, "OUT", 4)) {
+        result = leaf(Kind::output, *out);
+    } else if (const auto ix = numbered(text, "%IX0.", 6)) {
+        result = leaf(Kind::image, *ix);
+    } else if (const auto qx = numbered(text, "%QX0.", 4)) {
+        result = leaf(Kind::output, *qx);
+    } else {
+        return fail(
+            fmt::format("an input, an output, INPOS, ERROR, TIMER.Q, COUNTER.Q or 'step = Name' is "
+                        "expected, not {}",
+                        shown()));
+    }
+    ++at_;
+    return true;
+}
+
+PropertyReading read_properties(std::string_view text, const Names& names) {
+    return PropertyParser(text, names).parse();
+}
+
+}  // namespace nplc::verify

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "verify/property.h"
+
+namespace nplc::verify {
+
+/// Reads properties a token at a time; the first mistake ends it.
+class PropertyParser {
+  public:
+    PropertyParser(std::string_view text, const Names& names);
+    PropertyReading parse();
+
+  private:
+    struct Token {
+        enum class Kind : std::uint8_t { end, word, number, direct, symbol };
+        Kind kind = Kind::end;
+        std::string_view text;
+        std::size_t line = 1;
+    };
+
+    void split(std::string_view text);
+    const Token& token(std::size_t ahead = 0) const;
+    bool at(std::string_view word, std::size_t ahead = 0) const;
+    bool take(std::string_view word);
+    bool expect(std::string_view word, std::string_view where);
+    bool fail(std::string message);
+    std::string shown() const;
+
+    bool parse_property();
+    bool parse_form(Property& property);
+    bool parse_time(std::uint32_t& milliseconds);
+    bool parse_condition(Condition& result) { return parse_operators(result, 0); }
+    bool parse_operators(Condition& result, std::size_t level);
+    bool parse_primary(Condition& result);
+    bool parse_step(Condition& result);
+    bool parse_signal(Condition& result);
+
+    static constexpr int kDeepest = 100;
+
+    const Names& names_;
+    std::vector<Token> tokens_;
+    std::size_t at_ = 0;
+    int depth_ = 0;
+    PropertyReading reading_;
+};
+
+}  // namespace nplc::verify

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "explorer.h"
+#include "verify/course.h"
+
+namespace nplc::verify {
+
+/// What must have passed between a scan and the one that would follow the last.
+struct Overdue {
+    std::size_t from = 0;  ///< index of the scan
+    std::uint32_t more_than_ms = 0;
+};
+
+struct Realization {
+    const sequencer::Table& table;
+    Assume assume = Assume::any;
+    std::uint32_t debounce_ms = 3;
+};
+
+/// Chooses images and times for a course of the explorer so that timer, delays and debouncing allow it, and
+/// plays it on the engine; nothing if no times fit the images chosen.
+std::optional<Course> realize(const Realization& how, std::span<const CourseScan> scans,
+                              const std::optional<Overdue>& overdue);
+
+}  // namespace nplc::verify

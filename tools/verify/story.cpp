@@ -1,0 +1,83 @@
+#include "verify/story.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace nplc::verify {
+namespace {
+
+std::string listed(const std::vector<std::string>& words) {
+    return words.empty() ? "-" : fmt::format("{}", fmt::join(words, ","));
+}
+
+std::string image_text(std::uint8_t image, const Names& names) {
+    std::vector<std::string> on;
+    for (unsigned i = 0; i < 6; ++i) {
+        if (((image >> i) & 1U) != 0)
+            on.push_back(names.inputs[i].empty() ? fmt::format("IN{}", i) : names.inputs[i]);
+    }
+    if ((image & sequencer::kInPos) != 0) on.emplace_back("INPOS");
+    if ((image & sequencer::kError) != 0) on.emplace_back("ERROR");
+    return listed(on);
+}
+
+std::string outputs_text(std::uint8_t outputs, const Names& names) {
+    std::vector<std::string> on;
+    for (unsigned i = 0; i < 4; ++i) {
+        if (((outputs >> i) & 1U) != 0)
+            on.push_back(names.outputs[i].empty() ? fmt::format("OUT{}", i) : names.outputs[i]);
+    }
+    return listed(on);
+}
+
+std::string orders_text(const std::vector<sequencer::MotorOrder>& orders) {
+    std::string text;
+    for (const auto& order : orders) {
+        text += order.is_flex ? fmt::format(" {}={}", order.reg, order.value)
+                              : fmt::format(" {:02X}h", order.command);
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string step_name(const Names& names, std::uint8_t step) {
+    return names.steps[step].empty() ? fmt::format("{}", step) : names.steps[step];
+}
+
+std::string story_of(const Course& course, const Names& names) {
+    std::string text =
+        fmt::format("  {:>9}  {:<24} {:<28} {:<20} {}\n", "ms", "on", "step", "outputs", "timer counter");
+    std::uint64_t time = 0;
+    std::size_t scans = 0;
+    for (const PlayedScan& scan : course) {
+        if (!scan.repeats) {
+            const std::string steps =
+                scan.step == scan.after.step
+                    ? step_name(names, scan.step)
+                    : fmt::format("{} -> {}", step_name(names, scan.step), step_name(names, scan.after.step));
+            std::string line =
+                fmt::format("  {:>9}  {:<24} {:<28} {:<20} {} {}", time, image_text(scan.image, names), steps,
+                            outputs_text(scan.after.outputs, names), scan.after.timer, scan.after.counter);
+            if (!scan.orders.empty()) line += fmt::format("  sends{}", orders_text(scan.orders));
+            text += line + "\n";
+        }
+        ++scans;
+        time += scan.dt_ms;
+    }
+    return text + fmt::format("  {} scan{}, then {} ms\n", scans, scans == 1 ? "" : "s",
+                              course.empty() ? 0 : course.back().dt_ms);
+}
+
+std::string stimulus_of(const Course& course) {
+    std::string text = "dt_ms,inputs,inpos,error\n";
+    for (const PlayedScan& scan : course) {
+        text += fmt::format("{},{},{},{}\n", scan.dt_ms, scan.image & sequencer::kInputsMask,
+                            (scan.image & sequencer::kInPos) != 0 ? 1 : 0,
+                            (scan.image & sequencer::kError) != 0 ? 1 : 0);
+    }
+    return text;
+}
+
+}  // namespace nplc::verify

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "explorer.h"
+
+namespace nplc::verify {
+
+/// Whether from every scan that `ways` knows, outside of `target`, a course of the gateway's surely leads to
+/// `target`: with inputs that keep their levels for the debounce time, and a timer of which is known only
+/// that it runs. True is a proof; false says nothing. `ways` must be complete and know lost links.
+bool surely_possible(const Explorer& ways, const Target& target);
+
+}  // namespace nplc::verify
