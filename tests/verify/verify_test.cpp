@@ -25,7 +25,7 @@ class Bench {
         for (const Row& r : rows) {
             for (const unsigned byte :
                  {unsigned{r.state}, unsigned{r.input}, unsigned{r.care}, unsigned{r.next},
-                  unsigned{r.command}, unsigned{r.output}, r.preset & 0xFFU, r.preset >> 8U})
+                  unsigned{r.command}, unsigned{r.output}, r.preset & 0xFFU, unsigned{r.preset} >> 8U})
                 bytes_.push_back(static_cast<std::uint8_t>(byte));
         }
         bytes_.insert(bytes_.end(), {0x3F, 0, 0, 0, 0, 0, 0, 0});
