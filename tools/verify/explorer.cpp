@@ -116,6 +116,11 @@ void Explorer::successors(const Place& place, const Zone& zone, const Group& gro
         const Bounds delay = delay_of(place, group, to);
         Zone later = now;
         later.elapse(delay, part.pending);
+        if (precision_.times_timer && next.runs && delay.most >= kEndless &&
+            machine_.assume() == Assume::driver) {
+            later.left.least = std::max(later.left.least, 1 - std::int32_t{Machine::kMostIdle});
+            later.tighten();
+        }
         if (part.pending) {
             const auto limit = static_cast<std::int32_t>(precision_.deadline->within_ms);
             if (later.passed.most > limit) misses = true;

@@ -101,7 +101,8 @@ void bound_delays(Times& times, std::span<const CourseScan> scans) {
     }
 }
 
-void bound_timer(Times& times, std::span<const CourseScan> scans) {
+/// Repeated scans see the timer end too: they are `most_idle` apart.
+void bound_timer(Times& times, std::span<const CourseScan> scans, bool paced) {
     std::size_t preset_at = 0;
     std::int64_t preset = 0;
     for (std::size_t k = 0; k < scans.size(); ++k) {
@@ -113,6 +114,9 @@ void bound_timer(Times& times, std::span<const CourseScan> scans) {
                 preset = 0;
             }
         }
+        const bool runs_on = preset != 0 && scans[k].place.runs;
+        if (paced && runs_on && scans[k].idle)
+            times.at_most(preset_at, k + 1, preset - 1 + Machine::kMostIdle);
         if (scans[k].group->pending.timer_preset == 0) continue;
         preset = scans[k].group->pending.timer_preset;
         preset_at = k;
@@ -142,10 +146,10 @@ Course lay_out(std::span<const CourseScan> scans, const Images& images, const Ti
         scan.image = images[k];
         std::int64_t rest = times[k + 1] - times[k];
         while (paced && scans[k].idle && rest > Machine::kMostIdle) {
-            scan.dt_ms = Machine::kMostIdle;
+            scan.dt_ms = rest % Machine::kMostIdle != 0 ? 1 : Machine::kMostIdle;
             course.push_back(scan);
             scan.repeats = true;
-            rest -= Machine::kMostIdle;
+            rest -= scan.dt_ms;
         }
         scan.dt_ms = static_cast<std::uint32_t>(rest);
         course.push_back(scan);
@@ -183,11 +187,12 @@ std::optional<Course> realize(const Realization& how, std::span<const CourseScan
     const Images images = calm_images(scans);
     Times times(scans.size() + 1);
     bound_delays(times, scans);
-    bound_timer(times, scans);
-    if (how.assume == Assume::driver) bound_inputs(times, images, how.debounce_ms);
+    const bool driver = how.assume == Assume::driver;
+    bound_timer(times, scans, driver);
+    if (driver) bound_inputs(times, images, how.debounce_ms);
     if (overdue) times.at_least(overdue->from, scans.size(), std::int64_t{overdue->more_than_ms} + 1);
     if (!times.solve()) return std::nullopt;
-    Course course = lay_out(scans, images, times, how.assume == Assume::driver);
+    Course course = lay_out(scans, images, times, driver);
     if (!play(how.table, scans, course)) return std::nullopt;
     return course;
 }
