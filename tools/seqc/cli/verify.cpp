@@ -44,12 +44,12 @@ verify::Names names_for(const Input& input) {
     return names;
 }
 
-/// As `seqc report` works it out, and what the driver's and the gateway's own polls add. What a MIDI drive
-/// takes for an order is known only as the longest that a gateway waits.
-verify::Delay order_time(std::span<const sequencer::MotorOrder> orders, bool midi) {
+/// As `seqc report` works it out, and what the polls of driver and gateway add. What a drive whose orders are
+/// translated takes is known only as the longest that a gateway waits.
+verify::Delay order_time(std::span<const sequencer::MotorOrder> orders, bool translated) {
     constexpr std::uint32_t kBaud = 19'200;
     constexpr std::uint32_t kLongestWait = 1'000;
-    if (midi) return {0, kLongestWait};
+    if (translated) return {0, kLongestWait};
     const LineUse use = line_use(orders, true);
     return {static_cast<std::uint32_t>(milliseconds(use.until_done, kBaud)),
             static_cast<std::uint32_t>(std::ceil(milliseconds(use.at_most, kBaud))) + use.messages +
@@ -169,11 +169,11 @@ int run(const VerifyArguments& options) {
         if (!reading.error.empty())
             return file_problem(fmt::format("{}:{}: {}", options.properties, reading.line, reading.error));
     }
-    const bool midi = input.symbols && input.symbols->midi;
+    const bool translated = input.symbols && input.symbols->drive != nullptr;
     verify::Options how;
     how.assume = options.assume == "any" ? Assume::any : Assume::driver;
-    how.order_time = [midi](std::span<const sequencer::MotorOrder> orders) {
-        return order_time(orders, midi);
+    how.order_time = [translated](std::span<const sequencer::MotorOrder> orders) {
+        return order_time(orders, translated);
     };
     const verify::Report report = verify::verify(loaded.table, names, reading.properties, how);
     if (!options.stimulus.empty()) {
