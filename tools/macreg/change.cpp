@@ -98,8 +98,7 @@ std::string hindrance(Motor& motor, std::int64_t wanted, std::int64_t now) {
         const Register& supply = *motor.find(motor.model() == Model::mac800 ? "U_BUS" : "U_SUPPLY");
         return fmt::format(
             "the motor stays passive while its supply is too low (it is {}), since UV_GO_PASSIVE is set in "
-            "UV_HANDLE; "
-            "mend the supply (`macreg why`)",
+            "UV_HANDLE; mend the supply (`macreg why`)",
             value_text(supply, motor.model(), motor.read(supply)));
     }
     return {};
@@ -220,8 +219,7 @@ std::string no_mode(Model model, const Register& reg, std::int64_t raw) {
     if (!is_mode(model, reg) || (raw >= 0 && raw <= last_mode(model))) return {};
     if (reg.number == registers::MODE_REG && raw >= kDefaults)
         return "MODE_REG: 256 to 258 rewrite flash and registers; `macreg flash save`, `macreg flash "
-               "defaults` and "
-               "`macreg flash reload` do that, and ask first";
+               "defaults` and `macreg flash reload` do that, and ask first";
     return fmt::format("{}: {} is no mode; modes are 0 to {} (`macreg list {}`)", reg.name, raw,
                        last_mode(model), reg.name);
 }
@@ -271,8 +269,7 @@ std::string gateway_refusal(Motor& motor, Asked asked) {
     namespace gw = registers::gateway;
     constexpr const char* kOwnLine =
         "the gateway does not carry SAFE_MODE, flash and reset itself: they need the motor's own MacTalk "
-        "line, "
-        "wired to the board's second serial port or to this computer";
+        "line, wired to the board's second serial port or to this computer";
     if (!motor.is_behind_gateway()) return {};
     const std::uint32_t status = motor.master().read(gw::kDefaultAddress, gw::STATUS);
     if ((status & gw::kLinkDelivers) == 0)
@@ -282,14 +279,13 @@ std::string gateway_refusal(Motor& motor, Asked asked) {
     const bool runs = static_cast<gw::RunState>(status & gw::kRunState) != gw::RunState::stopped;
     if (runs && motor.master().read(gw::kDefaultAddress, kMotorWrites) < needed)
         return fmt::format(
-            "the gateway refuses it while its sequence runs or is held: `nanoctl stop` first, then "
-            "this again. To allow it while it runs, after the stop `nanoctl settings set "
-            "motor_writes={}`, then `nanoctl run`{}{}",
+            "the gateway refuses it while its sequence runs or is held: `nanoctl stop` first, then this "
+            "again. To allow it while it runs, after the stop `nanoctl settings set motor_writes={}`, then "
+            "`nanoctl run`{}{}",
             needed, service ? "; besides, " : "", service ? kOwnLine : "");
     if (service) return kOwnLine;
     return "the motor did not accept it from the gateway; `nanoctl status` tells more of the link, `macreg "
-           "why` "
-           "of the motor";
+           "why` of the motor";
 }
 
 Outcome change(Motor& motor, const Register& reg, std::int64_t raw) {

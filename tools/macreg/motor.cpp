@@ -163,10 +163,9 @@ std::optional<std::int64_t> Snapshot::find(std::uint8_t number) const {
 registers::Model Motor::find_model(mactalk_client::Master& master, std::uint8_t address) {
     const std::uint32_t value = master.read(address, registers::PROG_VERSION);
     if (value == registers::gateway::kIdentity)
-        throw WrongUnit(
-            fmt::format("{}: address {} is a gateway's, not a motor's; name the motor's with --address, or "
-                        "use nanoctl",
-                        master.wire().name(), address));
+        throw WrongUnit(fmt::format(
+            "{}: address {} is a gateway's, not a motor's; name the motor's with --address, or use nanoctl",
+            master.wire().name(), address));
     return (value & kLargeMotor) != 0 ? registers::Model::mac800 : registers::Model::mac140;
 }
 

@@ -143,8 +143,7 @@ struct Parser {
         if (*promised == found || *promised == found + shown) return {};
         return fmt::format(
             "its last line says {} registers, and it has {}: lines are missing or were added (then write "
-            "that number "
-            "into the last line)",
+            "that number into the last line)",
             *promised, shown == 0 ? found : found + shown);
     }
 

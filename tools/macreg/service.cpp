@@ -209,8 +209,8 @@ std::string Service::stop_words() const {
         return fmt::format("the motor ran in {} and was stopped: it starts again only when MODE_REG is set",
                            trail_.ran_in);
     return fmt::format(
-        "the motor ran in {} and was told to stop, but HAS NOT STOPPED as far as is known{}: if "
-        "it must stand, cut its power",
+        "the motor ran in {} and was told to stop, but HAS NOT STOPPED as far as is known{}: if it must "
+        "stand, cut its power",
         trail_.ran_in, trail_.turns.empty() ? "" : " (" + trail_.turns + ")");
 }
 
@@ -225,30 +225,25 @@ std::string Service::left_behind() const {
         {"", "", ""},
         {"the flash was not written",
          "the order to write the flash was sent, and whether it was written is not known: once the motor "
-         "answers, see "
-         "with `macreg diff` or `macreg get` which values it starts with, before it is saved again",
+         "answers, see with `macreg diff` or `macreg get` which values it starts with, before it is saved "
+         "again",
          "the flash was written and the motor has reset, but not all of it was compared: see `macreg diff` "
-         "or "
-         "`macreg get`"},
+         "or `macreg get`"},
         {"parameters and flash are as they were",
          "the order to load the factory's parameters into memory and flash was sent, and whether it was "
-         "carried out "
-         "is not known: see `macreg diff` or `macreg get`",
+         "carried out is not known: see `macreg diff` or `macreg get`",
          "the factory's parameters are in memory and flash, and the motor has reset"},
         {"the parameters are as they were",
          "the order to load the factory's parameters was sent, and whether it was carried out is not known: "
-         "see "
-         "`macreg get`; the flash is as it was",
+         "see `macreg get`; the flash is as it was",
          "the factory's parameters are in memory, the flash is as it was"},
         {"the parameters are as they were",
          "the order to read the flash was sent, and whether it was carried out is not known: see `macreg "
-         "get`; the "
-         "flash is as it was",
+         "get`; the flash is as it was",
          "the flash's parameters are in memory"},
         {"the motor was not reset; its memory is as it was",
          "the order to reset was sent, and whether it was carried out is not known: after a reset what was "
-         "not saved "
-         "is gone, see `macreg get`",
+         "not saved is gone, see `macreg get`",
          "the motor has reset"},
     };
     const Words& words = kWords[static_cast<std::size_t>(task_)];
@@ -260,8 +255,7 @@ std::string Service::left_behind() const {
     if (!trail_.ran_in.empty() && !(resets && trail_.order == Trail::Order::done)) add(stop_words());
     if (trail_.in_safe_mode)
         add("the motor may be in SAFE_MODE, deaf to FastMAC: see `macreg get MODE_REG`; `macreg safe exit` "
-            "takes "
-            "it out");
+            "takes it out");
     return text.empty() ? "the motor's mode is as it was" : text;
 }
 

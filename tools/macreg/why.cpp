@@ -49,39 +49,28 @@ void judge_gateway(const Facts& facts, Findings& findings) {
     const auto& [status, reason] = *facts.gateway();
     const auto state = static_cast<gw::RunState>(status & gw::kRunState);
     if ((status & gw::kLinkDelivers) == 0)
-        findings.push_back(
-            {"gateway_link_down",
-             Severity::stops,
-             "The gateway's FastMAC link to the motor does not work, so no order of the sequence arrives.",
-             {},
-             "`nanoctl status` and `nanoctl log` tell more; mend the line, or run `macreg prepare` on the "
-             "motor's own port."});
+        findings.stops(
+            "gateway_link_down",
+            "The gateway's FastMAC link to the motor does not work, so no order of the sequence arrives.", {},
+            "`nanoctl status` and `nanoctl log` tell more; mend the line, or run `macreg prepare` on the "
+            "motor's own port.");
     if (state == gw::RunState::stopped)
-        findings.push_back({"gateway_stopped",
-                            facts.moves() ? Severity::hinders : Severity::stops,
-                            "The gateway's sequence is stopped, so it gives the motor no orders.",
-                            {},
-                            "`nanoctl run` starts it."});
+        findings.add(facts.moves() ? Severity::hinders : Severity::stops, "gateway_stopped",
+                     "The gateway's sequence is stopped, so it gives the motor no orders.", {},
+                     "`nanoctl run` starts it.");
     else if (state == gw::RunState::held || state == gw::RunState::holding)
-        findings.push_back({"gateway_held",
-                            Severity::stops,
-                            "The gateway's sequence is held, the motor stopped.",
-                            {},
-                            "`nanoctl run` lets it go on, `nanoctl step` goes a step."});
+        findings.stops("gateway_held", "The gateway's sequence is held, the motor stopped.", {},
+                       "`nanoctl run` lets it go on, `nanoctl step` goes a step.");
     else
-        findings.push_back(
-            {"gateway_runs",
-             Severity::tells,
-             "The gateway's sequence runs and orders the motor's modes and targets: what is set here it may "
-             "set again.",
-             {},
-             "`nanoctl watch` shows which step it waits in; `nanoctl stop` before setting anything here."});
+        findings.tells(
+            "gateway_runs",
+            "The gateway's sequence runs and orders the motor's modes and targets: what is set here it may "
+            "set again.",
+            {}, "`nanoctl watch` shows which step it waits in; `nanoctl stop` before setting anything here.");
     if ((status & gw::kSafe) != 0)
-        findings.push_back({"gateway_safe",
-                            facts.moves() ? Severity::hinders : Severity::stops,
-                            fmt::format("The gateway is in its safe state (reason {}).", reason),
-                            {},
-                            "`nanoctl status` names the reason and what ends it."});
+        findings.add(facts.moves() ? Severity::hinders : Severity::stops, "gateway_safe",
+                     fmt::format("The gateway is in its safe state (reason {}).", reason), {},
+                     "`nanoctl status` names the reason and what ends it.");
 }
 
 /// With the torque at its limit, no motion, and an error that grows: something holds the shaft.
@@ -97,51 +86,56 @@ void judge_torque(const Facts& facts, Findings& findings) {
     const std::uint8_t reg = facts.mode() == kHome1 ? T_HOME : T_SOLL;
     std::vector<std::uint8_t> seen{facts.number("VF_OUT"), reg, FLWERR, FNCERR, V_IST};
     if (limit >= 1000) {
-        findings.push_back(
-            {"blocked", Severity::stops,
-             fmt::format("The motor pushes with its full torque ({}) and stands: its shaft is blocked, or "
-                         "the load is too heavy.",
-                         facts.text("VF_OUT")),
-             seen, "Free the shaft; look for a holding brake, a mechanical stop, a wrong direction."});
+        findings.stops("blocked",
+                       fmt::format("The motor pushes with its full torque ({}) and stands: its shaft is "
+                                   "blocked, or the load is too heavy.",
+                                   facts.text("VF_OUT")),
+                       seen,
+                       "Free the shaft; look for a holding brake, a mechanical stop, a wrong direction.");
         return;
     }
-    findings.push_back(
-        {"torque_too_small", Severity::stops,
-         fmt::format("The motor pushes with all the torque it may use ({}) and stands.", facts.text(reg)),
-         seen, "Free the shaft, or allow more torque: `macreg set T_SOLL 100%` if the machine may take it."});
+    findings.stops(
+        "torque_too_small",
+        fmt::format("The motor pushes with all the torque it may use ({}) and stands.", facts.text(reg)),
+        seen, "Free the shaft, or allow more torque: `macreg set T_SOLL 100%` if the machine may take it.");
 }
 
-bool all_zero(const Facts& facts, std::initializer_list<std::string_view> names) {
-    return std::all_of(names.begin(), names.end(),
-                       [&](std::string_view name) { return !facts.knows(name) || facts.at(name) == 0; });
-}
+/// Registers of the regulator: if all of a row are 0, nothing turns the shaft.
+struct RegulatorPart {
+    const char* code;
+    std::array<std::string_view, 6> registers;
+    const char* sentence;
+};
+
+constexpr RegulatorPart kRegulator[] = {
+    {"amplitude_zero", {"AMPLITUDE"}, "AMPLITUDE is 0, so no current flows in the windings."},
+    {"regulator_zero",
+     {"KVFX1", "KVFX2", "KVFX3", "KVFX4", "KVFX5", "KVFX6"},
+     "All numerators of the speed regulator (KVFX) are 0: it never asks for torque."},
+    {"profile_filter_zero",
+     {"KFF0", "KFF1", "KFF2", "KFF3", "KFF4", "KFF5"},
+     "All coefficients of the profile's filter (KFF) are 0: no velocity gets through it."},
+    {"current_regulator_zero",
+     {"KIFX1", "KIFX2"},
+     "The current regulator's numerators (KIFX) are 0: no voltage reaches the windings."},
+};
 
 void judge_regulator(const Facts& facts, Findings& findings) {
-    const auto add = [&](const char* code, std::string_view first, std::string sentence) {
-        findings.push_back(
-            {code, Severity::stops, std::move(sentence), {facts.number(first)}, restore_words(facts)});
-    };
     if (facts.at(KVOUT) == 0)
-        findings.push_back(
-            {"load_factor_zero",
-             Severity::stops,
-             "KVOUT, the load factor, is 0: the torque that the regulator asks for is multiplied by it.",
-             {KVOUT},
-             facts.is_passive() ? "`macreg set KVOUT 1`, more with inertia at the shaft."
-                                : "`macreg set MODE_REG INIT_MODE KVOUT 1`, more with inertia at the shaft; "
-                                  "then choose the mode "
-                                  "again."});
-    if (facts.at("AMPLITUDE") == 0)
-        add("amplitude_zero", "AMPLITUDE", "AMPLITUDE is 0, so no current flows in the windings.");
-    if (all_zero(facts, {"KVFX1", "KVFX2", "KVFX3", "KVFX4", "KVFX5", "KVFX6"}))
-        add("regulator_zero", "KVFX1",
-            "All numerators of the speed regulator (KVFX) are 0: it never asks for torque.");
-    if (all_zero(facts, {"KFF0", "KFF1", "KFF2", "KFF3", "KFF4", "KFF5"}))
-        add("profile_filter_zero", "KFF0",
-            "All coefficients of the profile's filter (KFF) are 0: no velocity gets through it.");
-    if (all_zero(facts, {"KIFX1", "KIFX2"}))
-        add("current_regulator_zero", "KIFX1",
-            "The current regulator's numerators (KIFX) are 0: no voltage reaches the windings.");
+        findings.stops(
+            "load_factor_zero",
+            "KVOUT, the load factor, is 0: the torque that the regulator asks for is multiplied by it.",
+            {KVOUT},
+            facts.is_passive() ? "`macreg set KVOUT 1`, more with inertia at the shaft."
+                               : "`macreg set MODE_REG INIT_MODE KVOUT 1`, more with inertia at the shaft; "
+                                 "then choose the mode again.");
+    for (const RegulatorPart& part : kRegulator) {
+        const bool zero =
+            std::all_of(part.registers.begin(), part.registers.end(),
+                        [&](std::string_view name) { return !facts.knows(name) || facts.at(name) == 0; });
+        if (zero)
+            findings.stops(part.code, part.sentence, {facts.number(part.registers[0])}, restore_words(facts));
+    }
 }
 
 void judge_pointers(const Facts& facts, Findings& findings) {
@@ -149,16 +143,14 @@ void judge_pointers(const Facts& facts, Findings& findings) {
     for (const std::uint8_t number : kPointers) {
         if (facts.at(number) == 0) continue;
         const std::string name(registers::find(facts.model(), number)->name);
-        findings.push_back(
-            {"pointer_stuck",
-             Severity::hinders,
-             fmt::format("{} is {}, and there is no register of that number: nothing was selected.", name,
-                         facts.at(number)),
-             {number},
-             fmt::format(
-                 "`macreg set {} 0` ends it, and nothing is selected; 8 is the most for P and V, 4 for the "
-                 "others.",
-                 name)});
+        findings.hinders(
+            "pointer_stuck",
+            fmt::format("{} is {}, and there is no register of that number: nothing was selected.", name,
+                        facts.at(number)),
+            {number},
+            fmt::format("`macreg set {} 0` ends it, and nothing is selected; 8 is the most for P and V, 4 "
+                        "for the others.",
+                        name));
     }
 }
 
@@ -168,68 +160,61 @@ void judge_link(const Facts& facts, Findings& findings) {
     const bool asked_for = (facts.at(CNTRL_BITS) & 3) == 3;
     const bool counts = facts.counts_pulses();
     if (asked_for ? counts : facts.speaks_fastmac()) {
-        findings.push_back(
-            {"user_interface_waits",
-             Severity::tells,
-             fmt::format(
-                 "CNTRL_BITS asks for another user interface than the one that acts: it counts from a "
-                 "reset on, and the pins are still those of {}.",
-                 counts ? "the pulse input" : "FastMAC"),
-             {CNTRL_BITS, facts.number("V_EXT")},
-             fmt::format("If it is to act: {} keeps it and resets the motor.",
-                         facts.service("macreg flash save"))});
+        findings.tells("user_interface_waits",
+                       fmt::format("CNTRL_BITS asks for another user interface than the one that acts: it "
+                                   "counts from a reset on, and the pins are still those of {}.",
+                                   counts ? "the pulse input" : "FastMAC"),
+                       {CNTRL_BITS, facts.number("V_EXT")},
+                       fmt::format("If it is to act: {} keeps it and resets the motor.",
+                                   facts.service("macreg flash save")));
         return;
     }
     if (!asked_for || facts.gateway()) return;
-    findings.push_back({"fastmac_owns",
-                        Severity::tells,
-                        "The user interface is set to FastMAC, which acts if it was so at the last reset: "
-                        "whoever is wired to it (an "
-                        "expansion module, a PLC) may set modes and targets at any time.",
-                        {CNTRL_BITS},
-                        fmt::format("If values change by themselves, stop that one first; {} makes the motor "
-                                    "passive and deaf to it.",
-                                    facts.service("macreg safe enter"))});
+    findings.tells(
+        "fastmac_owns",
+        "The user interface is set to FastMAC, which acts if it was so at the last reset: whoever is wired "
+        "to it (an expansion module, a PLC) may set modes and targets at any time.",
+        {CNTRL_BITS},
+        fmt::format(
+            "If values change by themselves, stop that one first; {} makes the motor passive and deaf to it.",
+            facts.service("macreg safe enter")));
 }
 
-Finding unknown(const Facts& facts) {
-    return {"unknown",
-            Severity::tells,
-            fmt::format("Nothing is found that keeps the motor from moving: {}, no error, and all that this "
-                        "mode needs is "
-                        "there.",
-                        facts.text(MODE_REG)),
-            {MODE_REG, P_SOLL, P_IST, V_SOLL, A_SOLL, T_SOLL, V_IST, facts.number("VF_OUT"), ERR_STAT},
-            fmt::format("Watch what it does: `macreg watch MODE_REG P_SOLL {} P_IST V_IST VF_OUT FLWERR`.",
-                        registers::find(facts.model(), P_FNC)->name)};
+void tell_unknown(const Facts& facts, Findings& findings) {
+    findings.tells(
+        "unknown",
+        fmt::format("Nothing is found that keeps the motor from moving: {}, no error, and all that this mode "
+                    "needs is there.",
+                    facts.text(MODE_REG)),
+        {MODE_REG, P_SOLL, P_IST, V_SOLL, A_SOLL, T_SOLL, V_IST, facts.number("VF_OUT"), ERR_STAT},
+        fmt::format("Watch what it does: `macreg watch MODE_REG P_SOLL {} P_IST V_IST VF_OUT FLWERR`.",
+                    registers::find(facts.model(), P_FNC)->name));
 }
 
-Finding moving(const Facts& facts) {
-    if (facts.runs_away()) {
-        const std::uint8_t asked = facts.homes() ? V_HOME : V_SOLL;
-        return {
+void judge_motion(const Facts& facts, Findings& findings) {
+    if (!facts.moves()) return;
+    const std::uint8_t asked = facts.homes() ? V_HOME : V_SOLL;
+    if (facts.runs_away())
+        findings.stops(
             "runaway",
-            Severity::stops,
             fmt::format("CUT ITS POWER: the motor turns much faster than {} asks for ({}, {}), and does not "
                         "slow down.",
                         facts.text(MODE_REG), facts.text(V_IST), facts.text(asked)),
             {MODE_REG, V_IST, asked, P_IST, FLWERR, facts.number("VF_OUT")},
             "A stop by the line may not stop it. Then find out what drives it: a load, or filters, signs and "
-            "rotor angle that make the regulator drive the wrong way (parameters of another motor)."};
-    }
-    if (facts.is_passive())
-        return {"moves",
-                Severity::tells,
-                fmt::format("The shaft turns although the motor is passive ({}): something else turns it.",
-                            facts.text(V_IST)),
-                {V_IST, P_IST},
-                "Look what drives the shaft: a hanging load, a belt, or the way of a motor that was switched "
-                "off."};
-    return {"moves",
-            Severity::tells,
-            fmt::format("It moves: {}.", facts.text(V_IST)),
+            "rotor angle that make the regulator drive the wrong way (parameters of another motor).");
+    else if (facts.is_passive())
+        findings.tells(
+            "moves",
+            fmt::format("The shaft turns although the motor is passive ({}): something else turns it.",
+                        facts.text(V_IST)),
             {V_IST, P_IST},
-            "If that is as wanted, there is nothing to mend; if the machine stands, look at the coupling."};
+            "Look what drives the shaft: a hanging load, a belt, or the way of a motor that was switched "
+            "off.");
+    else
+        findings.tells(
+            "moves", fmt::format("It moves: {}.", facts.text(V_IST)), {V_IST, P_IST},
+            "If that is as wanted, there is nothing to mend; if the machine stands, look at the coupling.");
 }
 
 constexpr std::string_view kMoves[] = {"runaway", "moves"};
@@ -306,8 +291,7 @@ bool names(const Finding& finding, std::initializer_list<std::string_view> comma
 std::string restore_words(const Facts& facts) {
     return fmt::format(
         "Bring the parameters back: those in the flash by {}, or a file of an earlier dump; as the last "
-        "resort {}, "
-        "which loses all that was set.",
+        "resort {}, which loses all that was set.",
         facts.service("macreg flash reload"), facts.service("macreg flash defaults"));
 }
 
@@ -393,7 +377,7 @@ Condition read_condition(Motor& motor, bool look_for_gateway) {
 std::vector<Finding> why(const Condition& condition) {
     const Facts facts(condition);
     Findings findings;
-    if (facts.moves()) findings.push_back(moving(facts));
+    judge_motion(facts, findings);
     judge_errors(facts, findings);
     judge_gateway(facts, findings);
     judge_modes(facts, findings);
@@ -405,15 +389,15 @@ std::vector<Finding> why(const Condition& condition) {
     const auto says_why = [](const Finding& one) {
         return one.severity != Severity::tells || one.code == "moves" || one.code == "runaway";
     };
-    if (std::none_of(findings.begin(), findings.end(), says_why)) findings.push_back(unknown(facts));
+    if (std::none_of(findings.all.begin(), findings.all.end(), says_why)) tell_unknown(facts, findings);
     begin_safely(facts, findings);
     pass_gateway(facts, findings);
     sort_by_rank(findings);
-    return findings;
+    return std::move(findings.all);
 }
 
 void sort_by_rank(Findings& findings) {
-    std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
+    std::stable_sort(findings.all.begin(), findings.all.end(), [](const Finding& a, const Finding& b) {
         const bool moves_a = among(kMoves, a.code), moves_b = among(kMoves, b.code);
         if (moves_a != moves_b) return moves_a;
         if (a.severity != b.severity) return a.severity < b.severity;
@@ -423,13 +407,12 @@ void sort_by_rank(Findings& findings) {
 
 void begin_safely(const Facts& facts, Findings& findings) {
     if (facts.moves()) return;
-    for (Finding& one : findings) {
+    for (Finding& one : findings.all) {
         if (among(kLetTurn, one.code)) one.remedy.insert(0, before_it_turns(facts));
         if (among(kFree, one.code))
-            one.remedy.insert(
-                0,
-                "First `macreg set MODE_REG INIT_MODE`: it pushes, and would jump as soon as it can "
-                "turn (hold a hanging load, which falls by that). Then: ");
+            one.remedy.insert(0,
+                              "First `macreg set MODE_REG INIT_MODE`: it pushes, and would jump as soon as "
+                              "it can turn (hold a hanging load, which falls by that). Then: ");
     }
 }
 
@@ -437,7 +420,7 @@ void pass_gateway(const Facts& facts, Findings& findings) {
     if (!facts.gateway()) return;
     const bool stopped =
         static_cast<gw::RunState>(facts.gateway()->status & gw::kRunState) == gw::RunState::stopped;
-    for (Finding& one : findings) {
+    for (Finding& one : findings.all) {
         if (!stopped && names(one, {"`macreg set"}))
             one.remedy.insert(0,
                               "First `nanoctl stop`: while its sequence runs or is held, the gateway lets no "

@@ -119,22 +119,20 @@ void judge_supply(const Facts& facts, Findings& findings) {
     if (!is_set(facts, "UV_DETECT")) return;
     const std::string_view name = facts.large() ? "U_BUS" : "U_SUPPLY";
     if (!facts.large() && facts.at(name) >= facts.at("U_MIN_SUP") * 5 / 4 && facts.at(name) > 0) {
-        findings.push_back(
-            {"undervoltage_recent",
-             Severity::hinders,
-             fmt::format("The supply was too low a moment ago; it is {} now.", facts.text(name)),
-             {ERR_STAT, facts.number(name), facts.number("U_MIN_SUP")},
-             "Ask again in a second; if it comes back, the supply sags under load."});
+        findings.hinders("undervoltage_recent",
+                         fmt::format("The supply was too low a moment ago; it is {} now.", facts.text(name)),
+                         {ERR_STAT, facts.number(name), facts.number("U_MIN_SUP")},
+                         "Ask again in a second; if it comes back, the supply sags under load.");
         return;
     }
     std::vector<std::uint8_t> seen{ERR_STAT, facts.number(name)};
     if (facts.knows("U_MIN_SUP")) seen.push_back(facts.number("U_MIN_SUP"));
     const std::string least =
         facts.knows("U_MIN_SUP") ? fmt::format(" ({})", facts.text("U_MIN_SUP")) : std::string();
-    findings.push_back(
-        {"undervoltage", Severity::stops,
-         fmt::format("The motor's supply is too low: {}, below what is allowed{}.", facts.text(name), least),
-         seen, supply_remedy(facts)});
+    findings.stops(
+        "undervoltage",
+        fmt::format("The motor's supply is too low: {}, below what is allowed{}.", facts.text(name), least),
+        seen, supply_remedy(facts));
 }
 
 bool is_near(std::int64_t value, std::int64_t limit) {
@@ -143,42 +141,29 @@ bool is_near(std::int64_t value, std::int64_t limit) {
 
 void judge_heat(const Facts& facts, Findings& findings) {
     if (is_near(facts.at(I2T), facts.at(I2TLIM)))
-        findings.push_back({"i2t_near",
-                            Severity::hinders,
-                            "The windings are nearly too hot, as computed: the motor will soon make itself "
-                            "passive (I2T_ERR).",
-                            {I2T, I2TLIM},
-                            "Less torque, less acceleration or more pauses."});
+        findings.hinders("i2t_near",
+                         "The windings are nearly too hot, as computed: the motor will soon make itself "
+                         "passive (I2T_ERR).",
+                         {I2T, I2TLIM}, "Less torque, less acceleration or more pauses.");
     if (is_near(facts.at(UIT), facts.at(UITLIM)))
-        findings.push_back(
-            {"uit_near",
-             Severity::hinders,
-             "The brake chopper is nearly too hot: the motor will soon make itself passive (UIT_ERR).",
-             {UIT, UITLIM},
-             "Brake more gently (A_SOLL), or mount an external power dump."});
+        findings.hinders(
+            "uit_near",
+            "The brake chopper is nearly too hot: the motor will soon make itself passive (UIT_ERR).",
+            {UIT, UITLIM}, "Brake more gently (A_SOLL), or mount an external power dump.");
     if (facts.large() && is_near(facts.at("DEGC"), facts.at("DEGCMAX")))
-        findings.push_back({"hot_near",
-                            Severity::hinders,
-                            fmt::format("The motor is nearly too hot: {}.", facts.text("DEGC")),
-                            {facts.number("DEGC"), facts.number("DEGCMAX")},
-                            "Less torque, or cooling."});
+        findings.hinders("hot_near", fmt::format("The motor is nearly too hot: {}.", facts.text("DEGC")),
+                         {facts.number("DEGC"), facts.number("DEGCMAX")}, "Less torque, or cooling.");
     const std::string back = "The right value is the maker's, the manuals name none. " + restore_words(facts);
     if (facts.at(I2TLIM) == 0)
-        findings.push_back(
-            {"heat_limit_zero",
-             Severity::stops,
-             "I2TLIM, the limit of the windings' heat, is 0: any current is too much, and the motor "
-             "makes itself passive (I2T_ERR).",
-             {I2TLIM, I2T},
-             back});
+        findings.stops("heat_limit_zero",
+                       "I2TLIM, the limit of the windings' heat, is 0: any current is too much, and the "
+                       "motor makes itself passive (I2T_ERR).",
+                       {I2TLIM, I2T}, back);
     if (facts.at(UITLIM) == 0)
-        findings.push_back(
-            {"brake_limit_zero",
-             Severity::stops,
-             "UITLIM, the limit of the brake chopper's heat, is 0: the motor makes itself passive as "
-             "soon as it brakes (UIT_ERR).",
-             {UITLIM, UIT},
-             back});
+        findings.stops("brake_limit_zero",
+                       "UITLIM, the limit of the brake chopper's heat, is 0: the motor makes itself passive "
+                       "as soon as it brakes (UIT_ERR).",
+                       {UITLIM, UIT}, back);
 }
 
 /// Counts that a target keeps from a limit: a motor that ends on the limit itself may pass it by one.
@@ -268,15 +253,12 @@ std::string wider_follow_limit(const Facts& facts) {
 
 void judge_follow_limit(const Facts& facts, Findings& findings) {
     if (!follow_limit_is_small(facts) || facts.moves()) return;
-    findings.push_back(
-        {"follow_limit_small",
-         facts.has_error(1) ? Severity::stops : Severity::hinders,
-         fmt::format(
-             "FLWERRMAX ({}) is less than the way of {} samples at full velocity: a motor that is well may "
-             "pass it, and makes itself passive (FLW_ERR).",
-             facts.at(FLWERRMAX), kLagSamples),
-         {FLWERRMAX, FLWERR, facts.homes() ? V_HOME : V_SOLL},
-         fmt::format("`macreg set {}`, or less velocity; 0 is no limit.", wider_follow_limit(facts))});
+    findings.add(facts.has_error(1) ? Severity::stops : Severity::hinders, "follow_limit_small",
+                 fmt::format("FLWERRMAX ({}) is less than the way of {} samples at full velocity: a motor "
+                             "that is well may pass it, and makes itself passive (FLW_ERR).",
+                             facts.at(FLWERRMAX), kLagSamples),
+                 {FLWERRMAX, FLWERR, facts.homes() ? V_HOME : V_SOLL},
+                 fmt::format("`macreg set {}`, or less velocity; 0 is no limit.", wider_follow_limit(facts)));
 }
 
 std::string first(const std::string& command, std::string_view why) {
@@ -303,27 +285,21 @@ void judge_errors(const Facts& facts, Findings& findings) {
     judge_supply(facts, findings);
     for (const Error& error : kErrors) {
         if (!is_set(facts, error.name)) continue;
-        findings.push_back({code_of(error.name), Severity::stops,
-                            fmt::format("{}: {}", error.name, error.sentence),
-                            numbers(facts, error.registers), remedy_of(facts, error)});
+        findings.stops(code_of(error.name), fmt::format("{}: {}", error.name, error.sentence),
+                       numbers(facts, error.registers), remedy_of(facts, error));
     }
     judge_heat(facts, findings);
     if (is_set(facts, "IX_ERR"))
-        findings.push_back(
-            {"current_range",
-             Severity::hinders,
-             "IX_ERR: a phase current was at the end of its measuring range; the current regulator is upset "
-             "or the "
-             "supply too high.",
-             {ERR_STAT, facts.number("AMPLITUDE")},
-             fmt::format("Bring the filters' parameters back; less A_SOLL. Clear it: `{}`.",
-                         clear_errors_command(facts.model(), facts.at(ERR_STAT)))});
+        findings.hinders("current_range",
+                         "IX_ERR: a phase current was at the end of its measuring range; the current "
+                         "regulator is upset or the supply too high.",
+                         {ERR_STAT, facts.number("AMPLITUDE")},
+                         fmt::format("Bring the filters' parameters back; less A_SOLL. Clear it: `{}`.",
+                                     clear_errors_command(facts.model(), facts.at(ERR_STAT))));
     if (is_set(facts, "FRAME_ERR_TX"))
-        findings.push_back({"frame_errors",
-                            Severity::hinders,
-                            "The motor sees framing errors on its FastMAC line: commands get lost.",
-                            {ERR_STAT},
-                            "Check wiring, termination and speed of the FastMAC line (19200 baud, RS422)."});
+        findings.hinders("frame_errors",
+                         "The motor sees framing errors on its FastMAC line: commands get lost.", {ERR_STAT},
+                         "Check wiring, termination and speed of the FastMAC line (19200 baud, RS422).");
 }
 
 bool Facts::limited() const {
@@ -382,8 +358,7 @@ std::string way_back(const Facts& facts) {
     if (facts.mode() == kSafe) return by_hand;
     return fmt::format(
         "{} Or let the motor do it, its way being free: `macreg set P_SOLL {} {} MODE_REG P_MODE` {}, the "
-        "limits "
-        "being off until DIS_P_LIM is taken back.",
+        "limits being off until DIS_P_LIM is taken back.",
         by_hand, target_here(facts), err_stat_command(facts, kDisPLim), way_words(facts, target_here(facts)));
 }
 
@@ -392,32 +367,28 @@ void judge_limits(const Facts& facts, Findings& findings) {
     const std::int64_t low = facts.at(MIN_P_IST);
     const std::int64_t high = facts.at(MAX_P_IST);
     if (low == 0 && high == 0) return;
-    const auto add = [&](const char* code, Severity severity, std::string sentence, std::string remedy) {
-        findings.push_back(
-            {code, severity, std::move(sentence), {P_SOLL, P_IST, MIN_P_IST, MAX_P_IST}, std::move(remedy)});
-    };
+    const std::vector<std::uint8_t> seen{P_SOLL, P_IST, MIN_P_IST, MAX_P_IST};
     if (low >= high) {
         const std::string exchanged = low > high
                                           ? fmt::format("`macreg set MIN_P_IST {} MAX_P_IST {}`", high, low)
                                           : "`macreg set MIN_P_IST 0 MAX_P_IST 0`, or two places";
-        return add("limits_swapped", facts.limited() ? Severity::stops : Severity::hinders,
-                   "MIN_P_IST is not below MAX_P_IST: every position is outside, and the motor makes itself "
-                   "passive (PLIM_ERR).",
-                   exchanged + ", the lower one smaller; both 0 is none.");
+        return findings.add(facts.limited() ? Severity::stops : Severity::hinders, "limits_swapped",
+                            "MIN_P_IST is not below MAX_P_IST: every position is outside, and the motor "
+                            "makes itself passive (PLIM_ERR).",
+                            seen, exchanged + ", the lower one smaller; both 0 is none.");
     }
     if (!facts.limited())
-        return add(
-            "limits_off", Severity::tells,
-            "DIS_P_LIM is set in ERR_STAT: MIN_P_IST and MAX_P_IST do not act.",
-            "If they are to act, and P_IST is inside, take DIS_P_LIM out of ERR_STAT (`macreg get ERR_STAT` "
-            "shows what else is set).");
+        return findings.tells("limits_off",
+                              "DIS_P_LIM is set in ERR_STAT: MIN_P_IST and MAX_P_IST do not act.", seen,
+                              "If they are to act, and P_IST is inside, take DIS_P_LIM out of ERR_STAT "
+                              "(`macreg get ERR_STAT` shows what else is set).");
     if (facts.positions() && !ends_inside(facts))
-        add("target_outside_limits", Severity::hinders,
-            fmt::format(
-                "The target ({}) is not inside the position limits: on its way the motor makes itself "
-                "passive (PLIM_ERR).",
-                facts.text(P_SOLL)),
-            fmt::format("{}, for example, or wider limits; both 0 is none.", target_command(facts)));
+        findings.hinders(
+            "target_outside_limits",
+            fmt::format("The target ({}) is not inside the position limits: on its way the motor makes "
+                        "itself passive (PLIM_ERR).",
+                        facts.text(P_SOLL)),
+            seen, fmt::format("{}, for example, or wider limits; both 0 is none.", target_command(facts)));
 }
 
 }  // namespace nplc::macreg

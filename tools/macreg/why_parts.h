@@ -89,7 +89,7 @@ class Facts {
     const Condition& condition_;
 };
 
-using Findings = std::vector<Finding>;
+using Findings = BasicFindings<std::uint8_t>;
 
 void judge_limits(const Facts& facts, Findings& findings);  ///< of positions and FLWERR: why_limits.cpp
 void judge_modes(const Facts& facts, Findings& findings);   ///< what each mode needs: why_modes.cpp

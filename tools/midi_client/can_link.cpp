@@ -110,15 +110,14 @@ void CanLink::send(const can::Request& request) {
     const ports::CanState state = can_.state();
     throw LineError(
         LineError::Kind::port_gone,
-        name() +
-            (can_.gone() ? ": the interface is gone; was the adapter unplugged?"
-             : state == ports::CanState::down
-                 ? fmt::format(": the interface is down; as root: ip link set {} up", name().substr(4))
-             : state == ports::CanState::bus_off
-                 ? std::string(
-                       ": the controller went off the bus: are bit rate, wiring and terminators right?")
-                 : std::string(": nobody takes the frames: is a module connected, switched on, and at this "
-                               "bit rate?")));
+        name() + (can_.gone() ? ": the interface is gone; was the adapter unplugged?"
+                  : state == ports::CanState::down
+                      ? fmt::format(": the interface is down; as root: ip link set {} up", name().substr(4))
+                  : state == ports::CanState::bus_off
+                      ? std::string(
+                            ": the controller went off the bus: are bit rate, wiring and terminators right?")
+                      : std::string(": nobody takes the frames: is a module connected, switched on, and at "
+                                    "this bit rate?")));
 }
 
 can::Answer CanLink::hear(base::Microseconds wait) {

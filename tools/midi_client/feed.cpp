@@ -55,8 +55,7 @@ std::string feeding_problem(const Plan& plan, std::int64_t lead_in, std::int64_t
         if (now + reserve > next->deadline)
             return fmt::format(
                 "axis {} would run out of segments {:.3f} s after the start: a message takes {:.1f} ms on "
-                "this "
-                "line; use fewer and longer segments, or less speed",
+                "this line; use fewer and longer segments, or less speed",
                 plan.axes[next->axis].address,
                 static_cast<double>(next->deadline - lead_in) / registers::midi::kTicksPerSecond,
                 static_cast<double>(message) * 1000 / registers::midi::kTicksPerSecond);

@@ -75,10 +75,8 @@ void look_for_foreign_sync(Link& link) {
     if (link.take_foreign_sync())
         throw NotPlayed(
             "another master on the bus sends SYNC (080h, 003 §V.4), which starts each axis as soon as its "
-            "move "
-            "is prepared, not all together: switch that SYNC off, or move one axis after the other; paths "
-            "and "
-            "circles that begin where the axes stand need no SYNC");
+            "move is prepared, not all together: switch that SYNC off, or move one axis after the other; "
+            "paths and circles that begin where the axes stand need no SYNC");
 }
 
 void forget_boots(Link& link, const std::vector<std::uint8_t>& addresses) {
@@ -180,8 +178,8 @@ class Player {
         const bool as_before = feed_.sent(axis) < kProbes || answer.by_18h == by_18h_[axis];
         if (answer.kind == Kind::accepted || (answer.kind == Kind::refused && as_before)) return answer;
         throw NotPlayed(
-            fmt::format("{}: no clear answer from axis {}: whether it has its segment is not known, "
-                        "so all axes were stopped",
+            fmt::format("{}: no clear answer from axis {}: whether it has its segment is not known, so all "
+                        "axes were stopped",
                         link().name(), addresses_[axis]));
     }
 
@@ -326,8 +324,7 @@ void go_together(Master& master, const std::vector<Target>& targets, const PlayO
         look_for_boots(master.link(), addresses);
         if (master.link().synchronise().kind != Kind::accepted)
             throw NotPlayed(
-                "the common start was not confirmed: one module on the line must have address 00 "
-                "(000 §IV)");
+                "the common start was not confirmed: one module on the line must have address 00 (000 §IV)");
         const auto look = [&](std::int32_t) { look_for_boots(master.link(), addresses); };
         for (const Target& one : targets) await_arrival(master, one, options.goes_on, look);
     });
@@ -358,8 +355,7 @@ void await_arrival(Master& master, const Target& target, const std::function<boo
             if (!busy && std::abs(std::int64_t{position} - target.position) <= slack) return;
             throw NotPlayed(
                 fmt::format("axis {} stands at {} increments and does not reach {}: is the shaft held, the "
-                            "torque too low, or "
-                            "the move stopped by someone else?",
+                            "torque too low, or the move stopped by someone else?",
                             target.address, position, target.position));
         }
         master.pause(base::Microseconds{20'000}, goes_on);

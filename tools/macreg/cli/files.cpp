@@ -250,11 +250,9 @@ void add_dump(arguments::App& app, Common& common) {
 }
 
 void add_diff(arguments::App& app, Common& common) {
-    auto [command, options] =
-        add_command(app, common, "diff",
-                    "Compare a file of `dump` with another one or with the motor; exit code 1 if "
-                    "they differ",
-                    diff);
+    auto [command, options] = add_command(
+        app, common, "diff",
+        "Compare a file of `dump` with another one or with the motor; exit code 1 if they differ", diff);
     command.add_option("file", options.left, "The file")->required();
     command.add_option("other", options.right, "Another file, or `motor`")->capture_default_str();
     command.add_flag("--partial", options.partial, "Take files that are marked as incomplete");

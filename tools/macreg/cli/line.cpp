@@ -50,10 +50,10 @@ class Search {
         if (units_.empty())
             throw command_line::Failure(
                 command_line::kNoAnswer,
-                noise_ ? "bytes came, but no answer: is it another kind of device, or do several units "
-                         "have the same address? Try --every-address, or one motor alone"
-                       : "nobody answers; is the motor switched on, and are A and B, or RX and TX, the "
-                         "right way round?");
+                noise_ ? "bytes came, but no answer: is it another kind of device, or do several units have "
+                         "the same address? Try --every-address, or one motor alone"
+                       : "nobody answers; is the motor switched on, and are A and B, or RX and TX, the right "
+                         "way round?");
         command_line::tell(common_, text_, {{"units", units_}});
     }
 
@@ -293,8 +293,7 @@ void listen(const Common& common, const MonitorArguments& options) {
     if (!heard)
         remark(common,
                "nothing was heard: a wrong speed would show as noise, so either nobody spoke or the "
-               "receiving wire "
-               "does not lead to the line");
+               "receiving wire does not lead to the line");
 }
 
 void find(Common& common, const FindArguments& options) {
@@ -309,12 +308,10 @@ void monitor(Common& common, const MonitorArguments& options) {
 }  // namespace
 
 void add_find(arguments::App& app, Common& common) {
-    auto [command, options] =
-        add_command(app, common, "find",
-                    "Which motors are on the line, by address and speed. Only reads. All "
-                    "speeds that a serial line has are "
-                    "tried, the usual one first",
-                    find);
+    auto [command, options] = add_command(app, common, "find",
+                                          "Which motors are on the line, by address and speed. Only reads. "
+                                          "All speeds that a serial line has are tried, the usual one first",
+                                          find);
     command.add_flag("--every-address", options.every_address,
                      "Ask 1 to 254 one by one, also where one motor seems to be alone");
     command.add_flag("--every-speed", options.every_speed,
@@ -331,10 +328,9 @@ void add_monitor(arguments::App& app, Common& common) {
         .add_option("--protocol", options.protocol,
                     "mactalk, fastmac (which is FlexMAC too), or midi (MAC23 and MAC34 on V24)")
         ->capture_default_str();
-    command.add_option(
-        "--from", options.from,
-        "Whose bytes come: master or motor; both of a MacTalk or MIDI line, and the master of a FastMAC "
-        "line, if not said");
+    command.add_option("--from", options.from,
+                       "Whose bytes come: master or motor; both of a MacTalk or MIDI line, and the master of "
+                       "a FastMAC line, if not said");
     command.add_option("--motor-port", options.motor_port,
                        "A second port that hears the motor; --port then hears the master");
     command.add_option("--replay", options.replay, "Bytes in hex from a file instead; - is standard input");

@@ -53,10 +53,10 @@ void look_at_model(Session& session, const ParameterSet& set, const LoadArgument
     const auto type = set.header.find("motor_type");
     const std::int64_t own = session.motor().read("MOTOR_TYPE");
     if (type != set.header.end() && type->second != fmt::format("{}", own))
-        throw UserError(fmt::format(
-            "{} is of a motor of type {}, this one's MOTOR_TYPE is {}; --another-model if it is to "
-            "have these values",
-            options.file, type->second, own));
+        throw UserError(
+            fmt::format("{} is of a motor of type {}, this one's MOTOR_TYPE is {}; --another-model if it is "
+                        "to have these values",
+                        options.file, type->second, own));
 }
 
 /// What is to be written: what differs, without the address. Dangerous ones as the options say.
@@ -171,12 +171,10 @@ class Writer {
                                 written.empty() ? "" : ": " + names_of(written));
         if (in_doubt_) text += fmt::format("; {} may have been written or not", all_[done_].reg->name);
         if (!ran_in_.empty())
-            text += fmt::format(
-                "; the motor ran in {} and {}", ran_in_,
-                stopped_
-                    ? "was stopped: it starts again only when MODE_REG is set"
-                    : "was told to stop, but HAS NOT STOPPED as far as is known: if it must stand, cut its "
-                      "power");
+            text += fmt::format("; the motor ran in {} and {}", ran_in_,
+                                stopped_ ? "was stopped: it starts again only when MODE_REG is set"
+                                         : "was told to stop, but HAS NOT STOPPED as far as is known: if it "
+                                           "must stand, cut its power");
         throw command_line::Failure(exit_code, text + "; the flash is as it was",
                                     {{"written", names}, {"of", all_.size()}, {"stopped", stopped_}});
     }

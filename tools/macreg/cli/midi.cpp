@@ -180,10 +180,9 @@ void add_midi(arguments::App& app, Common& common) {
     arguments::App& command = command_line::add_command(
         app, "midi", "MIDI Ingenierie MAC23 and MAC34 modules, on a serial line or on CAN (--port can:can0)");
     command.require_subcommand(1);
-    command.add_option(
-        "--address", midi->address,
-        "Address of the module: 0 to 127 on a serial line, 1 to 127 on CAN; if not said, what a "
-        "new module has: 0, and 1 on CAN");
+    command.add_option("--address", midi->address,
+                       "Address of the module: 0 to 127 on a serial line, 1 to 127 on CAN; if not said, what "
+                       "a new module has: 0, and 1 on CAN");
     command.add_option("--model", midi->model, "MAC23, MAC34-1 or MAC34-2: for turns, volts and degrees")
         ->envname("MACREG_MIDI_MODEL");
     command

@@ -208,18 +208,16 @@ void together(const MidiCommon& midi, const std::vector<std::string>& words) {
 }  // namespace
 
 void add_midi_path(arguments::App& app, MidiCommon& midi) {
-    auto [together_command, words] = add_command(
-        app, midi, "together",
-        "Moves of several modules that begin at the same time (10h, 11h, SYNC), each with its SPEED "
-        "and RAMP; Ctrl-C stops all",
-        together);
+    auto [together_command, words] = add_command(app, midi, "together",
+                                                 "Moves of several modules that begin at the same time (10h, "
+                                                 "11h, SYNC), each with its SPEED and RAMP; Ctrl-C stops all",
+                                                 together);
     together_command.add_option("targets", words, "ADDRESS=POSITION, as 0=20000 1=2rev")->required();
 
-    auto [circle_command, circle_options] = add_command(
-        app, midi, "circle",
-        "Two modules draw a circle, by segments (16h), from its rightmost point back to it; Ctrl-C "
-        "stops both",
-        circle);
+    auto [circle_command, circle_options] = add_command(app, midi, "circle",
+                                                        "Two modules draw a circle, by segments (16h), from "
+                                                        "its rightmost point back to it; Ctrl-C stops both",
+                                                        circle);
     circle_command.add_option("--axes", circle_options.axes, "Addresses of the modules for x and y, as 0,1")
         ->required();
     circle_command.add_option("--radius", circle_options.radius, "10000, 2rev")->required();
@@ -238,11 +236,11 @@ void add_midi_path(arguments::App& app, MidiCommon& midi) {
         ->capture_default_str();
     circle_command.add_flag("--clockwise", circle_options.clockwise, "The other way round");
 
-    auto [path_command, path_options] = add_command(
-        app, midi, "path",
-        "Several modules follow a path: CSV with a heading `time,0 [inc],1 [rev]` and a row a point, in "
-        "seconds; they go to the first point first; Ctrl-C stops all",
-        path);
+    auto [path_command, path_options] =
+        add_command(app, midi, "path",
+                    "Several modules follow a path: CSV with a heading `time,0 [inc],1 [rev]` and a row a "
+                    "point, in seconds; they go to the first point first; Ctrl-C stops all",
+                    path);
     path_command.add_option("file", path_options.file, "The path")->required();
     path_command.add_flag("--check", path_options.check, "Only read the file; needs no module");
 }

@@ -21,11 +21,9 @@ std::string greet(MidiSession& session, std::uint8_t address) {
 }
 
 void reset(MidiSession& session) {
-    ask(session.common(),
-        fmt::format(
-            "The module with address {} starts anew: the motor stops and holds nothing, what waits is "
-            "dropped, faults are acknowledged",
-            session.address()));
+    ask(session.common(), fmt::format("The module with address {} starts anew: the motor stops and holds "
+                                      "nothing, what waits is dropped, faults are acknowledged",
+                                      session.address()));
     session.module().order(midi::reg::RESET);
     greet(session, session.address());
     const std::uint32_t status = session.master().status(session.address());
@@ -38,11 +36,10 @@ void factory(const MidiCommon& midi) {
     {
         MidiSession session(midi);
         ask(session.common(),
-            fmt::format(
-                "All parameters of the module with address {} are replaced by the factory's, its address "
-                "becomes {}{}; the motor stops and holds nothing",
-                session.address(), session.link().usual_address(),
-                is_can(midi) ? "" : " and its speed 38400 baud"));
+            fmt::format("All parameters of the module with address {} are replaced by the factory's, its "
+                        "address becomes {}{}; the motor stops and holds nothing",
+                        session.address(), session.link().usual_address(),
+                        is_can(midi) ? "" : " and its speed 38400 baud"));
         session.module().order(midi::reg::FACTORY);
         session.master().pause(kDeaf, goes_on);
     }
@@ -54,18 +51,16 @@ void factory(const MidiCommon& midi) {
 }
 
 void program_can(MidiSession& session, std::uint8_t address) {
-    ask(session.common(),
-        fmt::format("The one module on the bus gets the address {} (LMT, 003 §V.5); with several on "
-                    "the bus all would get it",
-                    address));
+    ask(session.common(), fmt::format("The one module on the bus gets the address {} (LMT, 003 §V.5); with "
+                                      "several on the bus all would get it",
+                                      address));
     using Programmed = midi_client::CanLink::Programmed;
     const Programmed done = session.can()->program_address(address);
     if (done == Programmed::refused) refuse(fmt::format("the module refuses address {}", address));
     if (done == Programmed::several)
         refuse(
             "several modules answered, so none has the new address: switch all off and on, and leave one on "
-            "the "
-            "bus");
+            "the bus");
     if (done == Programmed::silence)
         throw midi_client::Doubtful(fmt::format(
             "{}: the module did not say that it took the address; `macreg midi find` shows which it has",
@@ -79,12 +74,10 @@ void program_line(MidiSession& session, std::uint8_t address, bool to_one) {
     if (to_one && to != address &&
         session.master().try_query(address, midi::reg::GET_RELEASE).kind != Answer::Kind::silence)
         refuse(fmt::format("address {} answers already: each module needs an address of its own", address));
-    ask(session.common(),
-        to_one ? fmt::format("The module with address {} gets the address {}", to, address)
-               : fmt::format(
-                     "Every module on the line gets the address {}: only one may be connected (000 §IV). "
-                     "--address names one of several",
-                     address));
+    ask(session.common(), to_one ? fmt::format("The module with address {} gets the address {}", to, address)
+                                 : fmt::format("Every module on the line gets the address {}: only one may "
+                                               "be connected (000 §IV). --address names one of several",
+                                               address));
     const Answer answer = session.master().try_command(to, midi::reg::ADDRESS, address);
     if (answer.kind == Answer::Kind::refused) refuse(fmt::format("the module refuses address {}", address));
 }
@@ -153,8 +146,7 @@ class MidiSearch {
             throw command_line::Failure(
                 command_line::kNoAnswer,
                 heard_ ? "bytes came, but no answer: is it another kind of device, or do several modules "
-                         "have the "
-                         "same address?"
+                         "have the same address?"
                        : "nobody answers; is the module switched on, and are the wires the right way round?");
         command_line::tell(midi_.common, text_, {{"modules", modules_}});
     }
@@ -212,10 +204,9 @@ class MidiSearch {
     void note(std::uint8_t address, midi_client::Answer::Kind kind) {
         using Kind = midi_client::Answer::Kind;
         if (kind == Kind::refused)
-            remark(midi_.common,
-                   fmt::format("address {}: something answers and refuses GET_RELEASE, which no "
-                               "MIDI module does; is it another kind of device?",
-                               address));
+            remark(midi_.common, fmt::format("address {}: something answers and refuses GET_RELEASE, which "
+                                             "no MIDI module does; is it another kind of device?",
+                                             address));
         if (kind == Kind::unclear)
             remark(midi_.common, fmt::format("address {}: each answer came damaged; do several modules have "
                                              "this address, or has the line noise?",

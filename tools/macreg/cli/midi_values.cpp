@@ -53,7 +53,7 @@ void why(MidiSession& session) {
     for (const midi::Finding& finding : midi::why(condition)) {
         std::string values;
         Json parameters = Json::array();
-        for (const std::string_view name : finding.parameters) {
+        for (const std::string_view name : finding.sources) {
             const midi::Parameter& one = *midi::find_parameter(name);
             const std::int64_t raw = condition.now.raw(one);
             values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", name,
@@ -233,10 +233,9 @@ void add_midi_status(arguments::App& app, MidiCommon& midi) {
     command_line::add_command(app, "status",
                               "Position, faults and warnings in words, all settings, temperature, supply")
         .callback([&midi] { midi_work(midi, status); });
-    command_line::add_command(
-        app, "why",
-        "Why does it not move? Sentences with what makes it so and what mends it, the first "
-        "thing to mend in front")
+    command_line::add_command(app, "why",
+                              "Why does it not move? Sentences with what makes it so and what mends it, the "
+                              "first thing to mend in front")
         .callback([&midi] { midi_work(midi, why); });
 }
 
@@ -249,9 +248,8 @@ void add_midi_values(arguments::App& app, MidiCommon& midi) {
 
     auto [set_command, words] =
         add_command(app, midi, "set",
-                    "Change parameters and read them back: SPEED 300rpm, TORQUE 50%, RAMP "
-                    "2rev/s2, UPPER_STOP 10rev, or raw:N. "
-                    "All are checked before the first is written",
+                    "Change parameters and read them back: SPEED 300rpm, TORQUE 50%, RAMP 2rev/s2, "
+                    "UPPER_STOP 10rev, or raw:N. All are checked before the first is written",
                     set);
     set_command.add_option("values", words, "NAME VALUE, or NAME=VALUE; several at once")->required();
 

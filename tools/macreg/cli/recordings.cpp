@@ -54,8 +54,7 @@ struct Move {
                 break;
         }
         return fmt::format(
-            "; {} had been written: THE MOTOR MAY STILL MOVE (`macreg set MODE_REG INIT_MODE` "
-            "stops it)",
+            "; {} had been written: THE MOTOR MAY STILL MOVE (`macreg set MODE_REG INIT_MODE` stops it)",
             what);
     }
 };
@@ -340,10 +339,9 @@ void add_record(arguments::App& app, Common& common) {
     command.add_option(
         "--move", options.move,
         "As soon as it records, P_SOLL=VALUE, P_SOLL=+VALUE (so much more) or V_SOLL=VALUE; asks first");
-    command.add_flag(
-        "--poll", options.poll,
-        "Read the registers again and again instead of using the motor's buffer: slower, any register, "
-        "through a gateway too");
+    command.add_flag("--poll", options.poll,
+                     "Read the registers again and again instead of using the motor's buffer: slower, any "
+                     "register, through a gateway too");
     command.add_option("--for", options.lasts, "With --poll: seconds; until Ctrl-C if not said")
         ->in_range(0.001, 1e6);
 }

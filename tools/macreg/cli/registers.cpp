@@ -334,7 +334,7 @@ void why(Session& session) {
     for (const Finding& finding : macreg::why(condition)) {
         std::string values;
         Json registers = Json::array();
-        for (const std::uint8_t one : finding.registers) {
+        for (const std::uint8_t one : finding.sources) {
             const Register* reg = registers::find(condition.model, one);
             if (reg == nullptr) continue;
             values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", reg->name,
@@ -349,11 +349,11 @@ void why(Session& session) {
 }  // namespace
 
 void add_list(arguments::App& app, Common& common) {
-    auto [command, options] = add_command(
-        app, common, "list",
-        "The registers of a model; r: read only, !: dangerous. Of one register all there is to know. "
-        "Needs no motor: without --port and --model it shows MAC50 to MAC141",
-        list);
+    auto [command, options] =
+        add_command(app, common, "list",
+                    "The registers of a model; r: read only, !: dangerous. Of one register all there is to "
+                    "know. Needs no motor: without --port and --model it shows MAC50 to MAC141",
+                    list);
     command.add_option("pattern", options.pattern,
                        "A register, or a part of names, titles and MacTalk's names (Max velocity)");
     command.add_flag("--dangerous", options.dangerous, "Only those that `set` changes with --force only");
@@ -367,23 +367,21 @@ void add_get(arguments::App& app, Common& common) {
 }
 
 void add_set(arguments::App& app, Common& common) {
-    auto [command, options] =
-        add_command(app, common, "set",
-                    "Change registers and read them back. A value may have a unit (1500rpm), be raw steps "
-                    "(1600, raw:1600, 0x640), "
-                    "or names (P_MODE, HICLK+INPSIGN). All are checked before the first is written",
-                    set);
+    auto [command, options] = add_command(
+        app, common, "set",
+        "Change registers and read them back. A value may have a unit (1500rpm), be raw steps (1600, "
+        "raw:1600, 0x640), or names (P_MODE, HICLK+INPSIGN). All are checked before the first is written",
+        set);
     command.add_option("values", options.words, "NAME VALUE, or NAME=VALUE; several at once")->required();
     command.add_flag("--force", options.force,
                      "Write dangerous and read-only registers too; the former are asked for");
 }
 
 void add_watch(arguments::App& app, Common& common) {
-    auto [command, options] = add_command(
-        app, common, "watch",
-        "Registers as they change: a table on a terminal, else a line (or with --json a document) "
-        "at every change. Ctrl-C ends it",
-        watch);
+    auto [command, options] = add_command(app, common, "watch",
+                                          "Registers as they change: a table on a terminal, else a line (or "
+                                          "with --json a document) at every change. Ctrl-C ends it",
+                                          watch);
     command.add_option("registers", options.names,
                        "Names or numbers; else mode, positions, velocities, torque, errors");
     command.add_option("--interval", options.interval_ms, "Milliseconds between two looks")
@@ -394,10 +392,9 @@ void add_watch(arguments::App& app, Common& common) {
 }
 
 void add_why(arguments::App& app, Common& common) {
-    add_command(
-        app, "why",
-        "Why does it not move? Sentences with the registers that make it so and what mends it, the first "
-        "thing to mend in front")
+    add_command(app, "why",
+                "Why does it not move? Sentences with the registers that make it so and what mends it, the "
+                "first thing to mend in front")
         .callback([&common] { work(common, why); });
 }
 

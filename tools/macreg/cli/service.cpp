@@ -83,8 +83,7 @@ void defaults(Session& session, const ServiceArguments& options) {
     session.ask(options.unsaved
                     ? "All parameters in the motor's memory become the factory's; its flash stays as it is"
                     : "All parameters of the motor, those in its flash too, become the factory's, and it "
-                      "resets. What was "
-                      "set by its owner is lost (`macreg dump` keeps it)");
+                      "resets. What was set by its owner is lost (`macreg dump` keeps it)");
     with_service(session, options, [&](Service& service) {
         service.defaults(!options.unsaved);
         tell_mode(session, options.unsaved ? "the factory's parameters are in memory, the flash is as it was"
@@ -132,13 +131,12 @@ void prepare(Session& session, const ServiceArguments& options) {
     if ((before & kCommunication) == kCommunication)
         return session.tell(
             "nothing to do: CNTRL_BITS has USERINTF=COMMUNICATION. If FastMAC does not work, it was set and "
-            "not saved: "
-            "`macreg flash save`",
+            "not saved: `macreg flash save`",
             {{"changed", false}});
-    session.ask(fmt::format(
-        "USERINTF becomes COMMUNICATION (it is {}): the pins of the pulse input belong to FastMAC "
-        "then. All of the motor's memory is saved in flash, and it resets: {}",
-        names_text(bits, motor.model(), before), what_a_start_does(session)));
+    session.ask(
+        fmt::format("USERINTF becomes COMMUNICATION (it is {}): the pins of the pulse input belong to "
+                    "FastMAC then. All of the motor's memory is saved in flash, and it resets: {}",
+                    names_text(bits, motor.model(), before), what_a_start_does(session)));
     with_service(session, options, [&](Service& service) {
         const Outcome outcome = [&] {
             try {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "command_line/program.h"
+#include "macreg/finding.h"
 #include "macreg/motor.h"
 #include "macreg/parameters.h"
-#include "macreg/severity.h"
 
 namespace nplc::macreg::cli {
 

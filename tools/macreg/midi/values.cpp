@@ -86,10 +86,9 @@ TypedNumber no_number(std::string_view text, std::string_view units) {
 }
 
 TypedNumber needs_model(std::string_view text) {
-    return wrong(
-        fmt::format("'{}': turns need the model; say --model MAC23, MAC34-1 or MAC34-2, or write "
-                    "increments (inc)",
-                    text));
+    return wrong(fmt::format(
+        "'{}': turns need the model; say --model MAC23, MAC34-1 or MAC34-2, or write increments (inc)",
+        text));
 }
 
 std::int64_t increments(Model model) {

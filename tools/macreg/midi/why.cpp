@@ -47,10 +47,10 @@ class Facts {
         torque();
         following();
         hints();
-        if (findings_.empty() || findings_.front().severity == Severity::tells) rest();
-        std::stable_sort(findings_.begin(), findings_.end(),
+        if (findings_.all.empty() || findings_.all.front().severity == Severity::tells) rest();
+        std::stable_sort(findings_.all.begin(), findings_.all.end(),
                          [](const Finding& a, const Finding& b) { return a.severity < b.severity; });
-        return std::move(findings_);
+        return std::move(findings_.all);
     }
 
   private:
@@ -62,43 +62,34 @@ class Facts {
     }
     std::string at(std::int64_t position) const { return position_text(position, condition_.scale); }
 
-    void add(Finding finding) { findings_.push_back(std::move(finding)); }
-
     void faults() {
         for (const Trip& one : kTripped) {
             if (has(one.bit))
-                add({one.code, Severity::stops, one.sentence, {"STATUS"}, std::string(one.remedy) + kReset});
+                findings_.stops(one.code, one.sentence, {"STATUS"}, std::string(one.remedy) + kReset);
         }
     }
 
     void supply() {
         if (has(reg::kUnderVoltage))
-            add({"under_voltage",
-                 Severity::hinders,
-                 "The supply voltage is too low.",
-                 {"SUPPLY"},
-                 "Raise it; below 19 V the module switches itself off."});
+            findings_.hinders("under_voltage", "The supply voltage is too low.", {"SUPPLY"},
+                              "Raise it; below 19 V the module switches itself off.");
         if (has(reg::kOverVoltage))
-            add({"over_voltage",
-                 Severity::hinders,
-                 "The supply voltage is too high: the module does not brake above 115 % of its highest.",
-                 {"SUPPLY"},
-                 "Lower it; if it rises while the motor brakes, use longer ramps or a ballast."});
+            findings_.hinders(
+                "over_voltage",
+                "The supply voltage is too high: the module does not brake above 115 % of its highest.",
+                {"SUPPLY"}, "Lower it; if it rises while the motor brakes, use longer ramps or a ballast.");
         else if (has(reg::kOverVoltageKept))
-            add({"over_voltage_kept",
-                 Severity::tells,
-                 "The supply voltage has been too high once, mostly by braking.",
-                 {"SUPPLY"},
-                 "Use longer ramps or a ballast. `macreg midi reset` clears the note."});
+            findings_.tells("over_voltage_kept",
+                            "The supply voltage has been too high once, mostly by braking.", {"SUPPLY"},
+                            "Use longer ramps or a ballast. `macreg midi reset` clears the note.");
     }
 
     void blocked(const char* code, bool positive, const std::string& what, std::string_view parameter,
                  const std::string& remedy) {
-        add({code,
-             Severity::hinders,
-             fmt::format("{}: it moves in the {} direction only.", what, positive ? "negative" : "positive"),
-             {"POSITION", parameter},
-             remedy});
+        findings_.hinders(
+            code,
+            fmt::format("{}: it moves in the {} direction only.", what, positive ? "negative" : "positive"),
+            {"POSITION", parameter}, remedy);
     }
 
     void end_stops() {
@@ -115,11 +106,8 @@ class Facts {
 
     void software_stops(const std::string& back) {
         if (now().lower_stop > now().upper_stop) {
-            add({"stops_crossed",
-                 Severity::stops,
-                 "The lower software stop lies above the upper one.",
-                 {"LOWER_STOP", "UPPER_STOP"},
-                 "`macreg midi limits LOWER UPPER` sets both."});
+            findings_.stops("stops_crossed", "The lower software stop lies above the upper one.",
+                            {"LOWER_STOP", "UPPER_STOP"}, "`macreg midi limits LOWER UPPER` sets both.");
             return;
         }
         const std::string wider = back + ", or `macreg midi limits` widens the limits.";
@@ -132,52 +120,41 @@ class Facts {
     void stopped_by() {
         constexpr std::uint32_t kStopped =
             reg::kAtUpperInput | reg::kAtLowerInput | reg::kAtUpperStop | reg::kAtLowerStop;
-        const bool told = std::any_of(findings_.begin(), findings_.end(), [](const Finding& one) {
+        const bool told = std::any_of(findings_.all.begin(), findings_.all.end(), [](const Finding& one) {
             return one.code.ends_with("_input") || one.code.ends_with("_stop");
         });
         if (told || (now().status & kStopped) == 0) return;
-        add({"stopped_by_end_stop",
-             Severity::tells,
-             fmt::format("Its last motion was {}.", status_words(now().status & kStopped)),
-             {"STATUS"},
-             "A motion in the other direction, or inside the limits, is taken."});
+        findings_.tells("stopped_by_end_stop",
+                        fmt::format("Its last motion was {}.", status_words(now().status & kStopped)),
+                        {"STATUS"}, "A motion in the other direction, or inside the limits, is taken.");
     }
 
     void torque() {
         const std::int64_t raw = now().raw("TORQUE");
         const std::int64_t percent = raw * 100 / std::max<std::int64_t>(condition_.scale.imax, 1);
         if (raw == 0)
-            add({"torque_zero",
-                 Severity::stops,
-                 "The torque is limited to nothing.",
-                 {"TORQUE"},
-                 "`macreg midi set TORQUE 100%`"});
+            findings_.stops("torque_zero", "The torque is limited to nothing.", {"TORQUE"},
+                            "`macreg midi set TORQUE 100%`");
         else if (percent < 20)
-            add({"torque_small",
-                 Severity::hinders,
-                 fmt::format("The torque is limited to {} %.", percent),
-                 {"TORQUE"},
-                 "`macreg midi set TORQUE 100%` gives all of it."});
+            findings_.hinders("torque_small", fmt::format("The torque is limited to {} %.", percent),
+                              {"TORQUE"}, "`macreg midi set TORQUE 100%` gives all of it.");
     }
 
     void following() {
         if (turns()) {
-            add({"moves",
-                 Severity::tells,
-                 fmt::format("It moves: {} in 200 ms.",
-                             at(std::int64_t{now().position} - condition_.before.position)),
-                 {"POSITION"},
-                 "`macreg midi stop` stops it."});
+            findings_.tells("moves",
+                            fmt::format("It moves: {} in 200 ms.",
+                                        at(std::int64_t{now().position} - condition_.before.position)),
+                            {"POSITION"}, "`macreg midi stop` stops it.");
             return;
         }
         if (now().busy() && condition_.before.busy())
-            add({"does_not_follow",
-                 Severity::stops,
-                 "It wants to move and does not: the shaft is held, or the load is more than the torque.",
-                 {"TERMINALS", "TORQUE", "SPEED"},
-                 "Free the shaft, raise TORQUE, or lower SPEED and lengthen RAMP; `macreg midi stop "
-                 "--emergency` "
-                 "ends the attempt."});
+            findings_.stops(
+                "does_not_follow",
+                "It wants to move and does not: the shaft is held, or the load is more than the torque.",
+                {"TERMINALS", "TORQUE", "SPEED"},
+                "Free the shaft, raise TORQUE, or lower SPEED and lengthen RAMP; `macreg midi stop "
+                "--emergency` ends the attempt.");
     }
 
     void hints() {
@@ -185,37 +162,29 @@ class Facts {
         const std::int64_t slow =
             condition_.scale.model ? std::int64_t{reg::rpm_times_period(*condition_.scale.model)} : 24'000;
         if (period > slow)
-            add({"slow",
-                 Severity::hinders,
-                 fmt::format("Moves are slow: {}.", speed_text(period, condition_.scale)),
-                 {"SPEED"},
-                 "`macreg midi set SPEED 100rpm`, for one."});
+            findings_.hinders("slow",
+                              fmt::format("Moves are slow: {}.", speed_text(period, condition_.scale)),
+                              {"SPEED"}, "`macreg midi set SPEED 100rpm`, for one.");
         if (!condition_.scale.model) return;
         const auto temperature =
             reg::temperature_of(*condition_.scale.model, static_cast<std::uint8_t>(now().raw("TEMPERATURE")));
         if (temperature >= kWarm)
-            add({"warm",
-                 Severity::hinders,
-                 "It is hot, and switches itself off at 95 C.",
-                 {"TEMPERATURE"},
-                 "Less TORQUE, longer ramps, pauses, STOP_TORQUE standby, or better cooling."});
+            findings_.hinders("warm", "It is hot, and switches itself off at 95 C.", {"TEMPERATURE"},
+                              "Less TORQUE, longer ramps, pauses, STOP_TORQUE standby, or better cooling.");
     }
 
     void rest() {
         if (turns()) return;
-        add({"waits",
-             Severity::tells,
-             "Nothing keeps it from moving, as far as it tells: no fault, no end-stop, torque and supply are "
-             "there. "
-             "It waits for an order.",
-             {"STATUS", "POSITION"},
-             "`macreg midi move POSITION` moves it, and switches its power on. An order that it refuses is "
-             "told "
-             "with the reason."});
+        findings_.tells("waits",
+                        "Nothing keeps it from moving, as far as it tells: no fault, no end-stop, torque and "
+                        "supply are there. It waits for an order.",
+                        {"STATUS", "POSITION"},
+                        "`macreg midi move POSITION` moves it, and switches its power on. An order that it "
+                        "refuses is told with the reason.");
     }
 
     const Condition& condition_;
-    std::vector<Finding> findings_;
+    BasicFindings<std::string_view> findings_;
 };
 
 }  // namespace
@@ -235,8 +204,8 @@ Finding same_address(std::uint8_t address, bool is_can) {
                         "commands that move are refused.",
                         address),
             {},
-            fmt::format("Switch off all of them but one; `macreg midi {}address set NEW` gives that one "
-                        "an address of its own; then switch on the others.",
+            fmt::format("Switch off all of them but one; `macreg midi {}address set NEW` gives that one an "
+                        "address of its own; then switch on the others.",
                         is_can ? "" : fmt::format("--address {} ", address))};
 }
 

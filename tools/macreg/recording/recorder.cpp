@@ -206,8 +206,7 @@ class BufferRecorder {
             if (last == samples.rend()) break;
             if (pass == kMostPasses)
                 throw CannotRecord(fmt::format(
-                    "{} of {} samples were still missing after reading the buffer {} times; look at the "
-                    "line",
+                    "{} of {} samples were still missing after reading the buffer {} times; look at the line",
                     std::count_if(samples.begin(), samples.end(), is_missing), count, kMostPasses));
             read_pass(samples, static_cast<std::size_t>(samples.rend() - last));
         }

@@ -5,19 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "macreg/finding.h"
 #include "macreg/motor.h"
-#include "macreg/severity.h"
 
 /// Why does it not move? (001 §4.4, §4.5, 004)
 namespace nplc::macreg {
 
-struct Finding {
-    std::string code;  ///< stable, for programs: "torque_zero"
-    Severity severity = Severity::stops;
-    std::string sentence{};
-    std::vector<std::uint8_t> registers{};  ///< whose values make it so
-    std::string remedy{};
-};
+using Finding = BasicFinding<std::uint8_t>;  ///< by registers' numbers
 
 /// Of the gateway between us and the motor.
 struct GatewayState {

@@ -3,19 +3,13 @@
 #include <string>
 #include <vector>
 
+#include "macreg/finding.h"
 #include "macreg/midi/module.h"
-#include "macreg/severity.h"
 
 /// Why does it not move? (000 §VI, 003 §IV, §VII)
 namespace nplc::macreg::midi {
 
-struct Finding {
-    std::string code;  ///< stable, for programs: "torque_zero"
-    Severity severity = Severity::stops;
-    std::string sentence{};
-    std::vector<std::string_view> parameters{};  ///< whose values make it so
-    std::string remedy{};
-};
+using Finding = BasicFinding<std::string_view>;  ///< by parameters' names
 
 /// What `why` judges: the same readings twice, some time apart.
 struct Condition {
