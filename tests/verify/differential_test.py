@@ -33,7 +33,7 @@ class Case:
         if done.returncode not in (0, 1, 4):
             raise AssertionError(f"exit code {done.returncode}: {done.stderr}")
         document = json.loads(done.stdout)
-        verdicts = {r["verdict"] for r in document["results"] if r["severity"] == "error"}
+        verdicts = {r["verdict"] for r in document["results"] if r["severity"] == "fault"}
         expected = 1 if "broken" in verdicts else 4 if "undecided" in verdicts else 0
         if done.returncode != expected:
             raise AssertionError(f"exit code {done.returncode} with {verdicts}")

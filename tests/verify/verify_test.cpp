@@ -38,7 +38,7 @@ class Bench {
         EXPECT_EQ(reading.error, "");
         Options options;
         options.assume = assume;
-        options.order_time = [](std::span<const sequencer::MotorOrder>) { return Delay{4, 8}; };
+        options.order_time = [](std::span<const sequencer::MotorOrder>) { return Delay{4, 8, 0}; };
         const Report report = verify(loaded_.table, {}, reading.properties, options);
         for (const Result& result : report.results) {
             if (result.name == "P") return result;

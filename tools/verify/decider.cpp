@@ -77,7 +77,8 @@ Decider::Finding Decider::missed_deadline(const Property& property) const {
             continue;
         }
         const std::vector<CourseScan> scans = explorer.course_to_missed_deadline();
-        Overdue overdue{.from = scans.size() - 1, .more_than_ms = property.within_ms};
+        const std::size_t to = explorer.missed_at_end() ? scans.size() - 1 : scans.size();
+        Overdue overdue{.from = scans.size() - 1, .to = to, .more_than_ms = property.within_ms};
         while (scans[overdue.from].place.pending) --overdue.from;
         if (auto course = realized(scans, overdue)) return {Answer::can_be, std::move(course), {}};
         why = kNoTimes;

@@ -95,7 +95,14 @@ Bounds Explorer::delay_of(const Place& place, const Group& group, const Place& n
     const auto most = static_cast<std::int32_t>(group.delay.most);
     if (next.error_comes) return {0, most + kUntilLost};
     const bool error = (group.images & images_of_error()).any();
-    return {error ? 0 : static_cast<std::int32_t>(group.delay.least), most};
+    if (error || group.delay.least < group.delay.end) return {0, most};
+    return {static_cast<std::int32_t>(group.delay.least - group.delay.end), most};
+}
+
+/// Whether a scan that meets the deadline when it begins may end after it.
+bool Explorer::ends_late(const Zone& zone, const Group& group) const {
+    if (machine_.assume() == Assume::any || group.delay.end == 0) return false;
+    return std::int64_t{zone.passed.most} + group.delay.end > precision_.deadline->within_ms;
 }
 
 /// The images of a scan after which `next` can be.
@@ -227,6 +234,10 @@ void Explorer::visit(Node node, const std::vector<Target>& targets) {
             seen = true;
         }
         const auto split = parts(here, view, images);
+        if (here.pending && split[0].images.any() && ends_late(zone, group) && !missed_deadline()) {
+            missed_ = {node, index, split[0].images};
+            missed_at_end_ = true;
+        }
         for (std::uint8_t p = 0; p < split.size(); ++p) {
             if (split[p].images.none()) continue;
             bool misses = false;
@@ -290,6 +301,8 @@ std::vector<CourseScan> Explorer::course_to_missed_deadline() const {
     if (!missed_deadline()) return {};
     std::vector<CourseScan> course = course_to_node(missed_.node);
     course.push_back(scan_of(place(missed_.node), missed_.group, missed_.images));
+    if (missed_at_end_ && course.size() > 1 && course[course.size() - 2].delay.most < kEndless)
+        course[course.size() - 2].delay.most += static_cast<std::int32_t>(course.back().group->delay.end);
     return course;
 }
 

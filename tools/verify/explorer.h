@@ -90,6 +90,8 @@ class Explorer {
     std::vector<CourseScan> course_to_missed_deadline() const;
     bool hit(std::size_t target) const { return hits_[target].node != kNone; }
     bool missed_deadline() const { return missed_.node != kNone; }
+    /// It is missed by the last scan's end, else by the next one.
+    bool missed_at_end() const { return missed_at_end_; }
     /// The scans before the one that begins in `node`.
     std::vector<CourseScan> course_to_node(Node node) const;
 
@@ -146,6 +148,7 @@ class Explorer {
     Place after(const Place& place, const Group& group) const;
     std::array<Part, 2> parts(const Place& place, const View& view, const ImageSet& images) const;
     Bounds delay_of(const Place& place, const Group& group, const Place& next) const;
+    bool ends_late(const Zone& zone, const Group& group) const;
     ImageSet narrowed(const ImageSet& images, const Place& next) const;
     void visit(Node node, const std::vector<Target>& targets);
     void judge(Node node, std::uint16_t index, const Group& group, const ImageSet& images, const View& view,
@@ -172,6 +175,7 @@ class Explorer {
     std::vector<std::pair<Node, Node>> edges_;
     std::vector<Hit> hits_;
     Hit missed_;
+    bool missed_at_end_ = false;
     std::vector<std::bitset<512>> judged_;  ///< by group: the surroundings that were judged
     std::uint64_t steps_begun_ = 0;
     bool complete_ = true;

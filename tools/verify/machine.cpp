@@ -90,7 +90,7 @@ void Machine::fill_step(const sequencer::Table& table, std::uint8_t step, const 
                 for (const std::uint16_t index : senders)
                     group.orders.push_back(sequencer::order_of(table.term(index)));
                 group.resets_error = std::any_of(group.orders.begin(), group.orders.end(), may_reset_error);
-                group.delay = {0, kMostIdle};
+                group.delay = {0, kMostIdle, 0};
                 if (group.sends && driver) group.delay = order_time(group.orders);
                 row.push_back(std::move(group));
             }

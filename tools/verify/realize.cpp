@@ -124,13 +124,14 @@ void bound_timer(Times& times, std::span<const CourseScan> scans, bool paced) {
 }
 
 /// An input that a scan sees changed did so after the scan before, and not before it was steady.
-void bound_inputs(Times& times, const Images& images, std::uint32_t debounce_ms) {
+void bound_inputs(Times& times, std::span<const CourseScan> scans, const Images& images,
+                  std::uint32_t debounce_ms) {
     for (unsigned bit = 1; bit <= sequencer::kInputsMask; bit <<= 1U) {
         std::optional<std::size_t> before;
         for (std::size_t k = 1; k < images.size(); ++k) {
             if (((images[k] ^ images[k - 1]) & bit) == 0) continue;
             const std::size_t change = times.add();
-            times.at_least(k - 1, change, 0);
+            times.at_least(k - 1, change, -std::int64_t{scans[k - 1].group->delay.end});
             times.at_least(change, k, 0);
             if (before) times.at_least(*before, change, debounce_ms);
             before = change;
@@ -189,8 +190,8 @@ std::optional<Course> realize(const Realization& how, std::span<const CourseScan
     bound_delays(times, scans);
     const bool driver = how.assume == Assume::driver;
     bound_timer(times, scans, driver);
-    if (driver) bound_inputs(times, images, how.debounce_ms);
-    if (overdue) times.at_least(overdue->from, scans.size(), std::int64_t{overdue->more_than_ms} + 1);
+    if (driver) bound_inputs(times, scans, images, how.debounce_ms);
+    if (overdue) times.at_least(overdue->from, overdue->to, std::int64_t{overdue->more_than_ms} + 1);
     if (!times.solve()) return std::nullopt;
     Course course = lay_out(scans, images, times, driver);
     if (!play(how.table, scans, course)) return std::nullopt;

@@ -9,9 +9,10 @@
 
 namespace nplc::verify {
 
-/// What must have passed between a scan and the one that would follow the last.
+/// What must have passed between two scans.
 struct Overdue {
     std::size_t from = 0;  ///< index of the scan
+    std::size_t to = 0;    ///< the number of scans is the one that would follow the last
     std::uint32_t more_than_ms = 0;
 };
 

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
 
 namespace nplc::verify {
 namespace {
@@ -38,6 +40,26 @@ std::string orders_text(const std::vector<sequencer::MotorOrder>& orders) {
                               : fmt::format(" {:02X}h", order.command);
     }
     return text;
+}
+
+/// Actions that lead from one image to the next; what INPOS does is the motor's.
+std::vector<std::string> actions_between(std::uint8_t before, std::uint8_t image) {
+    std::vector<std::string> actions;
+    for (unsigned i = 0; i < 6; ++i) {
+        if (((unsigned{before} ^ image) >> i & 1U) != 0)
+            actions.push_back(fmt::format("IN{} := {}", i, image >> i & 1U));
+    }
+    if ((image & ~unsigned{before} & sequencer::kError) != 0) actions.emplace_back("motor error");
+    return actions;
+}
+
+/// Steps that a course enters once only: their entry is an event to wait for.
+std::array<unsigned, 64> entries_of(const Course& course) {
+    std::array<unsigned, 64> entries{};
+    for (const PlayedScan& scan : course) {
+        if (scan.after.step != scan.step) ++entries[scan.after.step];
+    }
+    return entries;
 }
 
 }  // namespace
@@ -77,6 +99,42 @@ std::string stimulus_of(const Course& course) {
                             (scan.image & sequencer::kInPos) != 0 ? 1 : 0,
                             (scan.image & sequencer::kError) != 0 ? 1 : 0);
     }
+    return text;
+}
+
+std::string scenario_of(const Result& result, const Names& names) {
+    const Course& course = *result.course;
+    std::string text = fmt::format(
+        "# {}: {}\n# {}.\n# Inputs as in the course that shows it; INPOS comes from the motor, so a course "
+        "that needs it "
+        "at another\n# time than the motor's is not followed.\n\n",
+        result.name, result.text, result.reason);
+    const auto entries = entries_of(course);
+    std::string since = "at";  // an event, or the time from the beginning
+    std::uint64_t begun = 0;
+    std::uint64_t time = 0;
+    std::uint8_t image = 0;
+    for (const PlayedScan& scan : course) {
+        const std::vector<std::string> actions = actions_between(image, scan.image);
+        image = scan.image;
+        if (!actions.empty()) {
+            const std::string list = fmt::format("{}", fmt::join(actions, ", "));
+            if (since != "at") {
+                text += fmt::format("once {} after {} ms {}\n", since, time - begun, list);
+            } else {
+                text += time == 0 ? list + "\n" : fmt::format("at {} ms {}\n", time, list);
+            }
+        }
+        if (scan.after.step != scan.step && entries[scan.after.step] == 1) {
+            since = fmt::format("step = {}", step_name(names, scan.after.step));
+            begun = time;
+        }
+        time += scan.dt_ms;
+    }
+    constexpr std::uint64_t kStartUp = 1'000;
+    const sequencer::State& end = course.back().after;
+    text += fmt::format("\nexpect eventually step = {} and OUTPUTS = {}\nend at {} ms\n",
+                        step_name(names, end.step), end.outputs, time + kStartUp);
     return text;
 }
 

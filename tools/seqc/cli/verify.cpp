@@ -32,6 +32,7 @@ struct VerifyArguments {
     std::string properties;
     std::string assume = "driver";
     std::string stimulus;
+    std::string scenario;
     bool json = false;
 };
 
@@ -44,16 +45,26 @@ verify::Names names_for(const Input& input) {
     return names;
 }
 
-/// As `seqc report` works it out, and what the polls of driver and gateway add. What a drive whose orders are
-/// translated takes is known only as the longest that a gateway waits.
-verify::Delay order_time(std::span<const sequencer::MotorOrder> orders, bool translated) {
-    constexpr std::uint32_t kBaud = 19'200;
-    constexpr std::uint32_t kLongestWait = 1'000;
-    if (translated) return {0, kLongestWait};
+constexpr std::uint32_t kBaud = 19'200;
+
+/// On a line without faults, with the polls of driver and gateway.
+std::uint32_t most_time(std::span<const sequencer::MotorOrder> orders) {
     const LineUse use = line_use(orders, true);
-    return {static_cast<std::uint32_t>(milliseconds(use.until_done, kBaud)),
-            static_cast<std::uint32_t>(std::ceil(milliseconds(use.at_most, kBaud))) + use.messages +
-                verify::Machine::kMostIdle};
+    return static_cast<std::uint32_t>(std::ceil(milliseconds(use.at_most, kBaud))) + use.messages +
+           verify::Machine::kMostIdle;
+}
+
+/// As `seqc report` works it out. The motor's queue takes eight orders beside the one under way; a scan with
+/// more waits for those before. What a drive whose orders are translated takes is known only as the longest
+/// that a gateway waits.
+verify::Delay order_time(std::span<const sequencer::MotorOrder> orders, bool translated) {
+    constexpr std::size_t kQueue = 8;
+    constexpr std::uint32_t kLongestWait = 1'000;
+    const bool waits = orders.size() > kQueue;
+    if (translated) return {0, kLongestWait, waits ? kLongestWait : 0};
+    const LineUse use = line_use(orders, true);
+    return {static_cast<std::uint32_t>(milliseconds(use.until_done, kBaud)), most_time(orders),
+            waits ? most_time(orders.first(orders.size() - kQueue)) : 0};
 }
 
 const char* word_of(Verdict verdict) {
@@ -113,7 +124,7 @@ Json document_of(const verify::Report& report, const VerifyArguments& options, c
         added["name"] = result.name;
         if (!result.code.empty()) added["code"] = result.code;
         added["verdict"] = word_of(result.verdict);
-        added["severity"] = result.severity == verify::Severity::fault ? "error" : "warning";
+        added["severity"] = result.severity == verify::Severity::fault ? "fault" : "advice";
         added["property"] = result.text;
         if (!result.reason.empty()) added["reason"] = result.reason;
         if (result.course) added["course"] = course_object(*result.course, names);
@@ -144,12 +155,32 @@ std::string text_of(const verify::Report& report, const VerifyArguments& options
                               assumption_text(options.assume));
 }
 
-int write_stimulus(const verify::Report& report, const std::string& file) {
+/// OUT.scn for the first, OUT-Name.scn for the others.
+std::string file_for(const std::string& file, const std::string& name, bool is_first) {
+    if (is_first) return file;
+    const std::size_t slash = file.find_last_of("/\\");
+    std::size_t dot = file.rfind('.');
+    if (dot == std::string::npos || (slash != std::string::npos && dot < slash)) dot = file.size();
+    return file.substr(0, dot) + "-" + name + file.substr(dot);
+}
+
+int write_courses(const verify::Report& report, const VerifyArguments& options, const verify::Names& names) {
+    std::vector<whole_files::OutputFile> files;
+    bool is_first = true;
     for (const verify::Result& result : report.results) {
-        if (result.verdict == Verdict::broken && result.course)
-            return print_or_write(verify::stimulus_of(*result.course), file);
+        if (result.verdict != Verdict::broken || !result.course || !result.code.empty()) continue;
+        if (!options.stimulus.empty()) {
+            files.push_back(
+                {file_for(options.stimulus, result.name, is_first), verify::stimulus_of(*result.course)});
+        }
+        if (!options.scenario.empty()) {
+            files.push_back(
+                {file_for(options.scenario, result.name, is_first), verify::scenario_of(result, names)});
+        }
+        is_first = false;
     }
-    return kOk;
+    const std::string error = whole_files::write_files(files);
+    return error.empty() ? kOk : file_problem(error);
 }
 
 int run(const VerifyArguments& options) {
@@ -176,10 +207,7 @@ int run(const VerifyArguments& options) {
         return order_time(orders, translated);
     };
     const verify::Report report = verify::verify(loaded.table, names, reading.properties, how);
-    if (!options.stimulus.empty()) {
-        const int written = write_stimulus(report, options.stimulus);
-        if (written != kOk) return written;
-    }
+    if (const int written = write_courses(report, options, names); written != kOk) return written;
     const int verdict = exit_code_of(report);
     if (options.json) return print_json(document_of(report, options, input, names), verdict);
     const int printed = print_or_write(text_of(report, options, names), {});
@@ -201,9 +229,14 @@ void add_verify(arguments::App& app, int& exit_code) {
         ->one_of({"driver", "any"});
     command.add_flag("--json", options->json, "JSON for other programs");
     command
-        .add_option("--stimulus", options->stimulus,
-                    "Write the course that breaks the first broken property, for nanoplc-sim scan")
+        .add_option(
+            "--stimulus", options->stimulus,
+            "Write the course that breaks a property, for nanoplc-sim scan; of further ones OUT-Name.csv")
         ->type_name("OUT.csv");
+    command
+        .add_option("--scenario", options->scenario,
+                    "The same as inputs for nanoplc-sim run; of further ones OUT-Name.scn")
+        ->type_name("OUT.scn");
     command.callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -17,10 +17,12 @@ enum class Assume : std::uint8_t {
     driver,  ///< what the gateway and a real motor can do
 };
 
-/// Time from a scan to the next, in milliseconds.
+/// Of a scan that sends, in milliseconds from its beginning: when the next one can begin, and when at the
+/// latest it ends, for it waits while the motor's queue is full.
 struct Delay {
     std::uint32_t least = 0;
     std::uint32_t most = 0;
+    std::uint32_t end = 0;
     bool operator==(const Delay&) const = default;
 };
 
