@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "sim/motor_inputs.h"
 #include "sim/motor_memory.h"
-#include "sim/terminals.h"
 
 namespace nplc::sim {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sim/bounds.h"
-#include "sim/terminals.h"
+#include "sim/motor_inputs.h"
 
 namespace nplc::sim {
 namespace {

@@ -7,8 +7,7 @@
 
 #include "ports/can.h"
 #include "sim/client_line.h"
-#include "sim/midi_can_end.h"
-#include "sim/midi_v24_end.h"
+#include "sim/midi_ends.h"
 
 namespace nplc::sim {
 

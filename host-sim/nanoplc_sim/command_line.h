@@ -4,7 +4,7 @@
 #include <string>
 #include <variant>
 
-#include "run_options.h"
+#include "run_command.h"
 
 namespace nplc::sim {
 

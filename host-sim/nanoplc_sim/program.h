@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "registers/family.h"
-#include "sim/names.h"
+#include "sim/snapshot.h"
 
 namespace nplc::sim {
 

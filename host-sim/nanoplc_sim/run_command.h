@@ -1,10 +1,41 @@
 #pragma once
 
 #include <csignal>
+#include <optional>
+#include <string>
 
-#include "run_options.h"
+#include "registers/mac.h"
+#include "registers/midi.h"
+#include "sim/serial_line.h"
+#include "sim/text.h"
 
 namespace nplc::sim {
+
+/// The command line of `nanoplc-sim run`.
+struct RunOptions {
+    std::string program;                 ///< empty: the table that the flash holds, or none
+    std::optional<std::string> symbols;  ///< without it, F.sym beside a table if it fits
+    std::optional<std::string> scenario;
+    std::optional<std::string> csv;
+    std::optional<std::string> vcd;
+    std::optional<std::string> mactalk;  ///< endpoint of the user's port
+    std::optional<std::string> flash;    ///< file that keeps the gateway's flash
+    std::optional<Time> length;
+    std::optional<registers::Model> motor;             ///< the program's own without it
+    std::optional<registers::midi::Model> midi_motor;  ///< in the place of the program's
+    std::optional<bool> midi_can;                      ///< else its serial line
+    bool realtime = false;
+    bool quiet = false;
+    bool rapid = false;
+    bool old_register_codes = false;
+    bool keep_motor = false;
+    Time debounce = std::chrono::milliseconds{3};
+    std::optional<std::uint32_t> baud;  ///< 19200 of a JVL motor, 38400 of a MIDI drive
+    std::uint64_t seed = 1;
+    LineFaults faults;
+
+    std::uint32_t jvl_baud() const { return baud.value_or(19'200); }
+};
 
 /// `nanoplc-sim run`. Answers the exit code: 0, or 1 if an expectation failed. `interrupted` becomes other
 /// than 0 when the user wants the run to end: it then ends in good order. Throws InputError, FileError,

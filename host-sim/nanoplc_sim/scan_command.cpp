@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstdio>
 #include <iterator>
 
@@ -11,12 +14,98 @@
 namespace nplc::sim {
 namespace {
 
+constexpr std::string_view kHeader = "dt_ms,inputs,inpos,error";
+
+struct Column {
+    std::string_view name;
+    std::uint32_t max;
+};
+constexpr std::array<Column, 4> kColumns{
+    {{"dt_ms", 4'294'967'295U}, {"inputs", 63}, {"inpos", 1}, {"error", 1}}};
+
+/// Whatever a file may hold, a message stays one printable line.
+std::string shown(std::string_view text) {
+    constexpr std::size_t kLongest = 40;
+    std::string result;
+    for (const char c : text.substr(0, kLongest)) result += c >= ' ' && c <= '~' ? c : '?';
+    return text.size() > kLongest ? result + "..." : result;
+}
+
+class Line {
+  public:
+    Line(std::string_view text, const std::string& file, std::size_t number)
+        : text_(text), file_(file), number_(number) {}
+
+    StimulusRow row() const {
+        const auto commas = std::count(text_.begin(), text_.end(), ',');
+        if (commas != 3) {
+            fail(fmt::format("\"{}\" has {} fields; write the four {}", shown(text_),
+                             text_.empty() ? 0 : commas + 1, kHeader));
+        }
+        std::array<std::uint32_t, 4> values{};
+        std::string_view rest = text_;
+        for (std::size_t i = 0; i < kColumns.size(); ++i) {
+            const auto length = std::min(rest.find(','), rest.size());
+            values[i] = number(rest.substr(0, length), kColumns[i]);
+            rest.remove_prefix(std::min(length + 1, rest.size()));
+        }
+        return {values[0], static_cast<std::uint8_t>(values[1] | values[2] << 6U | values[3] << 7U)};
+    }
+
+    [[noreturn]] void fail(const std::string& message) const {
+        throw InputError(fmt::format("{}:{}: {}", file_, number_, message));
+    }
+
+  private:
+    std::uint32_t number(std::string_view field, const Column& column) const {
+        std::uint64_t value = 0;
+        const char* end = field.data() + field.size();
+        const auto [stop, error] = std::from_chars(field.data(), end, value);
+        if (error != std::errc{} || stop != end || value > column.max) {
+            fail(fmt::format("{} is \"{}\"; write a whole number 0 to {}", column.name, shown(field),
+                             column.max));
+        }
+        return static_cast<std::uint32_t>(value);
+    }
+
+    std::string_view text_;
+    const std::string& file_;
+    std::size_t number_;
+};
+
+std::string_view without_blank_end(std::string_view text) {
+    const auto last = text.find_last_not_of(" \t\r\n");
+    if (last == std::string_view::npos) return {};
+    return text.substr(0, std::min(text.find('\n', last), text.size()));
+}
+
 void append_word(std::string& words, const std::string& word) {
     if (!words.empty()) words += ' ';
     words += word;
 }
 
 }  // namespace
+
+std::vector<StimulusRow> parse_stimulus(std::string_view text, const std::string& file) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    text = without_blank_end(text);
+    std::vector<StimulusRow> rows;
+    std::size_t number = 0;
+    do {
+        const auto length = std::min(text.find('\n'), text.size());
+        std::string_view line = text.substr(0, length);
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        text.remove_prefix(std::min(length + 1, text.size()));
+        ++number;
+        if (number > 1) {
+            rows.push_back(Line(line, file, number).row());
+        } else if (line != kHeader) {
+            Line(line, file, number)
+                .fail(fmt::format("the header is \"{}\"; write {}", shown(line), kHeader));
+        }
+    } while (!text.empty());
+    return rows;
+}
 
 std::string scan_csv(std::span<const std::uint8_t> bytes, const std::vector<StimulusRow>& rows) {
     const auto loaded = sequencer::Table::load(bytes);

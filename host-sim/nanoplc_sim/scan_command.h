@@ -3,11 +3,21 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "stimulus.h"
-
 namespace nplc::sim {
+
+/// One scan's input image, and the time from its commands to the next scan.
+struct StimulusRow {
+    std::uint32_t dt_ms = 0;
+    std::uint8_t image = 0;  ///< HW_INP: inputs, INPOS, ERROR
+    bool operator==(const StimulusRow&) const = default;
+};
+
+/// CSV with the header `dt_ms,inputs,inpos,error` and plain decimal numbers; CR LF and blank lines at the end
+/// are taken too. Throws InputError with file and line.
+std::vector<StimulusRow> parse_stimulus(std::string_view text, const std::string& file);
 
 /// `nanoplc-sim scan`: the engine alone, one scan a row. CSV with the header
 /// `scan,step,timer,counter,outputs,fastmac,flexmac`; scans count from 1; all values as they stand after step

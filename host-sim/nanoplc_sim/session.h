@@ -7,10 +7,9 @@
 
 #include "order_audit.h"
 #include "program.h"
-#include "run_options.h"
-#include "sim/csv_trace.h"
+#include "run_command.h"
 #include "sim/scenario_runner.h"
-#include "sim/vcd_trace.h"
+#include "sim/trace_file.h"
 #include "sim/world.h"
 #include "timeline.h"
 

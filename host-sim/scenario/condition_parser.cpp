@@ -1,4 +1,4 @@
-#include "condition_parser.h"
+#include "parser.h"
 
 #include <fmt/format.h>
 

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 
-#include "action_parser.h"
-#include "condition_parser.h"
+#include "parser.h"
 #include "sim/scenario.h"
-#include "tokens.h"
 
 namespace nplc::sim {
 namespace {

@@ -1,4 +1,4 @@
-#include "tokens.h"
+#include "parser.h"
 
 #include <fmt/format.h>
 

@@ -5,8 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/midi_can_end.h"
-#include "sim/midi_v24_end.h"
+#include "sim/midi_ends.h"
 
 namespace {
 

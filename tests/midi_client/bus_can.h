@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "host/can_client.h"
-#include "sim/can_bus.h"
-#include "sim/midi_can_end.h"
+#include "sim/midi_ends.h"
 
 namespace nplc::midi_client {
 

@@ -2,7 +2,7 @@
 
 #include "midi_client/master.h"
 #include "midi_client/v24_link.h"
-#include "sim/midi_v24_end.h"
+#include "sim/midi_ends.h"
 #include "sim_wire.h"
 
 namespace nplc::midi_client {

@@ -3,8 +3,7 @@
 #include <string>
 
 #include "midi_bench.h"
-#include "sim/can_bus.h"
-#include "sim/midi_can_end.h"
+#include "sim/midi_ends.h"
 
 namespace nplc::sim {
 namespace {

@@ -1,7 +1,7 @@
 #include <string>
 
 #include "midi_bench.h"
-#include "sim/midi_v24_end.h"
+#include "sim/midi_ends.h"
 
 namespace nplc::sim {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/terminals.h"
+#include "sim/motor_inputs.h"
 
 #include <gtest/gtest.h>
 

@@ -8,9 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/csv_trace.h"
-#include "sim/names.h"
-#include "sim/vcd_trace.h"
+#include "sim/snapshot.h"
+#include "sim/trace_file.h"
 
 namespace nplc::sim {
 namespace {

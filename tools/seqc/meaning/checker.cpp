@@ -7,7 +7,6 @@
 #include <bitset>
 
 #include "meaning/actions.h"
-#include "meaning/drive.h"
 #include "meaning/motors.h"
 #include "meaning/seen_branches.h"
 #include "meaning/single_term.h"

@@ -15,11 +15,11 @@
 #include "motor/jvl_motor.h"
 #include "sim/mac_motor.h"
 #include "sim/midi_side.h"
+#include "sim/scenario_runner.h"
 #include "sim/serial_line.h"
 #include "sim/sim_board.h"
 #include "sim/sim_storage.h"
 #include "sim/snapshot.h"
-#include "sim/stage.h"
 
 namespace nplc::sim {
 

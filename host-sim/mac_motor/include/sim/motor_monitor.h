@@ -4,9 +4,9 @@
 #include <cstdlib>
 
 #include "sim/mode_control.h"
+#include "sim/motor_inputs.h"
 #include "sim/motor_state.h"
 #include "sim/servo.h"
-#include "sim/terminals.h"
 
 namespace nplc::sim {
 

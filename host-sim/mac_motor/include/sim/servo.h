@@ -4,10 +4,10 @@
 
 #include "sim/inner_loop.h"
 #include "sim/mode_table.h"
+#include "sim/motor_inputs.h"
 #include "sim/motor_memory.h"
 #include "sim/plant.h"
 #include "sim/regulator.h"
-#include "sim/terminals.h"
 
 namespace nplc::sim {
 

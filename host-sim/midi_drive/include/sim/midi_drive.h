@@ -5,10 +5,8 @@
 #include <random>
 
 #include "ports/can.h"
-#include "sim/can_bus.h"
-#include "sim/midi_can_end.h"
+#include "sim/midi_ends.h"
 #include "sim/midi_module.h"
-#include "sim/midi_v24_end.h"
 #include "sim/serial_line.h"
 
 namespace nplc::sim {

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "sim/names.h"
 #include "sim/snapshot.h"
 
 namespace nplc::sim {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sim/condition.h"
-#include "sim/names.h"
+#include "sim/snapshot.h"
 
 namespace nplc::sim {
 

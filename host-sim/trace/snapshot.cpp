@@ -1,4 +1,4 @@
-#include "sim/names.h"
+#include "sim/snapshot.h"
 
 #include <fmt/format.h>
 
