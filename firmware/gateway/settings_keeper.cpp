@@ -6,10 +6,6 @@ using store::Setting;
 
 namespace {
 
-/// Of the outer loop, rounded up (001 §1.2, 004).
-constexpr base::Microseconds kSampleMac50To141{1'920};
-constexpr base::Microseconds kSampleMac800{1'299};
-
 std::optional<std::uint8_t> pin(const store::SettingValues& values, Setting setting) {
     const std::uint32_t value = values.get(setting);
     if (value == store::kNone) return std::nullopt;
@@ -59,19 +55,14 @@ store::SettingValues values_of(const Settings& settings) {
     return values;
 }
 
-motor::JvlMotor::Settings driver_settings_of(const store::SettingValues& values) {
-    using protocol::fastmac::RegisterCode;
-    motor::JvlMotor::Settings settings;
-    settings.link.baud = values.get(Setting::motor_baud);
-    settings.link.silence = milliseconds(values, Setting::motor_silence);
-    // The adapter that is late with one is late with the other.
-    settings.link.proof_time = settings.link.silence;
-    settings.safe_communication = values.is_on(Setting::safe_communication);
-    settings.register_code =
-        values.is_on(Setting::old_register_codes) ? RegisterCode::older_example : RegisterCode::format_list;
-    settings.registers_are_32_bit = values.is_on(Setting::motor_is_mac800);
-    settings.sample_period = settings.registers_are_32_bit ? kSampleMac800 : kSampleMac50To141;
-    return settings;
+motor::DriverSettings driver_settings_of(const store::SettingValues& values) {
+    return {.baud = values.get(Setting::motor_baud),
+            .silence = milliseconds(values, Setting::motor_silence),
+            .motor_kind = static_cast<std::uint8_t>(values.get(Setting::motor_kind)),
+            .address = static_cast<std::uint8_t>(values.get(Setting::midi_address)),
+            .is_mac800 = values.is_on(Setting::motor_is_mac800),
+            .safe_communication = values.is_on(Setting::safe_communication),
+            .old_register_codes = values.is_on(Setting::old_register_codes)};
 }
 
 void SettingsKeeper::start(const store::SettingValues& initial) {

@@ -9,7 +9,8 @@ const DriveFamily& midi_family();
 
 namespace {
 
-constexpr double kCountsPerRev = 4096;  // of the registers, which are those of MAC50-141
+constexpr double kCountsPerRev = 4096;                       // of the registers, which are those of MAC50-141
+constexpr std::uint32_t kBauds[] = {9'600, 19'200, 38'400};  // 000 §VI 1Bh
 constexpr double kFullTorque = 1023;
 constexpr std::uint8_t kImax = midi::kMostTorque;
 
@@ -17,6 +18,7 @@ class MidiFamily final : public DriveFamily {
   public:
     std::string_view name() const override { return "MIDI"; }
     std::span<const DriveModel> models() const override;
+    std::span<const std::uint32_t> bauds() const override { return kBauds; }
     bool waits_for_standstill() const override { return true; }
     Refusal refuses_command(const DriveModel& model, std::uint8_t command) const override;
     Refusal refuses_write(const DriveModel& model, std::uint8_t reg, bool longword,
@@ -32,14 +34,15 @@ class MidiFamily final : public DriveFamily {
 constinit const MidiFamily kFamily;
 
 constexpr DriveModel model(midi::Model which, std::string_view name, std::string_view program_name,
-                           std::string_view alias) {
+                           std::string_view alias, bool has_can) {
     const auto index = static_cast<std::uint8_t>(which);
-    return {&kFamily, index, static_cast<std::uint8_t>(index + 1), Model::mac140, name, program_name, alias};
+    return {&kFamily, index,  static_cast<std::uint8_t>(index + 1), Model::mac140, name, program_name,
+            alias,    has_can};
 }
 
-constexpr DriveModel kModels[] = {model(midi::Model::mac23, "MAC23", "MAC23", {}),
-                                  model(midi::Model::mac34_1, "MAC34-1", "MAC34", "MAC34_1"),
-                                  model(midi::Model::mac34_2, "MAC34-2", "MAC34", "MAC34_2")};
+constexpr DriveModel kModels[] = {model(midi::Model::mac23, "MAC23", "MAC23", {}, false),
+                                  model(midi::Model::mac34_1, "MAC34-1", "MAC34", "MAC34_1", true),
+                                  model(midi::Model::mac34_2, "MAC34-2", "MAC34", "MAC34_2", true)};
 
 midi::Model which(const DriveModel& model) {
     return static_cast<midi::Model>(model.index);

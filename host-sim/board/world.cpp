@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "registers/gateway.h"
-
 namespace nplc::sim {
 namespace {
 
@@ -28,7 +26,7 @@ store::SettingValues initial_settings(const WorldOptions& options) {
     set(store::Setting::motor_is_mac800, options.motor == registers::Model::mac800 ? 1 : 0);
     set(store::Setting::safe_communication, options.safe_communication ? 1 : 0);
     set(store::Setting::old_register_codes, options.old_register_codes ? 1 : 0);
-    if (options.midi) set(store::Setting::motor_kind, registers::gateway::motor_kind_of(options.midi->model));
+    if (options.drive) set(store::Setting::motor_kind, options.drive->model->motor_kind);
     return values;
 }
 
@@ -44,10 +42,10 @@ World::World(std::vector<std::uint8_t> table, const WorldOptions& options)
       next_sample_(mac_.sample_period()) {
     line_.to_motor().set_faults(options.faults);
     line_.from_motor().set_faults(options.faults);
-    if (options.midi) {
-        midi_.emplace(*options.midi, options.faults);
+    if (options.drive) drive_ = make_virtual_drive(*options.drive, options.faults);
+    if (drive_) {
         motor_powered_ = false;
-        next_sample_ = MidiSide::kSamplePeriod;
+        next_sample_ = drive_->sample_period();
     }
     start_gateway(gateway::StartCause::power_up);
 }
@@ -81,11 +79,10 @@ void World::start_gateway(gateway::StartCause cause) {
 }
 
 void World::start_driver() {
-    if (midi_) {
-        motor_ = &midi_->start_driver();
-    } else {
-        motor_ = &driver_.emplace(line_.port(), gateway::driver_settings_of(settings_->values()));
-    }
+    motor::DriverSettings settings = gateway::driver_settings_of(settings_->values());
+    settings.motor_kind = drive_ ? options_.drive->model->motor_kind : std::uint8_t{0};
+    if (drive_) drive_->complete(settings);
+    motor_ = &driver_.start(drive_ ? drive_->ports() : motor::DriverPorts{.serial = &line_.port()}, settings);
 }
 
 void World::start_table(bool first) {
@@ -126,19 +123,17 @@ Time World::next_event() const {
 }
 
 std::string_view World::why_not() const {
-    if (load_result_.ok || !midi_ || load_result_.fault.error != base::Error::not_for_motor) return {};
+    if (load_result_.ok || !drive_ || load_result_.fault.error != base::Error::not_for_motor) return {};
     const auto loaded = sequencer::Table::load(table_);
     if (!loaded.ok) return {};
     const auto order = sequencer::order_of(loaded.table.term(load_result_.fault.term));
-    return registers::midi::text_of(midi_->driver().lack_of({.is_register_write = order.is_flex,
-                                                             .command = order.command,
-                                                             .reg = order.reg,
-                                                             .longword = order.longword,
-                                                             .value = order.value}));
+    const registers::DriveModel& model = *options_.drive->model;
+    return order.is_flex ? model.family->refuses_write(model, order.reg, order.longword, order.value)
+                         : model.family->refuses_command(model, order.command);
 }
 
 Time World::next_of_motor() const {
-    if (midi_) return midi_->drive().next_event(now_);
+    if (drive_) return drive_->next_event(now_);
     Time next = line_.to_motor().next_arrival().value_or(Time::max());
     next = std::min(next, line_.from_motor().next_arrival().value_or(Time::max()));
     if (line_.has_waiting()) next = std::min(next, line_.to_motor().busy_until());
@@ -157,8 +152,8 @@ void World::step(Time limit) {
 }
 
 void World::move_characters() {
-    if (midi_) {
-        if (midi_->drive().service(now_)) next_poll_ = now_;
+    if (drive_) {
+        if (drive_->service(now_)) next_poll_ = now_;
         return;
     }
     while (const auto byte = line_.to_motor().take(now_)) {
@@ -195,11 +190,11 @@ void World::move_mactalk_characters() {
 }
 
 void World::sample_motor() {
-    if (midi_) {
-        next_sample_ += MidiSide::kSamplePeriod;
-        if (std::exchange(motor_fails_, false)) midi_->drive().module().overload_amplifier();
+    if (drive_) {
+        next_sample_ += drive_->sample_period();
+        if (std::exchange(motor_fails_, false) && !drive_->fail()) drive_has_no("a failure");
         move_characters();
-        return midi_->sample();
+        return drive_->sample();
     }
     next_sample_ += mac_.sample_period();
     if (!motor_powered_) return;
@@ -214,9 +209,8 @@ void World::wake() {
 Time World::next_poll() {
     const Time steadily = now_ + kPollPeriod;
     if (options_.polling == Polling::steadily) return steadily;
-    const base::Instant motors = midi_ ? midi_->driver().next_poll(instant()) : driver_->next_poll(instant());
-    const base::Instant due =
-        std::min(controller_->next_poll(instant(), motors), instant() + kWatchdogTime / 2);
+    const base::Instant due = std::min(controller_->next_poll(instant(), driver_.next_poll(instant())),
+                                       instant() + kWatchdogTime / 2);
     const Time at = std::max<Time>(now_, due.time_since_epoch());
     return options_.polling == Polling::at_need ? at : std::min(at, steadily);
 }
@@ -226,7 +220,7 @@ void World::poll_gateway() {
     controller_->poll(instant());
     follow_orders();
     line_.service(now_);
-    if (midi_) midi_->drive().service(now_);
+    if (drive_) drive_->service(now_);
     user_line_.service(now_);
     mactalk_line_.service(now_);
     next_poll_ = next_poll();
@@ -264,7 +258,7 @@ Snapshot World::take_snapshot() {
                       .link_up = motor::delivers(motor_->link()),
                       .running = controller_->sequence().run_state() == gateway::RunState::running,
                       .orders = std::exchange(orders_, {})};
-    if (midi_) midi_->fill(snapshot);
+    if (drive_) drive_->fill(snapshot);
     return snapshot;
 }
 

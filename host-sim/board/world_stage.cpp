@@ -16,7 +16,7 @@ void World::toggle_input(unsigned index) {
 }
 
 void World::cut_line(bool cut) {
-    if (midi_) return midi_->drive().cut(cut);
+    if (drive_) return drive_->cut(cut);
     if (cut) {
         line_.cut();
     } else {
@@ -25,13 +25,13 @@ void World::cut_line(bool cut) {
 }
 
 void World::spoil_line(const action::SpoilLine& faults) {
-    if (midi_) return midi_->spoil(faults);
+    if (drive_) return drive_->spoil(faults);
     if (faults.to_motor) spoil(line_.to_motor(), faults);
     if (faults.from_motor) spoil(line_.from_motor(), faults);
 }
 
 void World::power_motor(bool on) {
-    if (midi_) return midi_->drive().power(on);
+    if (drive_) return drive_->power(on);
     if (on && !motor_powered_) {
         mac_.surroundings().encoder_broken = false;
         mac_.power_cycle();
@@ -41,7 +41,7 @@ void World::power_motor(bool on) {
 }
 
 void World::stop_motor(const action::StopMotor& stop) {
-    if (midi_) return not_with_midi("a mechanical stop");
+    if (drive_) return drive_has_no("a mechanical stop");
     Load& load = mac_.plant().load();
     const std::int64_t shaft = mac_.plant().counts();
     const std::int64_t place = stop.above ? std::max(stop.counts, shaft) : std::min(stop.counts, shaft);
@@ -56,25 +56,25 @@ void World::free_motor() {
 }
 
 void World::connect_sensor(const action::MotorSensor& sensor) {
-    if (midi_) return not_with_midi("a home sensor");
+    if (drive_) return drive_has_no("a home sensor");
     mac_.terminals().connect({.counts = sensor.counts, .on_above = sensor.on_above});
 }
 
 void World::set_analogue(double volts) {
-    if (midi_) return not_with_midi("an analogue input");
+    if (drive_) return drive_has_no("an analogue input");
     mac_.terminals().set_analogue(static_cast<std::int32_t>(std::lround(1000 * volts)));
 }
 
 void World::set_pulses(const action::MotorPulses& pulses) {
-    if (midi_) return not_with_midi("a pulse input");
+    if (drive_) return drive_has_no("a pulse input");
     mac_.terminals().set_pulse_rate(pulses.per_second, pulses.with_direction
                                                            ? PulseFormat::pulse_and_direction
                                                            : PulseFormat::quadrature);
 }
 
 void World::set_supply(const action::MotorSupply& supply) {
-    if (midi_) {
-        midi_->drive().module().set_supply(static_cast<std::int32_t>(std::lround(1000 * supply.volts)));
+    if (drive_) {
+        if (!drive_->set_supply(supply.volts)) drive_has_no("a supply that can be set");
         return;
     }
     if (!supply.logic) {
@@ -86,32 +86,41 @@ void World::set_supply(const action::MotorSupply& supply) {
 
 void World::seed(std::uint64_t value) {
     line_.reseed(value);
-    if (midi_) midi_->drive().line().reseed(value);
+    if (drive_) drive_->reseed(value);
 }
 
 void World::load_motor(int torque) {
-    if (midi_) return midi_->load(torque);
+    if (drive_) {
+        if (!drive_->load(torque)) drive_has_no("a load");
+        return;
+    }
     mac_.plant().load().torque = torque;
 }
 
 void World::set_brake(int torque) {
-    if (midi_) return not_with_midi("a brake");
+    if (drive_) return drive_has_no("a brake");
     mac_.plant().load().brake_torque = torque;
 }
 
 void World::set_temperature(int celsius) {
-    if (midi_) return midi_->drive().module().set_temperature(1000 * celsius);
+    if (drive_) {
+        if (!drive_->set_temperature(celsius)) drive_has_no("a temperature");
+        return;
+    }
     mac_.surroundings().celsius = celsius;
 }
 
 void World::break_encoder() {
-    if (midi_) return midi_->drive().module().connect_encoder(false);
+    if (drive_) {
+        if (!drive_->break_encoder()) drive_has_no("an encoder that can break");
+        return;
+    }
     mac_.surroundings().encoder_broken = true;
 }
 
 /// The scenario goes on, and says so.
-void World::not_with_midi(const char* what) {
-    log(std::string("the virtual MIDI drive does not have ") + what);
+void World::drive_has_no(const char* what) {
+    log("the virtual " + std::string(options_.drive->model->family->name()) + " drive does not have " + what);
 }
 
 void World::gateway(action::Gateway what) {
@@ -128,6 +137,10 @@ void World::gateway(action::Gateway what) {
             start_gateway(gateway::StartCause::power_up);
             return;
     }
+}
+
+std::string World::motor_note() const {
+    return drive_ ? drive_->note(driver_) : std::string(mac_.note());
 }
 
 void World::log(const std::string& text) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 
@@ -81,6 +82,26 @@ void add_line_options(arguments::App& app, RunOptions& options) {
              [&options](const std::string& text) { return parse_delay(text, options.faults); });
 }
 
+/// "a, b or c"
+std::string listed(const auto& things) {
+    return fmt::format("{}{}{}", fmt::join(things.begin(), things.end() - 1, ", "),
+                       things.size() > 1 ? " or " : "", things.back());
+}
+
+/// "MAC50, MAC800, or of MIDI MAC23 or MAC34-1"
+std::string all_models() {
+    std::string text;
+    for (const registers::DriveFamily* family : registers::families()) {
+        std::vector<std::string_view> names;
+        for (const registers::DriveModel& model : family->models()) names.push_back(model.name);
+        if (text.empty())
+            text = fmt::format("{}", fmt::join(names, ", "));
+        else
+            text += fmt::format(", or of {} {}", family->name(), listed(names));
+    }
+    return text;
+}
+
 void add_run(arguments::App& parent, RunOptions& options) {
     arguments::App& app = *parent.add_subcommand(
         "run", "Run a sequence on the simulated gateway with a virtual motor; prints a timeline");
@@ -103,14 +124,19 @@ void add_run(arguments::App& parent, RunOptions& options) {
     add_read(
         app, "--motor", "MODEL",
         "the motor (the program's own; MAC140 for a table without names, and for a MIDI drive's program)",
-        "MAC50, MAC95, MAC140, MAC141, MAC800, or of MIDI MAC23, MAC34-1 or MAC34-2",
-        [&options](const std::string& text) {
-            options.motor = registers::model_of(text);
-            options.midi_motor = registers::midi::model_of(text);
-            return options.motor || options.midi_motor;
+        all_models(), [&options](const std::string& text) {
+            const registers::DriveModel* model = registers::find_drive(text);
+            if (model == nullptr) return false;
+            options.motor.reset();
+            options.drive = nullptr;
+            if (model->family->is_translated())
+                options.drive = model;
+            else
+                options.motor = model->map;
+            return true;
         });
     add_read(app, "--midi", "LINE", "line to a MIDI drive: v24 or can (v24)", "v24 or can",
-             into(options.midi_can, [](const std::string& text) -> std::optional<bool> {
+             into(options.can, [](const std::string& text) -> std::optional<bool> {
                  if (text != "v24" && text != "can") return std::nullopt;
                  return text == "can";
              }));
@@ -150,25 +176,28 @@ void add_scan(arguments::App& parent, ScanOptions& options) {
         kExitCodes));
 }
 
-void check_midi(const RunOptions& run) {
-    if (run.midi_can && !run.midi_motor)
+void check_drive(const RunOptions& run) {
+    if (run.can && run.drive == nullptr)
         throw InputError("nanoplc-sim: --midi without a MIDI drive; add --motor MAC23, MAC34-1 or MAC34-2");
-    if (!run.midi_motor) return;
-    const auto& facts = registers::midi::facts_of(*run.midi_motor);
-    if (run.midi_can.value_or(false)) {
-        if (!facts.has_can)
-            throw InputError(fmt::format("nanoplc-sim: a {} has no CAN; leave out --midi can", facts.name));
+    if (run.drive == nullptr) return;
+    const auto bauds = run.drive->family->bauds();
+    if (run.can.value_or(false)) {
+        if (!run.drive->has_can)
+            throw InputError(
+                fmt::format("nanoplc-sim: a {} has no CAN; leave out --midi can", run.drive->name));
         if (run.baud)
             throw InputError("nanoplc-sim: --baud is of a serial line; leave it out with --midi can");
-    } else if (run.baud && *run.baud != 9'600 && *run.baud != 19'200 && *run.baud != 38'400) {
-        throw InputError("nanoplc-sim: a MIDI drive's line has 9600, 19200 or 38400 baud");
+    } else if (run.baud && !bauds.empty() &&
+               std::find(bauds.begin(), bauds.end(), *run.baud) == bauds.end()) {
+        throw InputError(fmt::format("nanoplc-sim: a {} drive's line has {} baud", run.drive->family->name(),
+                                     listed(bauds)));
     }
     if (run.rapid || run.old_register_codes)
         throw InputError("nanoplc-sim: --rapid and --old-codes are of a JVL motor's line; leave them out");
 }
 
 void check_run(const RunOptions& run) {
-    check_midi(run);
+    check_drive(run);
     if (run.mactalk && !run.realtime)
         throw InputError("nanoplc-sim: --mactalk needs --realtime: outside programs live in real time");
     if (run.program.empty() && !run.flash && !run.mactalk)

@@ -204,10 +204,10 @@ std::unique_ptr<hal_linux::FileStorage> open_flash(const RunOptions& options) {
 /// A JVL motor stands in for the drive of a program unless one is asked for; the drive is slower to take
 /// orders, and waits.
 void tell_stand_in(const RunOptions& options, const Program& program) {
-    if (program.drive == nullptr || options.midi_motor || options.motor) return;
+    if (program.drive == nullptr || options.drive != nullptr || options.motor) return;
     const std::string_view drive = program.drive->name;
-    fmt::print(stderr, "{}: a {} stands in for the MIDI drive; --motor {} takes the drive\n", program.file,
-               registers::name_of(program.names.motor), drive);
+    fmt::print(stderr, "{}: a {} stands in for the {} drive; --motor {} takes the drive\n", program.file,
+               registers::name_of(program.names.motor), program.drive->family->name(), drive);
 }
 
 Program stored_program() {
@@ -242,11 +242,11 @@ int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted
                    program.file, registers::name_of(program.names.motor), registers::name_of(*options.motor));
     }
     if (options.motor) program.names.motor = *options.motor;
-    if (options.midi_motor && program.names.motor == registers::Model::mac800)
+    if (options.drive != nullptr && program.names.motor == registers::Model::mac800)
         throw InputError(
-            fmt::format("{}: is for a MAC800, whose registers a MIDI drive does not have; write it "
+            fmt::format("{}: is for a MAC800, whose registers a {} drive does not have; write it "
                         "for MAC140",
-                        program.file));
+                        program.file, options.drive->family->name()));
     const Scenario scenario = load_scenario(options, program.names);
     if (!program.remark.empty()) fmt::print(stderr, "{}\n", program.remark);
     tell_stand_in(options, program);

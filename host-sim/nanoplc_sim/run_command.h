@@ -4,8 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "registers/mac.h"
-#include "registers/midi.h"
+#include "registers/family.h"
 #include "sim/serial_line.h"
 #include "sim/text.h"
 
@@ -21,16 +20,17 @@ struct RunOptions {
     std::optional<std::string> mactalk;  ///< endpoint of the user's port
     std::optional<std::string> flash;    ///< file that keeps the gateway's flash
     std::optional<Time> length;
-    std::optional<registers::Model> motor;             ///< the program's own without it
-    std::optional<registers::midi::Model> midi_motor;  ///< in the place of the program's
-    std::optional<bool> midi_can;                      ///< else its serial line
+    std::optional<registers::Model> motor;  ///< the program's own without it
+    /// Of another family than JVL, in the place of the program's.
+    const registers::DriveModel* drive = nullptr;
+    std::optional<bool> can;  ///< to `drive`; else its serial line
     bool realtime = false;
     bool quiet = false;
     bool rapid = false;
     bool old_register_codes = false;
     bool keep_motor = false;
     Time debounce = std::chrono::milliseconds{3};
-    std::optional<std::uint32_t> baud;  ///< 19200 of a JVL motor, 38400 of a MIDI drive
+    std::optional<std::uint32_t> baud;  ///< 19200 of a JVL motor, else as the drive comes
     std::uint64_t seed = 1;
     LineFaults faults;
 

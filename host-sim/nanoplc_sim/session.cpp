@@ -17,11 +17,11 @@ WorldOptions world_options(const RunOptions& options, const Names& names, ports:
     world.motor = names.motor;
     world.storage = storage;
     world.baud = options.jvl_baud();
-    if (options.midi_motor) {
-        world.midi = {.model = *options.midi_motor,
-                      .can = options.midi_can.value_or(false),
-                      .rate = options.baud.value_or(0),
-                      .seed = options.seed};
+    if (options.drive != nullptr) {
+        world.drive = {.model = options.drive,
+                       .can = options.can.value_or(false),
+                       .rate = options.baud.value_or(0),
+                       .seed = options.seed};
     }
     world.seed = options.seed;
     world.faults = options.faults;
@@ -115,7 +115,7 @@ Session::Session(const RunOptions& options, const Program& program, const Scenar
 }
 
 std::string Session::doubts() const {
-    if (world_.midi() != nullptr) return {};
+    if (world_.drive() != nullptr) return {};
     struct Pair {
         store::Setting setting;
         std::uint32_t motor;
@@ -139,7 +139,7 @@ std::string Session::doubts() const {
 }
 
 std::string Session::motor_in_words() const {
-    if (world_.midi() != nullptr) return world_.midi()->in_words();
+    if (world_.drive() != nullptr) return world_.drive()->in_words();
     return fmt::format("{}, {} baud, {} communication", registers::name_of(program_.names.motor),
                        world_.setting(store::Setting::motor_baud),
                        world_.setting(store::Setting::safe_communication) == 0 ? "rapid" : "safe");
@@ -182,9 +182,9 @@ void Session::show() {
     if (runner_.ended()) ended_ = true;
 }
 
-/// A MIDI drive's are in other words than the sequence's.
+/// Those of a drive of another family are not the sequence's.
 void Session::follow_orders() {
-    if (world_.midi() != nullptr) return;
+    if (world_.drive() != nullptr) return;
     for (const SentOrder& order : last_.orders) auditor_.ordered(order);
     if (!world_.mac().orders().empty()) {
         for (const Order& order : world_.take_executed()) auditor_.executed(order);
@@ -197,8 +197,7 @@ void Session::note_changes() {
         reason_ = reason;
         timeline_.remark(std::string(in_words(reason)));
     }
-    const MidiSide* midi = world_.midi();
-    if (const std::string note(midi != nullptr ? midi->note() : world_.mac().note()); note != motor_note_) {
+    if (const std::string note = world_.motor_note(); note != motor_note_) {
         motor_note_ = note;
         if (!note.empty()) timeline_.alarm(fmt::format("motor: {}", note));
     }
@@ -263,12 +262,12 @@ void Session::summary() {
 }
 
 void Session::lines_in_words() {
-    const MidiSide* midi = world_.midi();
-    if (midi != nullptr && midi->is_can()) return;
-    const VirtualSerialLine& line = midi != nullptr ? midi->drive().line() : world_.line();
+    const VirtualSerialLine* found = world_.drive() != nullptr ? world_.drive()->line() : &world_.line();
+    if (found == nullptr) return;
+    const VirtualSerialLine& line = *found;
     fmt::print("{}\n", in_words("line to the motor", line.to_motor().counters()));
     fmt::print("{}\n", in_words("line from the motor", line.from_motor().counters()));
-    if (midi == nullptr) compare_orders();
+    if (world_.drive() == nullptr) compare_orders();
 }
 
 void Session::compare_orders() {

@@ -3,6 +3,7 @@
 
 #include "base/bytes.h"
 #include "base/crc32.h"
+#include "motor/jvl_driver.h"
 #include "port_bench.h"
 
 namespace nplc::gateway {
@@ -240,10 +241,10 @@ TEST(SettingsKeeper, WhatTheBoardDecidesGoesBeforeWhatWasStored) {
 
 TEST(SettingsKeeper, TheMotorsSilenceIsTheDrivers) {
     store::SettingValues values;
-    EXPECT_EQ(driver_settings_of(values).link.silence, base::Milliseconds(20));
+    EXPECT_EQ(motor::jvl::settings_of(driver_settings_of(values)).link.silence, base::Milliseconds(20));
     ASSERT_TRUE(values.set(store::Setting::motor_silence, 150).ok());
-    EXPECT_EQ(driver_settings_of(values).link.silence, base::Milliseconds(150));
-    EXPECT_EQ(driver_settings_of(values).link.proof_time, base::Milliseconds(150));
+    EXPECT_EQ(motor::jvl::settings_of(driver_settings_of(values)).link.silence, base::Milliseconds(150));
+    EXPECT_EQ(motor::jvl::settings_of(driver_settings_of(values)).link.proof_time, base::Milliseconds(150));
 }
 
 TEST_F(UserPortTest, SettingsAreWrittenWhileStoppedAndKept) {

@@ -114,8 +114,8 @@ struct Motors : testing::TestWithParam<int> {
     static sim::WorldOptions options(int which) {
         sim::WorldOptions options;
         if (which == 1) options.motor = registers::Model::mac800;
-        if (which == 2) options.midi = sim::MidiDriveOptions{};
-        if (which == 3) options.midi = sim::MidiDriveOptions{.can = true};
+        if (which == 2) options.drive = {.model = registers::find_drive("MAC34-1")};
+        if (which == 3) options.drive = {.model = registers::find_drive("MAC34-1"), .can = true};
         return options;
     }
 };

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "program.h"
+#include "sim/midi_virtual.h"
 #include "sim/scenario.h"
 #include "sim/scenario_runner.h"
 #include "sim/world.h"
@@ -35,7 +36,13 @@ struct Ran {
 double revolutions(const World& world, const Snapshot& snapshot,
                    const std::optional<MidiDriveOptions>& midi) {
     if (!midi) return snapshot.p_ist / 4'096.0;
-    return world.midi()->drive().module().position() / (midi->model == Model::mac23 ? 2'000.0 : 10'000.0);
+    return dynamic_cast<const MidiVirtual*>(world.drive())->drive().module().position() /
+           (midi->model == Model::mac23 ? 2'000.0 : 10'000.0);
+}
+
+VirtualDriveOptions as_drive(const MidiDriveOptions& midi) {
+    const registers::DriveFamily& family = *registers::find_drive("MAC23")->family;
+    return {.model = &family.models()[static_cast<std::size_t>(midi.model)], .can = midi.can};
 }
 
 Ran run_scenario(const std::string& name, const std::string& text,
@@ -44,7 +51,7 @@ Ran run_scenario(const std::string& name, const std::string& text,
     const ParsedScenario parsed = parse_scenario(text, name, program.names);
     EXPECT_TRUE(parsed.mistakes.empty());
     WorldOptions options;
-    options.midi = midi;
+    if (midi) options.drive = as_drive(*midi);
     World world(program.table, options);
     EXPECT_TRUE(world.load_result().ok);
     ScenarioRunner runner(parsed.scenario, program.names, world);
@@ -120,7 +127,7 @@ TEST(MidiGateway, AnotherMastersOriginInMidMoveIsAFault) {
     for (const bool can : {false, true}) {
         const Program program = load_program(kExamples + "/midi_pick_and_place.seq");
         WorldOptions options;
-        options.midi = MidiDriveOptions{.can = can};
+        options.drive = as_drive({.can = can});
         World world(program.table, options);
         const auto until = [&](const std::string& step, auto holds) {
             const Time end = world.now() + 3s;
@@ -131,7 +138,7 @@ TEST(MidiGateway, AnotherMastersOriginInMidMoveIsAFault) {
         };
         ASSERT_TRUE(until("Idle", [] { return true; }));
         world.set_input(0, true);
-        MidiModule& module = world.midi()->drive().module();
+        MidiModule& module = dynamic_cast<MidiVirtual*>(world.drive())->drive().module();
         ASSERT_TRUE(until("Travel", [&] { return module.position() > 40'000; }));
         world.set_input(0, false);
         ASSERT_TRUE(module.execute(registers::midi::ZERO_POSITION, 0, 0));
@@ -174,7 +181,7 @@ end at 4 s
 
 TEST(MidiGateway, ATableThatTheDriveCannotDoIsRefusedWithAReason) {
     WorldOptions options;
-    options.midi = MidiDriveOptions{};
+    options.drive = as_drive({});
     // Step 0: HOME (70h) at once; end.
     const std::vector<std::uint8_t> table{0xC0, 0x00, 0x00, 0x01, 0x70, 0x00, 0, 0,
                                           0x3F, 0,    0,    0,    0,    0,    0, 0};

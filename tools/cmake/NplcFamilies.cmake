@@ -1,9 +1,10 @@
 # The families of drives that a gateway can lead, each with its part in these folders, in files named after it:
 #
 #   firmware/registers       FAMILY_family.cpp     models, names, registers, why an order is refused
-#   firmware/motor           FAMILY_*.cpp          its driver; motor/FAMILY_driver.h names it
-#   firmware/boards/linux    FAMILY_*.cpp          its keys in the configuration, its wiring
-#   host-sim/board           FAMILY_*.cpp          its virtual drive
+#   firmware/motor           FAMILY_*.cpp          its driver; motor/FAMILY_driver.h makes it, on a serial line
+#                                                  motor/FAMILY_can_driver.h, if there is one, on CAN
+#   firmware/boards/linux    FAMILY_support.cpp    its keys in the configuration, its wiring
+#   host-sim/board           FAMILY_virtual.cpp    its virtual drive
 #
 # The first one is the drive of whoever names none.
 set(NPLC_FAMILIES jvl midi)
@@ -27,6 +28,11 @@ function(nplc_family_list folder)
     string(APPEND includes "#include \"motor/${family}_driver.h\"\n")
     string(APPEND names " X(${family})")
     list(APPEND drivers "nplc::motor::${family}::Driver")
+    set(on_can "motor/${family}_can_driver.h")
+    if(NPLC_HOSTED AND EXISTS "${CMAKE_SOURCE_DIR}/firmware/motor/include/${on_can}")
+      string(APPEND includes "#include \"${on_can}\"\n")
+      list(APPEND drivers "nplc::motor::${family}::CanDriver")
+    endif()
   endforeach()
   list(JOIN drivers ", " drivers)
   file(CONFIGURE OUTPUT "${folder}/registers/family_list.h" CONTENT "#pragma once\n#define NPLC_FAMILIES(X)@names@\n" @ONLY)

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "bare_metal/end.h"
-#include "gateway/chosen_motor.h"
 #include "gateway/controller.h"
 #include "hal_mcu/cortex_m/core.h"
+#include "motor/any_driver.h"
 
 namespace nplc::bare_metal {
 namespace {
@@ -70,7 +70,7 @@ union Later {
 
 Later<gateway::SettingsKeeper> settings_memory;
 Later<gateway::Controller> controller_memory;
-Later<gateway::ChosenMotor> motor_memory;
+Later<motor::AnyDriver> driver_memory;
 
 // Apart from the loop, these need no stack while it runs.
 
@@ -81,7 +81,8 @@ Later<gateway::ChosenMotor> motor_memory;
 }
 
 [[gnu::noinline]] gateway::Controller& start(const Parts& parts, gateway::SettingsKeeper& settings) {
-    motor::Motor& drive = motor_memory.make(parts.motor_line, settings.values()).motor();
+    motor::Motor& drive = driver_memory.make().start({.serial = &parts.motor_line},
+                                                     gateway::driver_settings_of(settings.values()));
     const gateway::Controller::Ports ports{
         .inputs = parts.inputs,
         .outputs = parts.outputs,

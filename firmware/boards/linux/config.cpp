@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <map>
 
+#include "drive_support.h"
 #include "host/endpoint.h"
-#include "registers/gateway.h"
 #include "section.h"
 
 namespace nplc::boards {
@@ -177,13 +177,15 @@ class Reader {
 
     void read_settings(Section& axis_section, AxisConfig& axis) {
         Section section(axis_section.table("settings"), axis_section.path() + ".settings", findings_);
-        set(axis, Setting::motor_kind, registers::gateway::motor_kind_of(axis.motor.midi));
-        set(axis, Setting::midi_address, axis.motor.midi_address);
+        set(axis, Setting::motor_kind, axis.motor.model->motor_kind);
+        set(axis, Setting::midi_address, axis.motor.drive_address);
         for (const store::SettingInfo& info : store::all_settings()) {
             if (std::find(kOfTheMotor.begin(), kOfTheMotor.end(), info.id) != kOfTheMotor.end()) continue;
             const std::string key(info.name);
-            if (axis.motor.midi && is_for_jvl_only(info.id) && section.any(key) != nullptr) {
-                section.complain(key, "is for a JVL motor, and this one is a MIDI drive; leave it out");
+            if (!support_of(axis.motor).has_setting(info.id) && section.any(key) != nullptr) {
+                section.complain(key,
+                                 fmt::format("is for a JVL motor, and this one is a {} drive; leave it out",
+                                             axis.motor.model->family->name()));
                 continue;
             }
             if (info.highest == 1) {

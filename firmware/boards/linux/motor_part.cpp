@@ -2,86 +2,63 @@
 
 #include <fmt/format.h>
 
+#include "drive_support.h"
 #include "gateway/settings_keeper.h"
 
 namespace nplc::boards {
-namespace {
 
-/// Those that do not come and go with every braking (000 §VI 21h).
-constexpr std::uint32_t kWarnings = registers::midi::kUnderVoltage | registers::midi::kOverVoltageKept;
-
-}  // namespace
-
-void MotorPart::open(const std::string& who, const MotorConfig& config, std::uint32_t jvl_baud) {
+void MotorPart::open(const std::string& who, const MotorConfig& config, std::uint32_t set_baud) {
     config_ = config;
     if (config.is_on_can()) {
         if (!can_) can_.emplace().open(who, {.interface = config.can.text, .bitrate = config.bitrate});
         return;
     }
-    const std::uint32_t baud = config.midi ? config.v24_baud : jvl_baud;
+    const std::uint32_t baud = config.baud.value_or(set_baud);
     static_cast<void>(
         uart_.emplace().open(who, {.path = config.port.text, .baud = baud, .rs485 = config.rs485}));
 }
 
 motor::Motor& MotorPart::start(const store::SettingValues& values) {
-    driver_ = config_.midi ? &start_midi(*config_.midi) : &start_jvl(values);
-    return *driver_;
-}
-
-motor::Motor& MotorPart::start_jvl(const store::SettingValues& values) {
-    jvl_.reset();
-    return jvl_.emplace(line_.emplace(uart_->uart()), gateway::driver_settings_of(values));
-}
-
-motor::Motor& MotorPart::start_midi(registers::midi::Model model) {
-    midi_.reset();
-    told_fault_ = motor::MidiFault::none;
-    told_warnings_ = 0;
-    motor::MidiLink* link = nullptr;
+    motor::DriverSettings settings = gateway::driver_settings_of(values);
+    settings.baud = config_.baud.value_or(settings.baud);
+    motor::DriverPorts ports;
     if (can_)
-        link = &on_can_.emplace(can_->can(), motor::MidiCanLink::Settings{.address = config_.midi_address});
+        ports.can = &can_->can();
+    else if (support_of(config_).streams_status())
+        ports.serial = &line_.emplace(uart_->uart());
     else
-        link = &v24_.emplace(uart_->uart(), motor::MidiV24Link::Settings{.address = config_.midi_address,
-                                                                         .baud = config_.v24_baud});
-    return midi_.emplace(*link, motor::MidiMotor::Settings{.model = model});
+        ports.serial = &uart_->uart();
+    told_fault_ = 0;
+    told_warnings_ = 0;
+    motor_ = &driver_.start(ports, settings);
+    return *motor_;
 }
 
 std::string MotorPart::silence_in_words() const {
     const std::string line = config_.line_in_words();
-    if (midi_ && midi_->fault() == motor::MidiFault::several) return loss_in_words();
-    if (midi_ && midi_->probe().kind == motor::MidiOutcome::Kind::refused)
-        return fmt::format(
-            "something answers to {} and refuses to tell its status, which no MIDI drive does; is it another "
-            "kind of device?",
-            line);
-    if (midi_ && midi_->probe().damaged)
-        return fmt::format(
-            "what comes from {} cannot be read; is the speed right, is there noise, or do two drives have "
-            "this address?",
-            line);
+    const std::string why = support_of(config_).silence_in_words(driver_, line);
+    if (!why.empty()) return why;
     return fmt::format("no motor has answered yet on {}; look at its supply, its line, and at [axis.motor]",
                        line);
 }
 
 std::string MotorPart::loss_in_words() const {
-    using motor::MidiFault;
-    const bool told = midi_ && midi_->fault() != MidiFault::none && midi_->fault() != MidiFault::link_lost;
-    return fmt::format("{} on {}", told ? "no link to the motor" : "the motor does not answer",
+    const bool has_cause = support_of(config_).fault_in_words(driver_).has_value();
+    return fmt::format("{} on {}", has_cause ? "no link to the motor" : "the motor does not answer",
                        config_.line_in_words());
 }
 
 std::vector<Said> MotorPart::news() {
+    const DriveSupport& support = support_of(config_);
     std::vector<Said> news;
-    if (!midi_) return news;
-    if (const motor::MidiFault fault = midi_->fault(); fault != told_fault_) {
+    if (const std::uint8_t fault = support.fault(driver_); fault != told_fault_) {
         told_fault_ = fault;
-        if (auto said = in_words(*midi_)) news.push_back(std::move(*said));
+        if (auto said = support.fault_in_words(driver_)) news.push_back(std::move(*said));
     }
-    const std::uint32_t warnings = midi_->drive_status() & kWarnings;
-    for (const registers::midi::Bit& bit : registers::midi::status_bits()) {
-        if ((bit.mask & warnings & ~told_warnings_) != 0)
-            news.push_back({LogLevel::warning, fmt::format("the drive warns: {}", bit.text)});
-    }
+    const std::uint32_t warnings = support.warnings(driver_);
+    for (std::uint32_t left = warnings & ~told_warnings_; left != 0; left &= left - 1)
+        news.push_back({LogLevel::warning,
+                        fmt::format("the drive warns: {}", support.warning_in_words(left & (~left + 1)))});
     told_warnings_ = warnings;
     return news;
 }
@@ -105,8 +82,8 @@ void MotorPart::open_line(base::Instant now) {
 }
 
 bool MotorPart::may_rest() const {
-    return jvl_ && motor::delivers(driver_->link()) && driver_->settled() &&
-           !motor::is_open(driver_->access_state()) && !uart_->gone();
+    return line_ && motor::delivers(motor_->link()) && motor_->settled() &&
+           !motor::is_open(motor_->access_state()) && !uart_->gone();
 }
 
 }  // namespace nplc::boards

@@ -10,8 +10,8 @@
 #include <fstream>
 #include <optional>
 
-#include "gateway/chosen_motor.h"
 #include "gateway/controller.h"
+#include "motor/any_driver.h"
 #include "no_ports.h"
 #include "table_file.h"
 
@@ -62,8 +62,9 @@ class Rehearsal {
     Rehearsal(const AxisConfig& config, StoreCopy& store) : config_(config), settings_(store, kSettingsArea) {
         settings_.start(config.settings);
         impose_motor(settings_, config);
-        motor_.emplace(line_, settings_.values());
-        controller_.emplace(gateway::Controller::Ports{inputs_, outputs_, watchdog_, motor_->motor(), store},
+        motor::Motor& motor =
+            driver_.start({.serial = &line_}, gateway::driver_settings_of(settings_.values()));
+        controller_.emplace(gateway::Controller::Ports{inputs_, outputs_, watchdog_, motor, store},
                             kTableArea, memory_, settings_, gateway::StartCause::service);
     }
 
@@ -96,7 +97,7 @@ class Rehearsal {
     NoWatchdog watchdog_;
     std::array<std::uint8_t, (sequencer::kMaxTerms + 1) * sequencer::kTermBytes> memory_{};
     gateway::SettingsKeeper settings_;
-    std::optional<gateway::ChosenMotor> motor_;
+    motor::AnyDriver driver_;
     std::optional<gateway::Controller> controller_;
 };
 

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
-#include "midi_wiring.h"
+#include "drive_support.h"
 
 namespace nplc::boards {
 namespace {
@@ -54,18 +55,6 @@ std::string table_of(const std::vector<Row>& rows) {
     return text;
 }
 
-std::vector<Row> jvl_rows(const AxisConfig& axis) {
-    const MotorConfig& motor = axis.motor;
-    const std::uint32_t baud = axis.settings.get(store::Setting::motor_baud);
-    std::vector<Row> rows{{"motor", motor.port.text,
-                           fmt::format("RS422, {} baud, 8N1{}", baud, motor.rs485 ? ", RS-485 mode" : ""),
-                           "to the motor's FastMAC port"}};
-    if (motor.mactalk_port.is_there())
-        rows.push_back(
-            {"motor MacTalk", motor.mactalk_port.text, "19200 baud, 8N1", "to the motor's MacTalk port"});
-    return rows;
-}
-
 std::string of_axis(const AxisConfig& axis) {
     using store::Setting;
     std::vector<Row> rows{{"signal", "this board", "level", "MAC00-R1/R3/R4"}};
@@ -73,7 +62,8 @@ std::string of_axis(const AxisConfig& axis) {
     const std::uint32_t safe = axis.settings.get(Setting::safe_outputs);
     for (std::size_t i = 0; i < axis.outputs.size(); ++i)
         rows.push_back(output_row(i, axis.outputs[i], (safe >> i & 1U) != 0));
-    const std::vector<Row> motor = axis.motor.midi ? midi_rows(axis.motor) : jvl_rows(axis);
+    const std::vector<Row> motor =
+        support_of(axis.motor).wiring(axis.motor, axis.settings.get(Setting::motor_baud));
     rows.insert(rows.end(), motor.begin(), motor.end());
     const bool is_serial = axis.user_port.is_there() && !is_endpoint(axis.user_port.text);
     rows.push_back({"user", axis.user_port.is_there() ? axis.user_port.text : "none",
@@ -84,25 +74,19 @@ std::string of_axis(const AxisConfig& axis) {
         text += fmt::format("\n  IN{} is the enable input: without it nothing runs.\n", enable);
     if (const std::uint32_t lamp = axis.settings.get(Setting::status_output); lamp != store::kNone)
         text += fmt::format("\n  OUT{} shows the gateway's state and is not the sequence's.\n", lamp);
-    return axis.motor.midi ? text + midi_notes(axis.motor) : text;
+    return text + support_of(axis.motor).notes(axis.motor);
 }
 
 }  // namespace
 
 std::string wiring(const Config& config) {
     std::string text;
-    bool has_jvl = false;
+    std::set<std::string> closing;
     for (const AxisConfig& axis : config.axes) {
         text += of_axis(axis) + "\n";
-        has_jvl = has_jvl || !axis.motor.midi;
+        closing.insert(support_of(axis.motor).closing_note());
     }
-    if (has_jvl)
-        text +=
-            "The JVL motor's manual (section 6.1) gives the module six logic inputs, four outputs, a FastMAC "
-            "line and a\n"
-            "MacTalk line, but no connector pins: go by the labels on the dead module or by its own data "
-            "sheet, and\n"
-            "measure before you connect. The motor's RS422 pair needs a converter.\n";
+    for (const std::string& note : closing) text += note;
     return text +
            "A GPIO line of a board carries 3.3 V and a few mA: field signals (24 V) need opto-couplers, "
            "outputs a driver.\n"

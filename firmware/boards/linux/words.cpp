@@ -110,22 +110,4 @@ Said in_words(const gateway::EventLog::Entry& entry) {
     return {LogLevel::warning, fmt::format("event {}", entry.event)};
 }
 
-std::optional<Said> in_words(const motor::MidiMotor& motor) {
-    using motor::MidiFault;
-    const MidiFault fault = motor.fault();
-    if (fault == MidiFault::none || fault == MidiFault::link_lost) return std::nullopt;
-    std::string text = fmt::format("ERROR: {}", motor::text_of(fault));
-    if (fault == MidiFault::bad_value) text += fmt::format(": {}", registers::midi::text_of(motor.lack()));
-    const std::uint32_t shown =
-        fault == MidiFault::tripped ? registers::midi::kTrips : ~registers::midi::kTrips;
-    if (fault != MidiFault::tripped && fault != MidiFault::end_stop) return Said{LogLevel::error, text};
-    std::string bits;
-    for (const registers::midi::Bit& bit : registers::midi::status_bits()) {
-        if ((bit.mask & motor.drive_status() & shown) == 0) continue;
-        bits += (bits.empty() ? "" : ", ") + std::string(bit.text);
-    }
-    if (!bits.empty()) text += fmt::format(" ({})", bits);
-    return Said{LogLevel::error, text};
-}
-
 }  // namespace nplc::boards

@@ -2,7 +2,7 @@
 
 #include "gateway/gateway.h"
 #include "gateway/outcome.h"
-#include "motor/jvl_motor.h"
+#include "motor/driver.h"
 #include "store/settings_store.h"
 
 namespace nplc::gateway {
@@ -10,8 +10,8 @@ namespace nplc::gateway {
 /// A gateway's settings among those that are stored, and back.
 Settings settings_of(const store::SettingValues& values);
 store::SettingValues values_of(const Settings& settings);
-/// The settings of the line to a JVL motor, which take hold at a reset.
-motor::JvlMotor::Settings driver_settings_of(const store::SettingValues& values);
+/// Those of the drive and the line to it, which take hold at a reset.
+motor::DriverSettings driver_settings_of(const store::SettingValues& values);
 
 /// The settings in force and the stored ones.
 class SettingsKeeper {

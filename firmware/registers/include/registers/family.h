@@ -22,6 +22,7 @@ struct DriveModel {
     std::string_view name;          ///< "MAC34-1", for what depends on the very model
     std::string_view program_name;  ///< "MAC34", after MOTOR in a program and in messages
     std::string_view program_alias{};  ///< "MAC34_1": MOTOR takes this too
+    bool has_can = false;              ///< beside its serial line
 };
 
 /// What a drive makes of a register's value: "torque 128 of 255".
@@ -40,6 +41,9 @@ class DriveFamily {
     /// "MIDI"
     virtual std::string_view name() const = 0;
     virtual std::span<const DriveModel> models() const = 0;
+
+    /// What its serial line can do; empty: every standard rate.
+    virtual std::span<const std::uint32_t> bauds() const { return {}; }
 
     /// The driver translates: the drive itself has no such registers, and the gateway forgets those that it
     /// keeps for it when it is switched off.

@@ -12,14 +12,13 @@
 #include <vector>
 
 #include "gateway/controller.h"
-#include "motor/jvl_motor.h"
 #include "sim/mac_motor.h"
-#include "sim/midi_side.h"
 #include "sim/scenario_runner.h"
 #include "sim/serial_line.h"
 #include "sim/sim_board.h"
 #include "sim/sim_storage.h"
 #include "sim/snapshot.h"
+#include "sim/virtual_drive.h"
 
 namespace nplc::sim {
 
@@ -32,8 +31,8 @@ enum class Polling : std::uint8_t {
 
 struct WorldOptions {
     registers::Model motor = registers::Model::mac140;
-    /// A MIDI drive in the motor's place; the motor stays without supply.
-    std::optional<MidiDriveOptions> midi{};
+    /// A drive of another family in the motor's place; the motor stays without supply.
+    std::optional<VirtualDriveOptions> drive{};
     std::uint32_t baud = 19'200;  ///< the motor's; a standard rate. The gateway's too where nothing is stored
     std::uint64_t seed = 1;
     LineFaults faults;  ///< both directions
@@ -88,8 +87,11 @@ class World final : public Stage, private gateway::Observer {
     const gateway::Gateway::LoadResult& load_result() const { return load_result_; }
     const motor::Motor& driver() const { return *motor_; }
     const MacMotor& mac() const { return mac_; }
-    const MidiSide* midi() const { return midi_ ? &*midi_ : nullptr; }
-    MidiSide* midi() { return midi_ ? &*midi_ : nullptr; }
+    /// Null: the JVL motor is led.
+    const VirtualDrive* drive() const { return drive_.get(); }
+    VirtualDrive* drive() { return drive_.get(); }
+    /// What the motor, or the driver, says of its error; empty without one.
+    std::string motor_note() const;
     /// Of a table that load_result() says is not for this motor; empty if nothing more is known.
     std::string_view why_not() const;
     const VirtualSerialLine& line() const { return line_; }
@@ -143,7 +145,7 @@ class World final : public Stage, private gateway::Observer {
     Time next_of_motor() const;
     base::Instant instant() const;
     void start_driver();
-    void not_with_midi(const char* what);
+    void drive_has_no(const char* what);
     void start_gateway(gateway::StartCause cause);
     void start_table(bool first);
     void move_characters();
@@ -161,8 +163,8 @@ class World final : public Stage, private gateway::Observer {
     VirtualSerialLine line_;
     SimBoard board_{kWatchdogTime};
     MacMotor mac_;
-    std::optional<MidiSide> midi_;
-    std::optional<motor::JvlMotor> driver_;
+    std::unique_ptr<VirtualDrive> drive_;
+    motor::AnyDriver driver_;
     motor::Motor* motor_ = nullptr;
     std::array<std::uint8_t, (sequencer::kMaxTerms + 1) * sequencer::kTermBytes> table_memory_{};
     std::optional<gateway::SettingsKeeper> settings_;

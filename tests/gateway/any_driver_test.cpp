@@ -1,4 +1,4 @@
-#include "gateway/chosen_motor.h"
+#include "motor/any_driver.h"
 
 #include <gtest/gtest.h>
 
@@ -23,38 +23,48 @@ store::SettingValues with(std::vector<std::pair<Setting, std::uint32_t>> setting
     return values;
 }
 
-TEST(ChosenMotor, IsAJvlMotorAtFirst) {
+struct Chosen {
+    Chosen(ports::SerialPort& line, const store::SettingValues& values)
+        : motor_(place_.start({.serial = &line}, driver_settings_of(values))) {}
+    motor::Motor& motor() { return motor_; }
+
+  private:
+    motor::AnyDriver place_;
+    motor::Motor& motor_;
+};
+
+TEST(AnyDriver, IsAJvlMotorAtFirst) {
     InstantLine line;
-    ChosenMotor chosen(line, store::SettingValues());
+    Chosen chosen(line, store::SettingValues());
     EXPECT_TRUE(chosen.motor().can_execute(kHoming));
     EXPECT_FALSE(chosen.motor().longwords_only());
-    ChosenMotor large(line, with({{Setting::motor_is_mac800, 1}}));
+    Chosen large(line, with({{Setting::motor_is_mac800, 1}}));
     EXPECT_TRUE(large.motor().longwords_only());
 }
 
-TEST(ChosenMotor, IsAMidiDriveIfTheSettingSaysSo) {
+TEST(AnyDriver, IsAMidiDriveIfTheSettingSaysSo) {
     for (const std::uint32_t kind : {1U, 2U, 3U}) {
         InstantLine line;
-        ChosenMotor chosen(line, with({{Setting::motor_kind, kind}}));
+        Chosen chosen(line, with({{Setting::motor_kind, kind}}));
         EXPECT_FALSE(chosen.motor().can_execute(kHoming)) << kind;
         EXPECT_TRUE(chosen.motor().can_execute(kPositionP1)) << kind;
     }
 }
 
 /// INPOSWIN 200 is 488 increments of a MAC34 and 97 of a MAC23 (10000 and 2000 a revolution of 4096 counts).
-TEST(ChosenMotor, IsTheModelThatTheSettingNames) {
+TEST(AnyDriver, IsTheModelThatTheSettingNames) {
     constexpr Order kWindow{.is_register_write = true, .reg = 33, .value = 200};
     InstantLine line;
-    ChosenMotor small(line, with({{Setting::motor_kind, 1}}));
-    ChosenMotor large(line, with({{Setting::motor_kind, 2}}));
+    Chosen small(line, with({{Setting::motor_kind, 1}}));
+    Chosen large(line, with({{Setting::motor_kind, 2}}));
     EXPECT_TRUE(small.motor().can_execute(kWindow));
     EXPECT_FALSE(large.motor().can_execute(kWindow));
 }
 
 /// 000 §II: GET_STATUS is 21h; 30h + 35h + 32h + 31h and ten times 30h are 2A8h.
-TEST(ChosenMotor, AsksTheDriveOfTheAddressThatIsSet) {
+TEST(AnyDriver, AsksTheDriveOfTheAddressThatIsSet) {
     InstantLine line;
-    ChosenMotor chosen(
+    Chosen chosen(
         line, with({{Setting::motor_kind, 2}, {Setting::midi_address, 5}, {Setting::motor_baud, 38'400}}));
     chosen.motor().poll(base::Instant{});
     EXPECT_EQ(std::string(line.sent.begin(), line.sent.end()),

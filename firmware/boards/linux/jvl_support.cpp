@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+
+#include <array>
+
+#include "drive_support.h"
+
+namespace nplc::boards {
+
+const DriveSupport& jvl_support();
+
+namespace {
+
+using store::Setting;
+
+class JvlSupport final : public DriveSupport {
+  public:
+    std::span<const char* const> keys() const override {
+        static constexpr std::array kKeys{"mactalk_port", "rs485", "rs485_before_ms", "rs485_after_ms"};
+        return kKeys;
+    }
+    void read(MotorConfig& motor, Section& section, int axis_line) const override;
+    bool streams_status() const override { return true; }
+    std::vector<WiringRow> wiring(const MotorConfig& motor, std::uint32_t baud) const override;
+    std::string closing_note() const override;
+};
+
+void JvlSupport::read(MotorConfig& motor, Section& section, int axis_line) const {
+    motor.port = placed(section, "port");
+    if (!motor.port.is_there())
+        section.complain(section.is_there() ? section.line() : axis_line, "port",
+                         "is missing; name the serial port at the motor's FastMAC line, such as "
+                         "\"/dev/serial/by-id/...\"");
+    motor.mactalk_port = placed(section, "mactalk_port");
+    check_port(section, motor.port, false);
+    check_port(section, motor.mactalk_port, false);
+    const auto mode = section.choice("rs485", {"off", "rts_on_send", "rts_after_send"});
+    const auto before = section.number("rs485_before_ms", 0, 1000);
+    const auto after = section.number("rs485_after_ms", 0, 1000);
+    if (mode.value_or(0) != 0) {
+        motor.rs485 = {.rts_on_send = mode == 1U,
+                       .before_ms = static_cast<std::uint32_t>(before.value_or(0)),
+                       .after_ms = static_cast<std::uint32_t>(after.value_or(0))};
+    } else if (before || after) {
+        section.complain(before ? "rs485_before_ms" : "rs485_after_ms",
+                         "has no meaning while rs485 is \"off\"; write \"rts_on_send\" or leave it out");
+    }
+}
+
+std::vector<WiringRow> JvlSupport::wiring(const MotorConfig& motor, std::uint32_t baud) const {
+    std::vector<WiringRow> rows{
+        {"motor", motor.port.text,
+         fmt::format("RS422, {} baud, 8N1{}", baud, motor.rs485 ? ", RS-485 mode" : ""),
+         "to the motor's FastMAC port"}};
+    if (motor.mactalk_port.is_there())
+        rows.push_back(
+            {"motor MacTalk", motor.mactalk_port.text, "19200 baud, 8N1", "to the motor's MacTalk port"});
+    return rows;
+}
+
+std::string JvlSupport::closing_note() const {
+    return "The JVL motor's manual (section 6.1) gives the module six logic inputs, four outputs, a FastMAC "
+           "line and a\n"
+           "MacTalk line, but no connector pins: go by the labels on the dead module or by its own data "
+           "sheet, and\n"
+           "measure before you connect. The motor's RS422 pair needs a converter.\n";
+}
+
+}  // namespace
+
+const DriveSupport& jvl_support() {
+    static constexpr JvlSupport kSupport;
+    return kSupport;
+}
+
+}  // namespace nplc::boards
