@@ -22,20 +22,28 @@ class Phases:
         print(f"vm: {words} (after {time.monotonic() - self.start:.0f} s)", flush=True)
 
 
-def build(share, preset, programs, *sysroot, targets=()):
-    """The programs, by their names in the share; `targets` instead of the preset's. Raises CannotBeHad without the
-    libraries for them."""
+def compile_for_board(preset, *sysroot, targets=()):
+    """`targets` instead of the preset's. Raises CannotBeHad without the libraries for them."""
     if subprocess.run([os.path.join(ROOT, "tools", "sysroot"), *sysroot, "arm64"], check=False).returncode != 0:
         raise board.CannotBeHad
-    compiling = ["cmake", "--build", "--preset", preset, "--parallel", "2"]
+    compiling = ["cmake", "--build", "--preset", preset, "--parallel", str(os.cpu_count())]
     if targets:
         compiling += ["--target", *targets]
     for step in (["cmake", "--preset", preset], compiling):
         done = subprocess.run(step, cwd=ROOT, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             sys.exit(f"{done.stdout}{done.stderr}\nvm: {' '.join(step)} failed")
+
+
+def build(share, preset, programs, *sysroot, targets=()):
+    """The programs, by their names in the share; they are compiled unless build_programs.py has just done it."""
+    if not board.IS_BUILT:
+        compile_for_board(preset, *sysroot, targets=targets)
     for name, program in programs.items():
-        shutil.copy(os.path.join(ROOT, "build", preset, "bin", program), os.path.join(share, name))
+        path = os.path.join(ROOT, "build", preset, "bin", program)
+        if not os.path.exists(path):
+            raise board.CannotBeHad
+        shutil.copy(path, os.path.join(share, name))
 
 
 def in_share(run, *arguments):
