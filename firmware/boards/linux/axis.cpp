@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "host/endpoint.h"
-#include "words.h"
+#include "log_messages.h"
 
 namespace nplc::boards {
 namespace {
@@ -20,7 +20,7 @@ constexpr std::uint32_t kUserServer = 1;
 constexpr std::uint32_t kFirstLine = 2;
 
 /// Between two reads of the motor's status while nothing is under way.
-constexpr base::Milliseconds kRest{5};
+constexpr base::Milliseconds kUnwatched{5};
 /// Until the store is done, for a reset.
 constexpr base::Milliseconds kBetweenLooks{1};
 
@@ -56,7 +56,7 @@ void Axis::watch_all() {
 
 /// The motor's own MacTalk port is not among them: it is read when a person's message waits for its answer.
 void Axis::watch_ports() {
-    rests_until_ = base::kNever;
+    unwatched_until_ = base::kNever;
     motor_.watch(*loop_, mark_);
     if (user_uart_) loop_->watch(user_uart_->uart().descriptor(), mark_);
 }
@@ -79,7 +79,7 @@ void Axis::look_at_inputs() {
 
 /// While the motor's line was read a moment ago, as it is when nothing is under way.
 bool Axis::is_edge_alone(base::Instant now) const {
-    return edges_ != 0 && !line_readable_ && motor_.was_read_since(now - kRest);
+    return edges_ != 0 && !line_readable_ && motor_.was_read_since(now - kUnwatched);
 }
 
 void Axis::look_at_user(base::Instant now) {
@@ -106,7 +106,7 @@ void Axis::serve(base::Instant now) {
     if (mactalk_port_) mactalk_port_->look(journal_, now);
     if (user_uart_) is_back = user_uart_->look(journal_, now) || is_back;
     if (is_back) watch_ports();
-    rest_or_watch(now);
+    watch_or_wait(now);
     watch_pins(now);
     tell_news(now);
     if (controller_->reset_asked() && !stores()) reset(now);
@@ -121,10 +121,10 @@ void Axis::reset(base::Instant now) {
 
 /// A JVL motor repeats its status without pause, 1920 bytes a second. While nothing is under way it is read
 /// every few milliseconds instead of at every byte: an edge or a message wakes the program all the same.
-void Axis::rest_or_watch(base::Instant now) {
-    const bool rested = rests_until_ != base::kNever;
-    const bool is_quiet = motor_.may_rest();
-    rests_until_ = is_quiet ? now + kRest : base::kNever;
+void Axis::watch_or_wait(base::Instant now) {
+    const bool rested = unwatched_until_ != base::kNever;
+    const bool is_quiet = motor_.needs_no_watch();
+    unwatched_until_ = is_quiet ? now + kUnwatched : base::kNever;
     if (is_quiet && !rested) motor_.ignore(*loop_);
     if (!is_quiet && rested) watch_ports();
 }
@@ -148,7 +148,7 @@ void Axis::watch_pins(base::Instant now) {
 base::Instant Axis::next(base::Instant now) {
     if (controller_->reset_asked()) return now + kBetweenLooks;
     base::Instant next = controller_->next_poll(now, motor_.next_poll(now));
-    next = std::min({next, rests_until_, tell_silence_at_, try_at_, motor_.next_look()});
+    next = std::min({next, unwatched_until_, tell_silence_at_, try_at_, motor_.next_look()});
     if (mactalk_port_) next = std::min(next, mactalk_port_->next_look());
     if (user_uart_) next = std::min({next, user_uart_->next_look(), user_line_->next_look()});
     if (user_server_) next = std::min(next, user_server_->next_turn(now));
@@ -174,10 +174,10 @@ void Axis::tell_news(base::Instant now) {
     if (log.count() - told_events_ > gateway::EventLog::kSlots)
         told_events_ = log.count() - static_cast<std::uint32_t>(gateway::EventLog::kSlots);
     for (; told_events_ != log.count(); ++told_events_) {
-        const Said said = in_words(log.slot(told_events_ % gateway::EventLog::kSlots));
+        const LogMessage said = in_words(log.slot(told_events_ % gateway::EventLog::kSlots));
         tell(said.level, said.text);
     }
-    for (const Said& said : motor_.news()) tell(said.level, said.text);
+    for (const LogMessage& said : motor_.news()) tell(said.level, said.text);
     const motor::Link link = motor_.driver().link();
     if (motor::delivers(link)) tell_silence_at_ = base::kNever;
     if (now >= tell_silence_at_) {

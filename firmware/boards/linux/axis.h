@@ -14,11 +14,10 @@
 #include "hal_linux/gpio.h"
 #include "hal_linux/run_marker.h"
 #include "journal.h"
-#include "kept_uart.h"
+#include "lines.h"
 #include "motor_part.h"
 #include "no_ports.h"
 #include "stored.h"
-#include "timely_port.h"
 #include "user_server.h"
 
 namespace nplc::boards {
@@ -106,7 +105,7 @@ class Axis {
     bool is_edge_alone(base::Instant now) const;
     void look_at_user(base::Instant now);
     void poll_controller(base::Instant now);
-    void rest_or_watch(base::Instant now);
+    void watch_or_wait(base::Instant now);
     bool stores() { return storage().state() == ports::StorageState::busy; }
     void reset(base::Instant now);
     void note_lost_pins();
@@ -137,8 +136,8 @@ class Axis {
     std::optional<hal_linux::GpioInputs> inputs_;
     std::optional<hal_linux::GpioOutputs> outputs_;
     MotorPart motor_;
-    std::optional<KeptUart> mactalk_port_;
-    std::optional<KeptUart> user_uart_;
+    std::optional<ReopenedUart> mactalk_port_;
+    std::optional<ReopenedUart> user_uart_;
     std::optional<TimelyPort> user_line_;  ///< on user_uart_
     std::optional<UserServer> user_server_;
 
@@ -152,7 +151,7 @@ class Axis {
     bool line_readable_ = false;
     std::uint32_t edges_ = 0;  ///< descriptors of inputs at which some wait, bit 0 is the first
     /// The motor's line is looked at then; it does not wake us.
-    base::Instant rests_until_ = base::kNever;
+    base::Instant unwatched_until_ = base::kNever;
     base::Instant tell_silence_at_ = base::kNever;
     std::uint32_t told_events_ = 0;
     motor::Link told_link_ = motor::Link::down;

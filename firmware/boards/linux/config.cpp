@@ -64,7 +64,7 @@ class Reader {
             config.real_time.priority = static_cast<int>(*priority);
         if (const auto lock = service.flag("lock_memory")) config.real_time.lock_memory = *lock;
         read_processors(service);
-        config.watchdog_device = placed(service, "watchdog_device");
+        config.watchdog_device = located_text(service, "watchdog_device");
         if (const auto seconds = service.number("watchdog_seconds", 1, 600))
             config.watchdog_seconds = static_cast<int>(*seconds);
         if (const auto waits = service.choice("after_power_cut", {"start", "wait"}))
@@ -112,10 +112,10 @@ class Reader {
             section.complain("name", "is missing; its store, its log lines and its messages go by it");
         else if (has_name && !is_name(axis.name))
             section.complain("name", "may have small letters, digits, - and _, 32 at the most");
-        axis.table = placed(section, "table");
+        axis.table = located_text(section, "table");
         axis.motor = read_motor(section, axis.line, findings_);
         Section user(section.table("user"), path + ".user", findings_);
-        axis.user_port = placed(user, "port");
+        axis.user_port = located_text(user, "port");
         check_port(user, axis.user_port, true);
         read_socket(user, axis);
         user.finish();
@@ -127,7 +127,7 @@ class Reader {
     }
 
     void read_socket(Section& user, AxisConfig& axis) {
-        axis.socket_group = placed(user, "socket_group");
+        axis.socket_group = located_text(user, "socket_group");
         const auto mode = user.text("socket_mode");
         if (mode && !is_mode(*mode))
             user.complain("socket_mode", "is no mode; write four octal digits such as \"0660\"");
@@ -213,8 +213,8 @@ class Reader {
 
     /// What may stand once only, over all axes.
     void find_doubles() {
-        std::map<std::string, Placed> seen;
-        const auto take = [&](const std::string& what, const Placed& place) {
+        std::map<std::string, LocatedText> seen;
+        const auto take = [&](const std::string& what, const LocatedText& place) {
             const auto [first, is_new] = seen.emplace(what, place);
             if (is_new) return;
             const bool is_line = place.key.ends_with(".motor.port");
@@ -227,8 +227,8 @@ class Reader {
         };
         for (const AxisConfig& axis : result_.config.axes) {
             if (!axis.name.empty()) take("name " + axis.name, {axis.name, axis.line, "axis.name"});
-            for (const Placed& line : axis.gpio) take("line " + line_id(line.text), line);
-            for (const Placed& port : {axis.motor.port, axis.motor.mactalk_port, axis.user_port}) {
+            for (const LocatedText& line : axis.gpio) take("line " + line_id(line.text), line);
+            for (const LocatedText& port : {axis.motor.port, axis.motor.mactalk_port, axis.user_port}) {
                 if (port.is_there()) take("port " + port_id(port.text), port);
             }
             if (axis.motor.is_on_can())

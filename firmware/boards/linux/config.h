@@ -10,7 +10,7 @@
 #include "hal_linux/real_time.h"
 #include "journal.h"
 #include "motor_config.h"
-#include "placed.h"
+#include "section.h"
 #include "store/settings.h"
 #include "toml_file.h"
 
@@ -22,14 +22,14 @@ using Lines = std::array<std::optional<hal_linux::GpioLine>, count>;
 /// One sequencer with its motor.
 struct AxisConfig {
     std::string name;
-    Placed table;  ///< a file whose table runs while none is stored
+    LocatedText table;  ///< a file whose table runs while none is stored
     MotorConfig motor;
-    Placed user_port;             ///< a device, or an endpoint pty:, unix: or tcp:
+    LocatedText user_port;        ///< a device, or an endpoint pty:, unix: or tcp:
     unsigned socket_mode = 0660;  ///< of a unix: endpoint
-    Placed socket_group;
+    LocatedText socket_group;
     Lines<6> inputs;
     Lines<4> outputs;
-    std::vector<Placed> gpio;         ///< every line that is named
+    std::vector<LocatedText> gpio;    ///< every line that is named
     store::SettingValues settings{};  ///< where none are stored
     int line = 0;
 };
@@ -38,7 +38,7 @@ struct Config {
     std::string state_directory = "/var/lib/nanoplc";
     LogLevel log_level = LogLevel::info;
     hal_linux::RealTime real_time;
-    Placed watchdog_device;
+    LocatedText watchdog_device;
     int watchdog_seconds = 10;
     bool power_cut_waits = false;  ///< else the settings' autostart decides
     std::vector<AxisConfig> axes;

@@ -46,7 +46,7 @@ bool is_character_device(const std::string& path) {
     return ::stat(path.c_str(), &status) == 0 && S_ISCHR(status.st_mode);
 }
 
-void check_serial(const Placed& port, std::vector<Mistake>& missing) {
+void check_serial(const LocatedText& port, std::vector<Mistake>& missing) {
     if (!port.is_there() || is_endpoint(port.text)) return;
     std::error_code error;
     if (!fs::exists(port.text, error))
@@ -64,7 +64,7 @@ void check_serial(const Placed& port, std::vector<Mistake>& missing) {
 }
 
 /// One that is down is no mistake: it may come up later.
-void check_can(const Placed& can, std::vector<Mistake>& missing) {
+void check_can(const LocatedText& can, std::vector<Mistake>& missing) {
     if (!can.is_there()) return;
     const std::string path = "/sys/class/net/" + can.text;
     std::error_code error;
@@ -82,7 +82,7 @@ void check_can(const Placed& can, std::vector<Mistake>& missing) {
                                        can.text)});
 }
 
-void check_group(const Placed& group, std::vector<Mistake>& missing) {
+void check_group(const LocatedText& group, std::vector<Mistake>& missing) {
     if (group.is_there() && !hal_linux::group_number(group.text))
         missing.push_back(
             {group.line, group.key, fmt::format("there is no group {}; name one of /etc/group", group.text)});
@@ -93,7 +93,7 @@ class LineCheck {
   public:
     explicit LineCheck(std::vector<Mistake>& missing) : missing_(missing) {}
 
-    void check(const Placed& line) {
+    void check(const LocatedText& line) {
         const hal_linux::FoundLine found = hal_linux::find_line(line.text);
         if (!found.problem.empty())
             return complain(line, has_chips_ ? found.problem : problem_without_chips(found.problem));
@@ -110,12 +110,12 @@ class LineCheck {
                "; this machine has no GPIO chip at all, write \"none\" to do without";
     }
 
-    void complain(const Placed& line, const std::string& text) {
+    void complain(const LocatedText& line, const std::string& text) {
         missing_.push_back({line.line, line.key, text});
     }
 
     std::vector<Mistake>& missing_;
-    std::map<std::string, Placed> seen_;
+    std::map<std::string, LocatedText> seen_;
     const bool has_chips_ = !files_in("/dev", {"gpiochip"}).empty();
 };
 
@@ -125,13 +125,14 @@ std::vector<Mistake> missing_devices(const Config& config) {
     std::vector<Mistake> missing;
     LineCheck lines(missing);
     for (const AxisConfig& axis : config.axes) {
-        for (const Placed& port : {axis.motor.port, axis.motor.mactalk_port, axis.user_port})
+        for (const LocatedText& port : {axis.motor.port, axis.motor.mactalk_port, axis.user_port})
             check_serial(port, missing);
         check_can(axis.motor.can, missing);
         check_group(axis.socket_group, missing);
-        for (const Placed& line : axis.gpio) lines.check(line);
+        for (const LocatedText& line : axis.gpio) lines.check(line);
     }
-    if (const Placed& device = config.watchdog_device; device.is_there() && !is_character_device(device.text))
+    if (const LocatedText& device = config.watchdog_device;
+        device.is_there() && !is_character_device(device.text))
         missing.push_back({device.line, device.key,
                            fmt::format("there is no {}; leave it out on a board without one", device.text)});
     return missing;

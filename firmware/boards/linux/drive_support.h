@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "log_messages.h"
 #include "motor/any_driver.h"
 #include "motor_config.h"
 #include "section.h"
-#include "words.h"
 
 namespace nplc::boards {
 
@@ -41,7 +41,7 @@ class DriveSupport {
     /// The driver's number of the cause of the present ERROR; 0: none.
     virtual std::uint8_t fault(const motor::AnyDriver&) const { return 0; }
     /// That cause; nothing without one, and for a lost link, which the log tells.
-    virtual std::optional<Said> fault_in_words(const motor::AnyDriver&) const { return std::nullopt; }
+    virtual std::optional<LogMessage> fault_in_words(const motor::AnyDriver&) const { return std::nullopt; }
     /// What it warns of, a bit each, and a bit in words.
     virtual std::uint32_t warnings(const motor::AnyDriver&) const { return 0; }
     virtual std::string warning_in_words(std::uint32_t /*bit*/) const { return {}; }

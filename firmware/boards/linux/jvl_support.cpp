@@ -25,12 +25,12 @@ class JvlSupport final : public DriveSupport {
 };
 
 void JvlSupport::read(MotorConfig& motor, Section& section, int axis_line) const {
-    motor.port = placed(section, "port");
+    motor.port = located_text(section, "port");
     if (!motor.port.is_there())
         section.complain(section.is_there() ? section.line() : axis_line, "port",
                          "is missing; name the serial port at the motor's FastMAC line, such as "
                          "\"/dev/serial/by-id/...\"");
-    motor.mactalk_port = placed(section, "mactalk_port");
+    motor.mactalk_port = located_text(section, "mactalk_port");
     check_port(section, motor.port, false);
     check_port(section, motor.mactalk_port, false);
     const auto mode = section.choice("rs485", {"off", "rts_on_send", "rts_after_send"});

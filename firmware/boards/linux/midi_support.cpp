@@ -39,7 +39,7 @@ class MidiSupport final : public DriveSupport {
     std::uint8_t fault(const motor::AnyDriver& driver) const override {
         return static_cast<std::uint8_t>(motor_of(driver).fault());
     }
-    std::optional<Said> fault_in_words(const motor::AnyDriver& driver) const override;
+    std::optional<LogMessage> fault_in_words(const motor::AnyDriver& driver) const override;
     std::uint32_t warnings(const motor::AnyDriver& driver) const override {
         return motor_of(driver).drive_status() & kWarnings;
     }
@@ -104,8 +104,8 @@ void read_can(MotorConfig& motor, Section& section) {
 }
 
 void MidiSupport::read(MotorConfig& motor, Section& section, int) const {
-    motor.port = placed(section, "port");
-    motor.can = placed(section, "can");
+    motor.port = located_text(section, "port");
+    motor.can = located_text(section, "can");
     check_port(section, motor.port, false);
     choose_line(motor, section);
     read_baud(motor, section);
@@ -150,21 +150,21 @@ std::string MidiSupport::notes(const MotorConfig& motor) const {
            "    RS-232 levels, not RS422 and not 3.3 V.\n";
 }
 
-std::optional<Said> MidiSupport::fault_in_words(const motor::AnyDriver& driver) const {
+std::optional<LogMessage> MidiSupport::fault_in_words(const motor::AnyDriver& driver) const {
     const motor::MidiMotor& motor = motor_of(driver);
     const MidiFault fault = motor.fault();
     if (fault == MidiFault::none || fault == MidiFault::link_lost) return std::nullopt;
     std::string text = fmt::format("ERROR: {}", motor::text_of(fault));
     if (fault == MidiFault::bad_value) text += fmt::format(": {}", midi::text_of(motor.lack()));
     const std::uint32_t shown = fault == MidiFault::tripped ? midi::kTrips : ~midi::kTrips;
-    if (fault != MidiFault::tripped && fault != MidiFault::end_stop) return Said{LogLevel::error, text};
+    if (fault != MidiFault::tripped && fault != MidiFault::end_stop) return LogMessage{LogLevel::error, text};
     std::string bits;
     for (const midi::Bit& bit : midi::status_bits()) {
         if ((bit.mask & motor.drive_status() & shown) == 0) continue;
         bits += (bits.empty() ? "" : ", ") + std::string(bit.text);
     }
     if (!bits.empty()) text += fmt::format(" ({})", bits);
-    return Said{LogLevel::error, text};
+    return LogMessage{LogLevel::error, text};
 }
 
 std::string MidiSupport::silence_in_words(const motor::AnyDriver& driver, const std::string& line) const {

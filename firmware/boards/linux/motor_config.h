@@ -6,8 +6,8 @@
 #include <string>
 
 #include "hal_linux/uart.h"
-#include "placed.h"
 #include "registers/family.h"
+#include "section.h"
 #include "store/settings.h"
 
 namespace nplc::boards {
@@ -16,13 +16,13 @@ namespace nplc::boards {
 struct MotorConfig {
     /// Of a family that setting motor_kind does not divide further, its first model.
     const registers::DriveModel* model = &registers::families().front()->models().front();
-    Placed port;                              ///< empty: on CAN
+    LocatedText port;                         ///< empty: on CAN
     std::optional<hal_linux::Rs485> rs485{};  ///< of the serial port
-    Placed mactalk_port{};                    ///< to the motor's own MacTalk port
+    LocatedText mactalk_port{};               ///< to the motor's own MacTalk port
     std::optional<std::uint32_t> baud{};      ///< of the serial port; nothing: setting motor_baud
-    Placed can{};                             ///< the interface
+    LocatedText can{};                        ///< the interface
     std::optional<std::uint32_t> bitrate{};   ///< what the interface must be set to
-    Placed address{};  ///< of the drive, as a text and where it stands; empty: the line is its own
+    LocatedText address{};  ///< of the drive, as a text and where it stands; empty: the line is its own
     std::uint8_t drive_address = 0;
 
     bool is_on_can() const { return can.is_there(); }

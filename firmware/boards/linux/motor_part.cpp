@@ -48,9 +48,9 @@ std::string MotorPart::loss_in_words() const {
                        config_.line_in_words());
 }
 
-std::vector<Said> MotorPart::news() {
+std::vector<LogMessage> MotorPart::news() {
     const DriveSupport& support = support_of(config_);
-    std::vector<Said> news;
+    std::vector<LogMessage> news;
     if (const std::uint8_t fault = support.fault(driver_); fault != told_fault_) {
         told_fault_ = fault;
         if (auto said = support.fault_in_words(driver_)) news.push_back(std::move(*said));
@@ -81,7 +81,7 @@ void MotorPart::open_line(base::Instant now) {
     if (line_) line_->open(now);
 }
 
-bool MotorPart::may_rest() const {
+bool MotorPart::needs_no_watch() const {
     return line_ && motor::delivers(motor_->link()) && motor_->settled() &&
            !motor::is_open(motor_->access_state()) && !uart_->gone();
 }

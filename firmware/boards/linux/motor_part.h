@@ -6,12 +6,10 @@
 
 #include "hal_linux/event_loop.h"
 #include "journal.h"
-#include "kept_can.h"
-#include "kept_uart.h"
+#include "lines.h"
+#include "log_messages.h"
 #include "motor/any_driver.h"
 #include "motor_config.h"
-#include "round_port.h"
-#include "words.h"
 
 namespace nplc::boards {
 
@@ -38,19 +36,19 @@ class MotorPart {
     std::string silence_in_words() const;
     std::string loss_in_words() const;
     /// What the driver says of the drive's faults and warnings, once each.
-    std::vector<Said> news();
+    std::vector<LogMessage> news();
     /// Status comes without pause and nothing waits for it: the line need not be watched for some
     /// milliseconds.
-    bool may_rest() const;
+    bool needs_no_watch() const;
     /// A status that comes without pause is taken from the line only while it is open.
     void open_line(base::Instant now);
     bool was_read_since(base::Instant time) const { return line_ && line_->opened() >= time; }
 
   private:
     MotorConfig config_;
-    std::optional<KeptUart> uart_;
-    std::optional<KeptCan> can_;
-    std::optional<RoundPort> line_;
+    std::optional<ReopenedUart> uart_;
+    std::optional<ReopenedCan> can_;
+    std::optional<GatedPort> line_;
     motor::AnyDriver driver_;
     motor::Motor* motor_ = nullptr;
     std::uint8_t told_fault_ = 0;

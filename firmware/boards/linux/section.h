@@ -48,4 +48,21 @@ class Section {
     std::set<std::string> known_;
 };
 
+/// A text of the configuration and where it stands.
+struct LocatedText {
+    std::string text{};
+    int line = 0;
+    std::string key{};
+    bool is_there() const { return !text.empty(); }
+};
+
+/// Empty where the key is not there or "none".
+LocatedText located_text(Section& section, const std::string& key);
+
+bool is_endpoint(const std::string& port);
+
+/// A device, or, if it may be, an endpoint that the network does not reach: whoever reaches the port can move
+/// the motor.
+void check_port(Section& section, const LocatedText& port, bool may_be_endpoint);
+
 }  // namespace nplc::boards

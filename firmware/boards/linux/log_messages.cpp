@@ -1,4 +1,4 @@
-#include "words.h"
+#include "log_messages.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@ namespace {
 using gateway::Event;
 using gateway::SafeReason;
 
-Said of_reason(SafeReason reason, unsigned step) {
+LogMessage of_reason(SafeReason reason, unsigned step) {
     switch (reason) {
         case SafeReason::none:
             return {LogLevel::info, "runs"};
@@ -65,7 +65,7 @@ Said of_reason(SafeReason reason, unsigned step) {
 
 }  // namespace
 
-Said in_words(const gateway::EventLog::Entry& entry) {
+LogMessage in_words(const gateway::EventLog::Entry& entry) {
     if (entry.event < 16) return of_reason(static_cast<SafeReason>(entry.event), entry.step);
     const char* const remark =
         entry.detail == 1 ? "; the motor cannot take up again what it did: stop, then run from the start"

@@ -8,11 +8,11 @@
 
 namespace nplc::boards {
 
-struct Said {
+struct LogMessage {
     LogLevel level;
     std::string text;
 };
 /// An entry of the gateway's log for a person: what happened, and for a fault what to do.
-Said in_words(const gateway::EventLog::Entry& entry);
+LogMessage in_words(const gateway::EventLog::Entry& entry);
 
 }  // namespace nplc::boards
