@@ -167,7 +167,21 @@ class Simulation:
         self.process.stderr.close()
 
 
-class Others:
+class Watching:
+    """Programs that watch what is stopped."""
+
+    def watch(self, *options):
+        watcher = subprocess.Popen([service_case.NANOCTL, "--port", self.endpoint, "watch", *options],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(watcher.stderr.close)
+        self.addCleanup(watcher.stdout.close)
+        self.addCleanup(watcher.wait)
+        self.addCleanup(watcher.kill)
+        watcher.stdout.readline()
+        return watcher
+
+
+class Others(Watching):
     """Whatever other clients do, a stop takes effect within a second."""
 
     def test_clients_whose_writes_are_refused(self):
@@ -198,16 +212,6 @@ class Others:
         self.assertEqual(self.nanoctl("status").returncode, 0)
         for watcher in watchers:
             self.assertIsNone(watcher.poll(), "it lost its place")
-
-    def watch(self, *options):
-        watcher = subprocess.Popen([service_case.NANOCTL, "--port", self.endpoint, "watch", *options],
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.addCleanup(watcher.stderr.close)
-        self.addCleanup(watcher.stdout.close)
-        self.addCleanup(watcher.wait)
-        self.addCleanup(watcher.kill)
-        watcher.stdout.readline()
-        return watcher
 
     def test_what_was_sent_before_a_stop_does_not_start_anything_after_it(self):
         self.nanoctl("stop")
@@ -362,20 +366,10 @@ class Motorless(Service):
         self.assertIn("THE MACHINE MAY STILL BE RUNNING", result.stderr)
 
 
-class Terminal:
+class Terminal(Watching):
     """One line, which programs have in turns; a stop does not wait for its turn."""
 
     KIND = "pty"
-
-    def watch(self, *options):
-        watcher = subprocess.Popen([service_case.NANOCTL, "--port", self.endpoint, "watch", *options],
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.addCleanup(watcher.stderr.close)
-        self.addCleanup(watcher.stdout.close)
-        self.addCleanup(watcher.wait)
-        self.addCleanup(watcher.kill)
-        watcher.stdout.readline()
-        return watcher
 
     def test_others_have_it_while_some_watch(self):
         watchers = [self.watch(), self.watch("--interval", "0")]
