@@ -92,6 +92,7 @@ Compilation compile(std::string_view source) {
     }
     const ast::Program program = Parser(source, tokens_of(source, report), report).parse();
     const bool syntax_sound = !report.has_errors();
+    result.properties = program.properties;
     Report checks;
     Scope scope(program, source, checks, result);
     const Plan plan = check(program, scope, checks);

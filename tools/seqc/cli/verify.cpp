@@ -67,6 +67,24 @@ verify::Delay order_time(std::span<const sequencer::MotorOrder> orders, bool tra
             waits ? most_time(orders.first(orders.size() - kQueue)) : 0};
 }
 
+/// The properties of a program, at their lines.
+verify::PropertyReading properties_in(const Input& input, const verify::Names& names) {
+    if (!input.program) return {};
+    std::string text = input.source;
+    std::size_t at = 0;
+    const auto blank = [&](std::size_t end) {
+        for (; at < end; ++at) {
+            if (text[at] != '\n') text[at] = ' ';
+        }
+    };
+    for (const Span& span : input.program->properties) {
+        blank(span.offset);
+        at = span.offset + span.length;
+    }
+    blank(text.size());
+    return verify::read_properties(text, names);
+}
+
 const char* word_of(Verdict verdict) {
     switch (verdict) {
         case Verdict::proved:
@@ -192,13 +210,17 @@ int run(const VerifyArguments& options) {
             fmt::format("{}: {}", options.table.file, sequencer::describe(loaded.fault.error)));
     }
     const verify::Names names = names_for(input);
-    verify::PropertyReading reading;
+    verify::PropertyReading reading = properties_in(input, names);
+    if (!reading.error.empty())
+        return file_problem(fmt::format("{}:{}: {}", options.table.file, reading.line, reading.error));
+    std::vector<verify::Property> properties = std::move(reading.properties);
     if (!options.properties.empty()) {
         const whole_files::FileText text = whole_files::read_text(options.properties);
         if (!text.error.empty()) return file_problem(text.error);
         reading = verify::read_properties(text.text, names);
         if (!reading.error.empty())
             return file_problem(fmt::format("{}:{}: {}", options.properties, reading.line, reading.error));
+        properties.insert(properties.end(), reading.properties.begin(), reading.properties.end());
     }
     const bool translated = input.symbols && input.symbols->drive != nullptr;
     verify::Options how;
@@ -206,7 +228,7 @@ int run(const VerifyArguments& options) {
     how.order_time = [translated](std::span<const sequencer::MotorOrder> orders) {
         return order_time(orders, translated);
     };
-    const verify::Report report = verify::verify(loaded.table, names, reading.properties, how);
+    const verify::Report report = verify::verify(loaded.table, names, properties, how);
     if (const int written = write_courses(report, options, names); written != kOk) return written;
     const int verdict = exit_code_of(report);
     if (options.json) return print_json(document_of(report, options, input, names), verdict);

@@ -138,6 +138,7 @@ struct Program {
     std::vector<Step> steps;
     bool steps_missing = false;  ///< some could not be read: an unknown name may be one of them
     std::vector<RawTerm> terms;
+    std::vector<Span> properties;   ///< PROPERTY Name: ... ; each
     std::deque<std::string> texts;  ///< of units that are written with blanks or comments in them
 };
 

@@ -80,6 +80,7 @@ bool Parser::parse_primary(Expression& result) {
 
 bool Parser::parse_named_primary(Expression& result) {
     if (token(1).kind == TokenKind::symbol && token(1).text == ".") mend({"TIMER", "COUNTER"}, "a condition");
+    if (in_property_ && at("STEP")) return parse_step_test();
     if (at("TRUE") || at("FALSE")) {
         result.kind = Kind::constant;
         result.value = at("TRUE");

@@ -25,7 +25,9 @@ constexpr std::array kReserved = {
     std::string_view("FALSE"),      std::string_view("INPOS"),         std::string_view("ANY"),
     std::string_view("TIMER"),      std::string_view("COUNTER"),       std::string_view("EVERY_SCAN"),
     std::string_view("COUNT_DOWN"), std::string_view("CLEAR_COUNTER"), std::string_view("TERM"),
-    std::string_view("REG"),
+    std::string_view("REG"),        std::string_view("PROPERTY"),      std::string_view("NEVER"),
+    std::string_view("ALWAYS"),     std::string_view("POSSIBLE"),      std::string_view("IS"),
+    std::string_view("REACHABLE"),  std::string_view("WHENEVER"),      std::string_view("WITHIN"),
 };
 
 /// Words that begin something on the level above a statement: skipping stops in front of them.
@@ -35,6 +37,7 @@ constexpr std::array kBoundaries = {
     std::string_view("END_VAR"),     std::string_view("POWER_UP"),   std::string_view("END_POWER_UP"),
     std::string_view("STEP"),        std::string_view("END_STEP"),   std::string_view("IF"),
     std::string_view("ELSIF"),       std::string_view("ELSE"),       std::string_view("END_IF"),
+    std::string_view("PROPERTY"),
 };
 
 template <std::size_t N>

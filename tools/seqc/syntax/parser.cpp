@@ -56,14 +56,16 @@ void Parser::parse_item(ast::Program& program) {
     if (take("VAR_MOTOR")) return parse_variables(program.motor_variables, true);
     if (at("POWER_UP")) return parse_power_up(program);
     if (at("STEP")) return parse_step(program);
+    if (at("PROPERTY")) return parse_property(program);
     if (at("TERM")) {
         if (!parse_raw_term(program.terms)) recover();
         return;
     }
     const std::string_view expected =
-        "MOTOR, SCALE, VAR_INPUT, VAR_OUTPUT, VAR_MOTOR, ON ERROR, POWER_UP, STEP, TERM or END_PROGRAM";
+        "MOTOR, SCALE, VAR_INPUT, VAR_OUTPUT, VAR_MOTOR, ON ERROR, POWER_UP, STEP, TERM, PROPERTY or "
+        "END_PROGRAM";
     if (mend({"MOTOR", "SCALE", "VAR_INPUT", "VAR_OUTPUT", "VAR_MOTOR", "POWER_UP", "STEP", "TERM",
-              "END_PROGRAM"},
+              "PROPERTY", "END_PROGRAM"},
              expected)) {
         return;
     }

@@ -91,6 +91,11 @@ class Parser {
     bool parse_primary(ast::Expression& result);
     bool parse_named_primary(ast::Expression& result);
 
+    // parse_properties.cpp
+    void parse_property(ast::Program& program);
+    bool parse_claim();
+    bool parse_step_test();
+
     static constexpr int kDeepest = 100;
 
     std::string_view source_;
@@ -101,6 +106,7 @@ class Parser {
     std::deque<std::string> texts_;
     bool comment_is_open_;
     bool end_reported_ = false;
+    bool in_property_ = false;
 };
 
 /// Milliseconds of T#1s500ms; false if it is malformed.

@@ -71,6 +71,7 @@ struct Compilation {
     std::vector<TermOrigin> origins;
     std::vector<StepOrigin> steps;  ///< by number, POWER_UP first
     std::vector<Rounding> roundings;
+    std::vector<Span> properties;   ///< PROPERTY Name: ... ; in source order, what it names not looked up
     bool more_diagnostics = false;  ///< there were more than 100
     bool ok = false;                ///< no errors; warnings do not count
 };
