@@ -16,7 +16,7 @@ std::string listed(const std::vector<std::string>& words) {
 std::string image_text(std::uint8_t image, const Names& names) {
     std::vector<std::string> on;
     for (unsigned i = 0; i < 6; ++i) {
-        if (((image >> i) & 1U) != 0)
+        if (((unsigned{image} >> i) & 1U) != 0)
             on.push_back(names.inputs[i].empty() ? fmt::format("IN{}", i) : names.inputs[i]);
     }
     if ((image & sequencer::kInPos) != 0) on.emplace_back("INPOS");
@@ -27,7 +27,7 @@ std::string image_text(std::uint8_t image, const Names& names) {
 std::string outputs_text(std::uint8_t outputs, const Names& names) {
     std::vector<std::string> on;
     for (unsigned i = 0; i < 4; ++i) {
-        if (((outputs >> i) & 1U) != 0)
+        if (((unsigned{outputs} >> i) & 1U) != 0)
             on.push_back(names.outputs[i].empty() ? fmt::format("OUT{}", i) : names.outputs[i]);
     }
     return listed(on);
@@ -47,7 +47,7 @@ std::vector<std::string> actions_between(std::uint8_t before, std::uint8_t image
     std::vector<std::string> actions;
     for (unsigned i = 0; i < 6; ++i) {
         if (((unsigned{before} ^ image) >> i & 1U) != 0)
-            actions.push_back(fmt::format("IN{} := {}", i, image >> i & 1U));
+            actions.push_back(fmt::format("IN{} := {}", i, (unsigned{image} >> i) & 1U));
     }
     if ((image & ~unsigned{before} & sequencer::kError) != 0) actions.emplace_back("motor error");
     return actions;

@@ -77,7 +77,7 @@ Report verify(const sequencer::Table& table, const Names& names, const std::vect
     report.complete = decider.coarse().complete();
     for (std::uint8_t step = 1; step <= sequencer::kLastStep; ++step) {
         const bool is_there = !names.steps[step].empty() || ((machine.steps_with_terms() >> step) & 1U) != 0;
-        if (is_there && ((decider.coarse().steps_begun() >> step) & 1U) == 0)
+        if (report.complete && is_there && ((decider.coarse().steps_begun() >> step) & 1U) == 0)
             report.unreachable.push_back(step);
     }
     for (std::size_t i = 0; i < properties.size(); ++i)

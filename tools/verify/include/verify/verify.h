@@ -34,9 +34,10 @@ struct Options {
 
 struct Report {
     std::size_t states = 0;
-    bool complete = true;                   ///< all states were explored
-    std::vector<std::uint8_t> unreachable;  ///< steps with a name or terms in which no scan begins
-    std::vector<Result> results;            ///< built-in checks, then the properties
+    bool complete = true;  ///< all states were explored
+    /// Steps with a name or terms in which no scan begins; none if not complete.
+    std::vector<std::uint8_t> unreachable;
+    std::vector<Result> results;  ///< built-in checks, then the properties
 };
 
 Report verify(const sequencer::Table& table, const Names& names, const std::vector<Property>& properties,
