@@ -219,9 +219,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     ScanOptions scan;
     add_run(app, run);
     add_scan(app, scan);
-    const arguments::Outcome outcome = app.parse(argc, argv);
-    if (outcome.kind == arguments::Outcome::Kind::told) return NothingToDo{};
-    if (outcome.kind == arguments::Outcome::Kind::wrong)
+    const arguments::ParseResult outcome = app.parse(argc, argv);
+    if (outcome.kind == arguments::ParseResult::Kind::told) return NothingToDo{};
+    if (outcome.kind == arguments::ParseResult::Kind::wrong)
         throw InputError(fmt::format("nanoplc-sim: {}; see nanoplc-sim --help", outcome.error));
     if (app.got_subcommand("scan")) return scan;
     check_run(run);

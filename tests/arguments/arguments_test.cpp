@@ -10,10 +10,10 @@
 namespace nplc::arguments {
 namespace {
 
-using Kind = Outcome::Kind;
+using Kind = ParseResult::Kind;
 using Words = std::vector<std::string>;
 
-Outcome parsed(App& app, Words words) {
+ParseResult parsed(App& app, Words words) {
     words.insert(words.begin(), "program");
     std::vector<const char*> argv;
     for (const std::string& word : words) argv.push_back(word.c_str());
@@ -21,7 +21,7 @@ Outcome parsed(App& app, Words words) {
 }
 
 void expect_wrong(App& app, const Words& words, const std::string& named) {
-    const Outcome outcome = parsed(app, words);
+    const ParseResult outcome = parsed(app, words);
     EXPECT_EQ(outcome.kind, Kind::wrong) << words.back();
     EXPECT_NE(outcome.error.find(named), std::string::npos) << outcome.error;
     EXPECT_EQ(outcome.error.find_first_of("\r\n"), std::string::npos) << outcome.error;
@@ -49,7 +49,7 @@ TEST(Arguments, VariablesOfEveryKindAreRead) {
     app.add_option("--real", real, "");
     app.add_flag("--flag", flag, "");
     app.add_flag("--other", other, "");
-    const Outcome outcome =
+    const ParseResult outcome =
         parsed(app, {"--text", "a b", "--perhaps", "c", "--list", "d,e", "--whole", "-3", "--word",
                      "4294967295", "--large", "4294967296", "--real", "0.5", "--flag"});
     ASSERT_EQ(outcome.kind, Kind::done) << outcome.error;
@@ -103,7 +103,7 @@ TEST(Arguments, WordsOfAListOnly) {
     EXPECT_EQ(parsed(app, {"zsh"}).kind, Kind::done);
     EXPECT_EQ(shell, "zsh");
     expect_wrong(app, {"fish"}, "fish");
-    const Outcome none = parsed(app, {});
+    const ParseResult none = parsed(app, {});
     EXPECT_EQ(none.kind, Kind::wrong);
     EXPECT_NE(none.error.find("shell"), std::string::npos) << none.error;
 }
@@ -154,7 +154,7 @@ TEST(Arguments, ACommandsWorkIsDoneAndWhatItThrowsComesThrough) {
     EXPECT_TRUE(app.got_subcommand("run"));
     EXPECT_FALSE(app.got_subcommand("fail"));
     EXPECT_THROW(parsed(app, {"fail"}), std::out_of_range);
-    const Outcome unknown = parsed(app, {"walk"});
+    const ParseResult unknown = parsed(app, {"walk"});
     EXPECT_EQ(unknown.kind, Kind::wrong);
     EXPECT_EQ(unknown.rest, Words{"walk"});
     expect_wrong(app, {"run", "--bo\r\ngus"}, "--bo");
@@ -181,7 +181,7 @@ TEST(Arguments, HelpAndVersionArePrinted) {
     app.add_option("--speed", speed, "of the line")->capture_default_str();
     app.add_option("--flash", "a file")->type_name("FILE");
     testing::internal::CaptureStdout();
-    const Outcome version = parsed(app, {"--version"});
+    const ParseResult version = parsed(app, {"--version"});
     EXPECT_EQ(testing::internal::GetCapturedStdout(), "program 1.2\n");
     EXPECT_EQ(version.kind, Kind::told);
     EXPECT_EQ(version.exit_code, 0);

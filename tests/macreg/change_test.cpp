@@ -12,15 +12,17 @@ using namespace std::chrono_literals;
 
 struct ChangeTest : testing::Test {
     Bench bench;
-    Outcome set(std::string_view name, std::int64_t raw) { return change(bench.motor, bench.reg(name), raw); }
-    void expect_refused(const Outcome& outcome, std::string_view part) const {
+    ChangeResult set(std::string_view name, std::int64_t raw) {
+        return change(bench.motor, bench.reg(name), raw);
+    }
+    void expect_refused(const ChangeResult& outcome, std::string_view part) const {
         EXPECT_FALSE(outcome.taken);
         EXPECT_NE(outcome.why.find(part), std::string::npos) << outcome.why;
     }
 };
 
 TEST_F(ChangeTest, TellsBeforeAndAfter) {
-    const Outcome outcome = set("V_SOLL", 3146);
+    const ChangeResult outcome = set("V_SOLL", 3146);
     EXPECT_TRUE(outcome.taken);
     EXPECT_EQ(outcome.before, 1600);
     EXPECT_EQ(outcome.after, 3146);
@@ -55,7 +57,7 @@ TEST_F(ChangeTest, ModeWithAnErrorIsRefusedWithTheError) {
 // 001 §4.4.9 to §4.4.12: they end by themselves, TESTU after 11 samples of the inner loop.
 TEST_F(ChangeTest, AModeThatEndsByItselfIsTaken) {
     for (const std::int64_t mode : {8, 9, 10, 22, 11}) {
-        const Outcome outcome = set("MODE_REG", mode);
+        const ChangeResult outcome = set("MODE_REG", mode);
         EXPECT_TRUE(outcome.taken) << mode << ": " << outcome.why;
         EXPECT_EQ(outcome.remark.empty(), outcome.after == mode) << mode;
         bench.run(3000ms);
@@ -73,7 +75,7 @@ TEST(Change, ALowSupplyThatKeepsTheMotorPassiveIsNamed) {
         if (model == registers::Model::mac140) bench.put("U_MIN_SUP", 400);  // 21 V
         bench.sim.supply().set_source(5);
         bench.run(3000ms);
-        const Outcome outcome = change(bench.motor, bench.reg("MODE_REG"), 2);
+        const ChangeResult outcome = change(bench.motor, bench.reg("MODE_REG"), 2);
         EXPECT_FALSE(outcome.taken);
         EXPECT_NE(outcome.why.find("UV_GO_PASSIVE"), std::string::npos) << outcome.why;
         EXPECT_EQ(outcome.why.find("no such mode"), std::string::npos) << outcome.why;
@@ -98,7 +100,7 @@ TEST_F(ChangeTest, ClearingErrorsKeepsTheSettingsBesideThem) {
     bench.run(100ms);
     bench.put("ERR_STAT", bench.at("ERR_STAT") | 1 << 10);
     expect_refused(set("MODE_REG", 2), "`macreg set ERR_STAT RELPOSPFNC`");
-    const Outcome outcome = set("ERR_STAT", 0);
+    const ChangeResult outcome = set("ERR_STAT", 0);
     EXPECT_TRUE(outcome.taken);
     EXPECT_NE(outcome.remark.find("RELPOSPFNC was a setting and is off now"), std::string::npos)
         << outcome.remark;
@@ -107,7 +109,7 @@ TEST_F(ChangeTest, ClearingErrorsKeepsTheSettingsBesideThem) {
 // 004: OLD_FILT_ERR is what the motor finds, and cannot be set.
 TEST_F(ChangeTest, AnErrorThatTheMotorDoesNotFindCannotBeSet) {
     Bench large(registers::Model::mac800);
-    const Outcome outcome = change(large.motor, large.reg("ERR_STAT"), 1 << 16);
+    const ChangeResult outcome = change(large.motor, large.reg("ERR_STAT"), 1 << 16);
     expect_refused(outcome, "cleared at once");
 }
 
@@ -117,7 +119,7 @@ TEST_F(ChangeTest, APlaceWrittenAloneIsWarnedOf) {
     bench.put("P_SOLL", 122'000);
     bench.put("P_IST", 122'000);
     bench.put("P_FNC", 16 * 122'000);
-    const Outcome outcome = set("P_IST", 0);
+    const ChangeResult outcome = set("P_IST", 0);
     EXPECT_TRUE(outcome.taken);
     EXPECT_NE(outcome.remark.find("`macreg set P_NEW 0 CNTRL_BITS USERINTF=COMMUNICATION+MAN_RESYNC`"),
               std::string::npos)
@@ -159,7 +161,7 @@ TEST_F(ChangeTest, ReadOnlyIsToldAsSuch) {
 }
 
 TEST_F(ChangeTest, ANewAddressIsReadUnderItself) {
-    const Outcome outcome = set("MYADDR", 9);
+    const ChangeResult outcome = set("MYADDR", 9);
     EXPECT_TRUE(outcome.taken);
     EXPECT_EQ(outcome.after, 9);
     EXPECT_NE(outcome.remark.find("--address 9"), std::string::npos);
@@ -173,7 +175,7 @@ TEST_F(ChangeTest, InputBitsAreToldToActAfterAReset) {
 TEST_F(ChangeTest, WhatMovesByItselfIsTaken) {
     bench.put("MODE_REG", 1);
     bench.run(500ms);
-    const Outcome outcome = set("P_IST", 0);
+    const ChangeResult outcome = set("P_IST", 0);
     EXPECT_TRUE(outcome.taken);
     EXPECT_NE(outcome.after, 0);
 }

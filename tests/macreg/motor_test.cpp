@@ -62,7 +62,7 @@ TEST(Motor, WhatAddsIsNotWrittenTwice) {
     bench.put("P1", 1000);
     bench.put("ERR_STAT", 1 << 9);  // RELPOSPSOLL
     bench.wire.from_unit().cut();
-    EXPECT_THROW(bench.motor.write(bench.reg("P_REG_P"), 1), Doubtful);
+    EXPECT_THROW(bench.motor.write(bench.reg("P_REG_P"), 1), Unconfirmed);
     EXPECT_EQ(bench.at("P_SOLL"), 1000);
 }
 

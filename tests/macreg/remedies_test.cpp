@@ -49,7 +49,7 @@ void set(Patient& patient, std::vector<std::string> words, const std::string& co
     EXPECT_EQ(dangerous, force) << command;
     for (const Assignment& one : all) {
         const bool may_wait = motor.read(registers::ERR_STAT) & error_bits(motor.model());
-        const Outcome outcome = change(motor, *one.reg, one.raw);
+        const ChangeResult outcome = change(motor, *one.reg, one.raw);
         // An error whose cause is still there stays, and with it INIT_MODE: the remedy says what to mend
         // first.
         EXPECT_TRUE(outcome.taken || may_wait || outcome.why.find("still there") != std::string::npos)

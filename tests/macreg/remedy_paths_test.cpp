@@ -128,7 +128,7 @@ void type(Bench& bench, const std::string& command) {
     const auto [all, error] = read_assignments(bench.motor.model(), words);
     ASSERT_EQ(error, "") << command;
     for (const Assignment& one : all) {
-        const Outcome outcome = change(bench.motor, *one.reg, one.raw);
+        const ChangeResult outcome = change(bench.motor, *one.reg, one.raw);
         ASSERT_TRUE(outcome.taken) << command << ": " << one.reg->name << ": " << outcome.why;
     }
 }

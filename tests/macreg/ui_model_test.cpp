@@ -8,17 +8,17 @@
 namespace nplc::macreg {
 namespace {
 
-using Kind = Wish::Kind;
+using Kind = Request::Kind;
 
 struct UiTest : testing::Test {
-    Wish key(Key key) { return model.press({key}); }
+    Request key(Key key) { return model.press({key}); }
     /// What the last of the keys asked for.
-    Wish type(const std::string& text) {
-        Wish wish;
-        for (const char c : text) wish = model.press({Key::character, c});
-        return wish;
+    Request type(const std::string& text) {
+        Request request;
+        for (const char c : text) request = model.press({Key::character, c});
+        return request;
     }
-    Wish enter(const std::string& text) {
+    Request enter(const std::string& text) {
         type(text);
         return key(Key::enter);
     }
@@ -93,7 +93,7 @@ TEST_F(UiTest, SearchFindsNamesNumbersAndTitles) {
 }
 
 TEST_F(UiTest, ReadAndQuit) {
-    const Wish read = type("r");
+    const Request read = type("r");
     EXPECT_EQ(read.kind, Kind::read);
     EXPECT_EQ(read.reg, &model.selected());
     EXPECT_EQ(type("R").kind, Kind::read_all);
@@ -104,10 +104,10 @@ TEST_F(UiTest, WritesInUnits) {
     select("V_SOLL");
     type("w");
     EXPECT_EQ(model.prompt().kind, Prompt::Kind::write);
-    const Wish wish = enter("100 rpm");
-    EXPECT_EQ(wish.kind, Kind::write);
-    EXPECT_EQ(wish.reg->name, "V_SOLL");
-    EXPECT_EQ(wish.raw, 210);  // 001 §3.2.5: 2.0972 a rpm
+    const Request request = enter("100 rpm");
+    EXPECT_EQ(request.kind, Kind::write);
+    EXPECT_EQ(request.reg->name, "V_SOLL");
+    EXPECT_EQ(request.raw, 210);  // 001 §3.2.5: 2.0972 a rpm
 }
 
 TEST_F(UiTest, AWrongValueIsSaidAndMayBeMended) {
@@ -132,9 +132,9 @@ TEST_F(UiTest, DangerousOnesWantAYes) {
     EXPECT_NE(model.note().find("nothing was written"), std::string::npos);
     type("w");
     enter("0.5");
-    const Wish wish = enter("yes");
-    EXPECT_EQ(wish.kind, Kind::write);
-    EXPECT_EQ(wish.raw, 128);  // Fixed8
+    const Request request = enter("yes");
+    EXPECT_EQ(request.kind, Kind::write);
+    EXPECT_EQ(request.raw, 128);  // Fixed8
     type("w");
     enter("0.5");
     key(Key::escape);
@@ -154,9 +154,9 @@ TEST_F(UiTest, ABitIsWrittenAndTheOthersStay) {
     enter("2");
     EXPECT_TRUE(model.is_bad()) << "one bit";
     key(Key::backspace);
-    Wish wish = enter("1");
-    if (wish.kind == Kind::none) wish = enter("yes");
-    EXPECT_EQ(wish.raw, 0x0207);
+    Request request = enter("1");
+    if (request.kind == Kind::none) request = enter("yes");
+    EXPECT_EQ(request.raw, 0x0207);
 }
 
 TEST_F(UiTest, TabGoesRound) {
@@ -186,9 +186,9 @@ TEST_F(UiTest, RecordsWhatIsNamedAndRemembersIt) {
     type("s");
     EXPECT_EQ(model.prompt().text, "P_IST,V_IST slow");
     for (int i = 0; i < 4; ++i) key(Key::backspace);
-    const Wish wish = enter("fast");
-    EXPECT_EQ(wish.kind, Kind::record);
-    EXPECT_EQ(wish.text, "P_IST,V_IST fast");
+    const Request request = enter("fast");
+    EXPECT_EQ(request.kind, Kind::record);
+    EXPECT_EQ(request.text, "P_IST,V_IST fast");
     type("s");
     EXPECT_EQ(model.prompt().text, "P_IST,V_IST fast");
     key(Key::escape);

@@ -21,7 +21,7 @@ class MidiModuleTest : public testing::Test {
 TEST_F(MidiModuleTest, EveryParameterIsWrittenAndReadBack) {
     for (const Parameter& one : parameters()) {
         if (!one.command || !one.query) continue;
-        const Outcome outcome = module.change(one, 1);
+        const ChangeResult outcome = module.change(one, 1);
         EXPECT_TRUE(outcome.taken) << one.name;
         EXPECT_EQ(outcome.after, 1) << one.name;
         EXPECT_EQ(module.read_all().raw(one), 1) << one.name;
@@ -40,7 +40,7 @@ TEST_F(MidiModuleTest, EveryParameterIsWrittenAndReadBack) {
 
 TEST_F(MidiModuleTest, RefusalsAreExplained) {
     module.order(reg::RUN, 800);
-    const Outcome outcome = module.change(*find_parameter("SPEED"), 100);
+    const ChangeResult outcome = module.change(*find_parameter("SPEED"), 100);
     EXPECT_FALSE(outcome.taken);
     EXPECT_EQ(outcome.why, "it is refused while the axis moves; `macreg midi stop` stops it");
     module.order(reg::EMERGENCY_STOP);

@@ -38,7 +38,7 @@ TEST_F(CanTest, ALostAnswerIsDoubtAndALostQueryIsAskedAgain) {
     EXPECT_EQ(master.position(1), 0);
     EXPECT_EQ(can.sent.size(), 2u);
     lost = 0;
-    EXPECT_THROW(master.command(1, midi::ZERO_POSITION), Doubtful);
+    EXPECT_THROW(master.command(1, midi::ZERO_POSITION), Unconfirmed);
     EXPECT_EQ(can.sent.size(), 3u);
 }
 

@@ -92,10 +92,10 @@ TEST_F(MasterTest, ARefusalIsOne) {
 TEST_F(MasterTest, ACommandWithoutAClearAnswerIsNotRepeated) {
     wire.script = {{value("00000000000")}, {}};
     EXPECT_EQ(master.position(0), 0);
-    EXPECT_THROW(master.command(0, midi::SEGMENT, 0x03E81000), Doubtful);
+    EXPECT_THROW(master.command(0, midi::SEGMENT, 0x03E81000), Unconfirmed);
     EXPECT_EQ(wire.sent.size(), 2u);
     wire.script = {{{0x06, 0x13, 0x55}}};
-    EXPECT_THROW(master.command(0, midi::SEGMENT, 0x03E81000), Doubtful);
+    EXPECT_THROW(master.command(0, midi::SEGMENT, 0x03E81000), Unconfirmed);
     EXPECT_EQ(wire.sent.size(), 3u);
 }
 

@@ -27,11 +27,12 @@ OptionText text_of(const CLI::Option& option) {
 }
 
 /// Prints help or version.
-Outcome told(const CLI::App& app, const CLI::ParseError& error) {
+ParseResult told(const CLI::App& app, const CLI::ParseError& error) {
     const int code = app.exit(error);
     std::cout.flush();
-    if (std::cout.fail()) return {.kind = Outcome::Kind::wrong, .error = "cannot write to standard output"};
-    return {.kind = Outcome::Kind::told, .exit_code = code};
+    if (std::cout.fail())
+        return {.kind = ParseResult::Kind::wrong, .error = "cannot write to standard output"};
+    return {.kind = ParseResult::Kind::told, .exit_code = code};
 }
 
 }  // namespace
@@ -195,12 +196,12 @@ void App::footer(const std::string& text) {
     parts_->app->footer(text);
 }
 
-Outcome App::parse(int argc, const char* const* argv) {
+ParseResult App::parse(int argc, const char* const* argv) {
     try {
         parts_->app->parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return told(*parts_->app, error);
-        return {.kind = Outcome::Kind::wrong,
+        return {.kind = ParseResult::Kind::wrong,
                 .error = one_line(error.what()),
                 .rest = parts_->app->remaining(true)};
     }

@@ -25,7 +25,7 @@ std::string port_variable(const Common& common) {
 }
 
 /// The library says of an unknown command only that there is none.
-std::string wrong_usage(const arguments::Outcome& outcome) {
+std::string wrong_usage(const arguments::ParseResult& outcome) {
     if (outcome.error.find("subcommand is required") == std::string::npos || outcome.rest.empty())
         return outcome.error;
     return fmt::format("'{}' is no command", outcome.rest.front());
@@ -104,9 +104,9 @@ arguments::App& add_command(arguments::App& app, const std::string& name, const 
 
 int run(arguments::App& app, Common& common, int argc, char** argv) {
     host::prepare_streams();
-    const arguments::Outcome outcome = app.parse(argc, argv);
-    if (outcome.kind == arguments::Outcome::Kind::told) return outcome.exit_code;
-    if (outcome.kind == arguments::Outcome::Kind::wrong) {
+    const arguments::ParseResult outcome = app.parse(argc, argv);
+    if (outcome.kind == arguments::ParseResult::Kind::told) return outcome.exit_code;
+    if (outcome.kind == arguments::ParseResult::Kind::wrong) {
         // What stands behind the mistake may not have been read.
         common.json = std::find(argv, argv + argc, std::string_view("--json")) != argv + argc;
         fail(common, kUsageOrFile, fmt::format("{} (see {} --help)", wrong_usage(outcome), common.program));

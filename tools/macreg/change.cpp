@@ -143,8 +143,8 @@ std::string why_not(Motor& motor, const Register& reg, std::int64_t wanted, std:
     return "somebody else may have written it, or the motor has no such register";
 }
 
-Outcome refused_or_lost(Motor& motor, std::int64_t before, const LineError& error) {
-    Outcome outcome{.before = before, .after = before, .taken = false};
+ChangeResult refused_or_lost(Motor& motor, std::int64_t before, const LineError& error) {
+    ChangeResult outcome{.before = before, .after = before, .taken = false};
     outcome.why = error.kind() == LineError::Kind::no_answer ? gateway_refusal(motor, Asked::write) : "";
     if (outcome.why.empty()) throw LineError(error.kind(), error.what());
     return outcome;
@@ -170,7 +170,7 @@ std::string apart_remark(Motor& motor) {
         counts_16.name);
 }
 
-void add_remark(Outcome& outcome, Motor& motor, const Register& reg, std::int64_t raw) {
+void add_remark(ChangeResult& outcome, Motor& motor, const Register& reg, std::int64_t raw) {
     const Model model = motor.model();
     if (reg.number == registers::P_IST) {
         const std::string apart = apart_remark(motor);
@@ -288,8 +288,8 @@ std::string gateway_refusal(Motor& motor, Asked asked) {
            "why` of the motor";
 }
 
-Outcome change(Motor& motor, const Register& reg, std::int64_t raw) {
-    Outcome outcome{.before = motor.read(reg)};
+ChangeResult change(Motor& motor, const Register& reg, std::int64_t raw) {
+    ChangeResult outcome{.before = motor.read(reg)};
     if (std::string none = no_mode(motor.model(), reg, raw); !none.empty())
         return {.before = outcome.before, .after = outcome.before, .taken = false, .why = std::move(none)};
     try {
@@ -297,7 +297,7 @@ Outcome change(Motor& motor, const Register& reg, std::int64_t raw) {
     } catch (const LineError& error) {
         if (reg.name != "MYADDR" && reg.name != "MY_ADDR")
             return refused_or_lost(motor, outcome.before, error);
-    } catch (const Doubtful&) {
+    } catch (const Unconfirmed&) {
         outcome.why = gateway_refusal(motor, Asked::write);
         if (outcome.why.empty()) throw;
         return {.before = outcome.before, .after = outcome.before, .taken = false, .why = outcome.why};

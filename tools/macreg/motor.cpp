@@ -235,7 +235,7 @@ void Motor::write(const Register& reg, std::int64_t value) {
         const auto width = static_cast<Width>(registers::bytes_of(model_, reg));
         master_.write(address_, reg.number, registers::bits_of(format_in(model_, reg), value), width);
     } else if (!try_write(reg, value)) {
-        throw Doubtful(
+        throw Unconfirmed(
             fmt::format("{}: the write of {} was not accepted; it was not repeated, since it may have been "
                         "carried out: look before you write again",
                         master_.wire().name(), reg.name));

@@ -10,6 +10,7 @@
 
 #include "registers/layout.h"
 #include "registers/scale.h"
+#include "spelling/edit_distance.h"
 
 namespace nplc::macreg {
 
@@ -67,20 +68,6 @@ std::string_view malformed_number(const Register& reg, Model model, std::string_
     return {};
 }
 
-std::size_t distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0]++;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, changed});
-        }
-    }
-    return row[b.size()];
-}
-
 /// How many letters in a row both have.
 std::size_t in_common(std::string_view a, std::string_view b) {
     std::size_t most = 0;
@@ -95,12 +82,11 @@ std::size_t in_common(std::string_view a, std::string_view b) {
 
 /// "did you mean GP_MODE? If not, " of a mode or bit whose name has a part in common with what was typed.
 std::string meant(const Register& reg, Model model, std::string_view text) {
-    const std::string typed = lower(text);
     constexpr std::size_t kMostWrong = 3;
     std::string best;
-    std::size_t least = std::min(kMostWrong, typed.size() / 2) + 1;
+    std::size_t least = std::min(kMostWrong, text.size() / 2) + 1;
     const auto look = [&](std::string_view name) {
-        const std::size_t steps = distance(typed, lower(name));
+        const std::size_t steps = spelling::edit_distance(text, name);
         if (steps >= least) return;
         least = steps;
         best = name;
@@ -212,7 +198,7 @@ std::string nearest(Model model, std::string_view text) {
     std::string best;
     std::size_t least = std::min(kMostWrong, name.size() / 3) + 1;
     for (const Register& reg : registers::map_of(model)) {
-        const std::size_t steps = distance(name, lower(reg.name));
+        const std::size_t steps = spelling::edit_distance(name, reg.name);
         if (steps >= least) continue;
         least = steps;
         best = reg.name;

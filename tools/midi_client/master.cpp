@@ -83,7 +83,7 @@ void Master::command(std::uint8_t address, midi::Command command, std::uint32_t 
     if (answer.kind == Kind::not_taken) came_damaged(address, name);
     if (!answered_ && answer.kind == Kind::silence)
         no_answer(address, is_stop(command) ? attempts_ : 1, false);
-    throw Doubtful(
+    throw Unconfirmed(
         fmt::format("{}: no clear answer to {} from address {}: it may have been carried out or not",
                     link_.name(), name, address));
 }

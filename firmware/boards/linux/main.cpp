@@ -139,9 +139,9 @@ int main(int argc, char** argv) {
                                  .section = 8,
                                  .file_commands = {"check-config", "wiring"},
                                  .file_options = {"--config"}});
-    const arguments::Outcome outcome = app.parse(argc, argv);
-    if (outcome.kind == arguments::Outcome::Kind::told) return outcome.exit_code;
-    if (outcome.kind == arguments::Outcome::Kind::wrong) {
+    const arguments::ParseResult outcome = app.parse(argc, argv);
+    if (outcome.kind == arguments::ParseResult::Kind::told) return outcome.exit_code;
+    if (outcome.kind == arguments::ParseResult::Kind::wrong) {
         fmt::print(stderr, "nanoplc: {} (see nanoplc --help)\n", outcome.error);
         return kWrong;
     }

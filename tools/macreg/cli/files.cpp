@@ -98,8 +98,8 @@ class DumpFile {
     std::FILE* file_ = nullptr;
 };
 
-void give_up(Session& session, DumpFile& out, const char* why, int exit_code, std::size_t done,
-             std::size_t all) {
+void fail_incomplete(Session& session, DumpFile& out, const char* why, int exit_code, std::size_t done,
+                     std::size_t all) {
     if (!session.json()) out.add(incomplete_text(why));
     session.progress("");
     const std::string read =
@@ -133,9 +133,9 @@ void dump(Session& session, const DumpArguments& options) {
         if (as_text) out.add(header_text(motor, session.model_name(), session.common().date));
         options.all ? read_everything(motor, received, goes_on) : read_parameters(motor, received, goes_on);
     } catch (const LineError& error) {
-        give_up(session, out, error.what(), command_line::kNoAnswer, done, all);
+        fail_incomplete(session, out, error.what(), command_line::kNoAnswer, done, all);
     } catch (const Interrupted& error) {
-        give_up(session, out, error.what(), command_line::kInterrupted, done, all);
+        fail_incomplete(session, out, error.what(), command_line::kInterrupted, done, all);
     }
     if (as_text) out.add(end_text(done));
     out.finish();

@@ -130,7 +130,7 @@ class Writer {
         look_for_interruption();
         const std::int64_t value = whole_value(one);
         in_doubt_ = true;
-        const Outcome outcome = change(session_.motor(), *one.reg, value);
+        const ChangeResult outcome = change(session_.motor(), *one.reg, value);
         in_doubt_ = false;
         if (!outcome.taken)
             broke_off(fmt::format("{} was not taken: {}", one.reg->name, outcome.why),

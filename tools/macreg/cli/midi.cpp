@@ -102,7 +102,7 @@ void midi_guard(const MidiCommon& midi, const std::function<void()>& what) {
             throw command_line::Failure(command_line::kRefused, error.what());
         } catch (const midi_client::SameAddress& error) {
             throw command_line::Failure(command_line::kRefused, error.what());
-        } catch (const midi_client::Doubtful& error) {
+        } catch (const midi_client::Unconfirmed& error) {
             throw command_line::Failure(command_line::kNoAnswer, error.what());
         }
     });

@@ -48,7 +48,7 @@ void start_move(MidiSession& session, std::int32_t target) {
     const std::uint32_t data = data_of(midi::reg::GO_TO, target);
     try {
         session.module().order(midi::reg::GO_TO, data);
-    } catch (const midi_client::Doubtful&) {
+    } catch (const midi_client::Unconfirmed&) {
         if (!session.module().moves()) session.module().order(midi::reg::GO_TO, data);
     }
 }
@@ -182,7 +182,7 @@ void stop_all(MidiSession& session, midi::reg::Command command) {
         throw midi_client::Refused(
             "the module that answers for all refuses it; `macreg midi stop --all --emergency` stops "
             "anything");
-    throw midi_client::Doubtful(fmt::format(
+    throw midi_client::Unconfirmed(fmt::format(
         "{}: told to all modules, and no clear answer came for them (address {} would give it, {}): WHETHER "
         "THEY STOPPED IS NOT KNOWN; stop each with --address",
         session.link().name(), is_can ? 1 : 0, is_can ? "003 §V.8" : "000 §IV"));

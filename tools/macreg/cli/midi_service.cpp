@@ -62,7 +62,7 @@ void program_can(MidiSession& session, std::uint8_t address) {
             "several modules answered, so none has the new address: switch all off and on, and leave one on "
             "the bus");
     if (done == Programmed::silence)
-        throw midi_client::Doubtful(fmt::format(
+        throw midi_client::Unconfirmed(fmt::format(
             "{}: the module did not say that it took the address; `macreg midi find` shows which it has",
             session.link().name()));
 }

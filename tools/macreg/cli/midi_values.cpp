@@ -167,7 +167,7 @@ void change(MidiSession& session, const std::vector<Checked>& all) {
     for (const auto& [parameter, value] : all) {
         if (!goes_on())
             throw command_line::Failure(command_line::kInterrupted, "interrupted", {{"written", done}});
-        const midi::Outcome outcome = session.module().change(*parameter, value.raw);
+        const midi::ChangeResult outcome = session.module().change(*parameter, value.raw);
         const midi::Scale scale = session.module().scale();
         const auto shown = [&](std::int64_t raw) { return midi::value_text(*parameter, raw, scale); };
         if (!outcome.taken)

@@ -175,7 +175,7 @@ void look_for_danger(Session& session, const std::vector<Assignment>& all, bool 
     session.ask(text);
 }
 
-std::string line_of(const Assignment& one, Model model, const Outcome& outcome) {
+std::string line_of(const Assignment& one, Model model, const ChangeResult& outcome) {
     return fmt::format("{} = {} (raw {}; was {})", one.reg->name,
                        long_value_text(*one.reg, model, outcome.after), outcome.after,
                        long_value_text(*one.reg, model, outcome.before));
@@ -210,12 +210,12 @@ void set(Session& session, const SetArguments& options) {
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Assignment& one = all[i];
         if (!goes_on()) broke_off("interrupted", command_line::kInterrupted, all, i, false);
-        const Outcome outcome = [&] {
+        const ChangeResult outcome = [&] {
             try {
                 return change(session.motor(), *one.reg, one.raw);
             } catch (const mactalk_client::LineError& error) {
                 broke_off(error.what(), command_line::kNoAnswer, all, i, true);
-            } catch (const Doubtful& error) {
+            } catch (const Unconfirmed& error) {
                 broke_off(error.what(), command_line::kNoAnswer, all, i, true);
             }
         }();

@@ -44,7 +44,7 @@ void with_service(Session& session, const ServiceArguments& options,
                   const std::function<void(Service&)>& what) {
     Service service(session.motor(), goes_on);
     if (options.stop) service.allow_stop();
-    const auto give_up = [&](const std::exception& error, int exit_code) {
+    const auto fail = [&](const std::exception& error, int exit_code) {
         constexpr const char* kOrders[] = {"not sent", "sent, not known to be done", "done"};
         const Trail& trail = service.trail();
         throw command_line::Failure(exit_code, fmt::format("{}; {}", error.what(), service.left_behind()),
@@ -56,13 +56,13 @@ void with_service(Session& session, const ServiceArguments& options,
     try {
         what(service);
     } catch (const mactalk_client::LineError& error) {
-        give_up(error, command_line::kNoAnswer);
+        fail(error, command_line::kNoAnswer);
     } catch (const mactalk_client::Interrupted& error) {
-        give_up(error, command_line::kInterrupted);
+        fail(error, command_line::kInterrupted);
     } catch (const NotDone& error) {
         // Refused before anything was sent: there is nothing to tell.
         if (service.trail().ran_in.empty() && !service.trail().in_safe_mode) throw;
-        give_up(error, command_line::kRefused);
+        fail(error, command_line::kRefused);
     }
 }
 
@@ -138,7 +138,7 @@ void prepare(Session& session, const ServiceArguments& options) {
                     "FastMAC then. All of the motor's memory is saved in flash, and it resets: {}",
                     names_text(bits, motor.model(), before), what_a_start_does(session)));
     with_service(session, options, [&](Service& service) {
-        const Outcome outcome = [&] {
+        const ChangeResult outcome = [&] {
             try {
                 return change(motor, bits, before | kCommunication);
             } catch (const mactalk_client::LineError& error) {

@@ -161,7 +161,7 @@ void guard(Common& common, const std::function<void()>& what) {
     command_line::guard(common, [&] {
         try {
             what();
-        } catch (const Doubtful& error) {
+        } catch (const Unconfirmed& error) {
             throw command_line::Failure(command_line::kNoAnswer, error.what());
         } catch (const WrongUnit& error) {
             throw command_line::Failure(command_line::kNoAnswer, error.what());

@@ -69,12 +69,12 @@ class Session {
     std::unique_ptr<Motor> motor_;
 };
 
-/// A remark for a person: standard error, not with --json.
+/// A remark for a user: standard error, not with --json.
 void remark(const Common& common, const std::string& text);
 /// Asks on the terminal and wants a typed "yes"; without one of them or --yes it throws UserError. `what` is
 /// a sentence that says what will happen.
 void ask(const Common& common, const std::string& what);
-/// A line on standard error that is drawn over, if a person looks on; empty removes it.
+/// A line on standard error that is drawn over, if a user is there to see it; empty removes it.
 void progress(const Common& common, const std::string& text);
 
 /// Does the work of a subcommand with an open session; sets the exit code and tells what went wrong.

@@ -19,7 +19,7 @@ void ui(Common& common) {
         options.model = session.motor().model();
         options.model_name = session.model_name();
     }
-    constexpr unsigned kAttempts = 2;  // a person who waits presses again
+    constexpr unsigned kAttempts = 2;  // a user who waits presses again
     options.line = {
         .baud = common.baud, .patience = base::Milliseconds{common.patience_ms}, .attempts = kAttempts};
     options.title = fmt::format("macreg {} {} at {}", options.model_name, options.address, common.port);

@@ -75,9 +75,9 @@ Readings Module::read_all() {
     return all;
 }
 
-Outcome Module::change(const Parameter& parameter, std::int64_t raw) {
+ChangeResult Module::change(const Parameter& parameter, std::int64_t raw) {
     const std::uint32_t data = data_for(parameter, raw);
-    Outcome outcome;
+    ChangeResult outcome;
     if (!parameter.query) {
         order(*parameter.command, data);
         outcome.taken = true;

@@ -44,11 +44,11 @@ class MactalkMonitor final : public Monitor {
     }
     void pass(base::Instant now) override {
         each([&](FrameCutter& cutter) { cutter.pass(now); });
-        if (pending_ && now - pending_->event.at > options_.longest_answer) give_up();
+        if (pending_ && now - pending_->event.at > options_.longest_answer) tell_no_answer();
     }
     void finish() override {
         each([](FrameCutter& cutter) { cutter.finish(); });
-        give_up();
+        tell_no_answer();
     }
     std::vector<MonitorEvent> take() override { return std::exchange(events_, {}); }
     std::optional<base::Instant> since() const override {
@@ -104,7 +104,7 @@ class MactalkMonitor final : public Monitor {
         std::optional<mactalk::Request> request;
         for (const std::uint8_t byte : frame.bytes) request = decoder.receive(byte);
         if (!request) return tell_flaw(side, frame, "length and data do not fit");
-        give_up();
+        tell_no_answer();
         MonitorEvent event{.at = frame.at};
         event.request = request_words(*request);
         event.address = request->address;
@@ -139,7 +139,7 @@ class MactalkMonitor final : public Monitor {
                           (form != mactalk::Answer::registers || found.reg == pending_->request.reg);
         MonitorEvent event{.at = frame.at};
         if (fits) event = std::move(pending_->event);
-        if (!fits && pending_) give_up();
+        if (!fits && pending_) tell_no_answer();
         event.answer = answer_words(found, form, event.address.value_or(0));
         if (!fits) event.flaw = "an answer to no request that was heard";
         if (side == Side::master)
@@ -153,7 +153,7 @@ class MactalkMonitor final : public Monitor {
         events_.push_back(std::move(event));
     }
 
-    void give_up() {
+    void tell_no_answer() {
         if (!pending_) return;
         pending_->event.answer = "no answer";
         events_.push_back(std::move(pending_->event));

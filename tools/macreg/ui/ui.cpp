@@ -111,30 +111,30 @@ class App {
             wire_.reset();
         } catch (const CannotRecord& error) {
             model_.tell(error.what(), true);
-        } catch (const Doubtful& error) {
+        } catch (const Unconfirmed& error) {
             model_.tell(error.what(), true);
         }
     }
 
-    void carry_out(const Wish& wish) {
-        switch (wish.kind) {
-            case Wish::Kind::none:
+    void carry_out(const Request& request) {
+        switch (request.kind) {
+            case Request::Kind::none:
                 return;
-            case Wish::Kind::quit:
+            case Request::Kind::quit:
                 throw Quit{};
-            case Wish::Kind::read:
-                return try_to([&] { read_one(*wish.reg); });
-            case Wish::Kind::read_all:
+            case Request::Kind::read:
+                return try_to([&] { read_one(*request.reg); });
+            case Request::Kind::read_all:
                 return try_to([&] { model_.store(motor_->read_block(model_.rows())); });
-            case Wish::Kind::write:
-                return try_to([&] { write(*wish.reg, wish.raw); });
-            case Wish::Kind::record:
-                return try_to([&] { record(wish.text); });
-            case Wish::Kind::save:
-            case Wish::Kind::reset:
-            case Wish::Kind::enter_safe:
-            case Wish::Kind::exit_safe:
-                return try_to([&] { serve(wish.kind); });
+            case Request::Kind::write:
+                return try_to([&] { write(*request.reg, request.raw); });
+            case Request::Kind::record:
+                return try_to([&] { record(request.text); });
+            case Request::Kind::save:
+            case Request::Kind::reset:
+            case Request::Kind::enter_safe:
+            case Request::Kind::exit_safe:
+                return try_to([&] { serve(request.kind); });
         }
     }
 
@@ -146,7 +146,7 @@ class App {
     }
 
     void write(const Register& reg, std::int64_t raw) {
-        const Outcome outcome = [&] {
+        const ChangeResult outcome = [&] {
             try {
                 return change(*motor_, reg, raw);
             } catch (const LineError&) {
@@ -166,16 +166,16 @@ class App {
                                 outcome.remark.empty() ? "" : "; ", outcome.remark));
     }
 
-    void serve(Wish::Kind kind) {
+    void serve(Request::Kind kind) {
         model_.tell("under way ...");
         show();
         Service service(*motor_, [] { return Terminal::goes_on(); });
         try {
             std::vector<std::string> changed;
-            if (kind == Wish::Kind::save) changed = service.save();
-            if (kind == Wish::Kind::reset) service.reset();
-            if (kind == Wish::Kind::enter_safe) service.enter_safe();
-            if (kind == Wish::Kind::exit_safe) service.exit_safe();
+            if (kind == Request::Kind::save) changed = service.save();
+            if (kind == Request::Kind::reset) service.reset();
+            if (kind == Request::Kind::enter_safe) service.enter_safe();
+            if (kind == Request::Kind::exit_safe) service.exit_safe();
             model_.store(motor_->read_block(model_.rows()));
             const std::string mode = mode_text(options_.model, *model_.raw_of(registers::MODE_REG));
             if (changed.empty()) return model_.tell(fmt::format("done; the motor is in {}", mode));

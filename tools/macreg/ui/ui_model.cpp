@@ -57,7 +57,7 @@ UiModel::UiModel(registers::Model model) : model_(model) {
     for (const Register& reg : registers::map_of(model)) rows_.push_back(&reg);
 }
 
-Wish UiModel::press(KeyPress key) {
+Request UiModel::press(KeyPress key) {
     if (help_) {
         help_ = key.key == Key::none;  // nobody pressed one
         return {};
@@ -67,7 +67,7 @@ Wish UiModel::press(KeyPress key) {
     return browse(key);
 }
 
-Wish UiModel::browse(KeyPress key) {
+Request UiModel::browse(KeyPress key) {
     const int page = static_cast<int>(page_);
     switch (key.key) {
         case Key::up:
@@ -113,15 +113,15 @@ Wish UiModel::browse(KeyPress key) {
     return {};
 }
 
-Wish UiModel::browse_letter(char letter) {
+Request UiModel::browse_letter(char letter) {
     switch (letter) {
         case 'q':
         case 'Q':
-            return {.kind = Wish::Kind::quit};
+            return {.kind = Request::Kind::quit};
         case 'r':
-            return {.kind = Wish::Kind::read, .reg = &selected()};
+            return {.kind = Request::Kind::read, .reg = &selected()};
         case 'R':
-            return {.kind = Wish::Kind::read_all};
+            return {.kind = Request::Kind::read_all};
         case 'w':
         case 'W':
             ask_write();
@@ -152,14 +152,14 @@ Wish UiModel::browse_letter(char letter) {
             numbers_ = !numbers_;
             break;
         case 'F':
-            ask_service(Wish::Kind::save);
+            ask_service(Request::Kind::save);
             break;
         case 'X':
-            ask_service(Wish::Kind::reset);
+            ask_service(Request::Kind::reset);
             break;
         case 'P':
-            ask_service(raw_of(registers::MODE_REG) == kSafe ? Wish::Kind::exit_safe
-                                                             : Wish::Kind::enter_safe);
+            ask_service(raw_of(registers::MODE_REG) == kSafe ? Request::Kind::exit_safe
+                                                             : Request::Kind::enter_safe);
             break;
         case '?':
         case 'h':
@@ -198,7 +198,7 @@ void UiModel::ask_write() {
 }
 
 /// What acts on the whole motor wants a typed yes, and a motor that stands.
-void UiModel::ask_service(Wish::Kind kind) {
+void UiModel::ask_service(Request::Kind kind) {
     const auto mode = raw_of(registers::MODE_REG);
     if (!mode) return tell("the motor's mode has not been read yet", true);
     const Register& mode_reg = *registers::find(model_, registers::MODE_REG);
@@ -209,15 +209,15 @@ void UiModel::ask_service(Wish::Kind kind) {
     const auto start = raw_of(registers::STARTMODE);
     const std::string starts =
         start ? "starts in " + value_text(mode_reg, model_, *start & 0xFF) : std::string("starts anew");
-    const std::string what = kind == Wish::Kind::save         ? "save all memory to flash; resets, " + starts
-                             : kind == Wish::Kind::reset      ? "reset, unsaved values are lost; " + starts
-                             : kind == Wish::Kind::enter_safe ? "SAFE_MODE: passive, deaf to FastMAC"
-                                                              : "leave SAFE_MODE for INIT_MODE";
+    const std::string what = kind == Request::Kind::save    ? "save all memory to flash; resets, " + starts
+                             : kind == Request::Kind::reset ? "reset, unsaved values are lost; " + starts
+                             : kind == Request::Kind::enter_safe ? "SAFE_MODE: passive, deaf to FastMAC"
+                                                                 : "leave SAFE_MODE for INIT_MODE";
     pending_ = {.kind = kind};
     ask(Prompt::Kind::confirm, what + "; type yes: ");
 }
 
-Wish UiModel::answer_prompt(KeyPress key) {
+Request UiModel::answer_prompt(KeyPress key) {
     const bool searches = prompt_.kind == Prompt::Kind::search;
     switch (key.key) {
         case Key::character:
@@ -246,7 +246,7 @@ Wish UiModel::answer_prompt(KeyPress key) {
     return {};
 }
 
-Wish UiModel::finish_prompt() {
+Request UiModel::finish_prompt() {
     switch (prompt_.kind) {
         case Prompt::Kind::write:
             return finish_write();
@@ -255,7 +255,7 @@ Wish UiModel::finish_prompt() {
         case Prompt::Kind::record:
             last_record_ = prompt_.text;
             prompt_ = {};
-            return {.kind = Wish::Kind::record, .text = last_record_};
+            return {.kind = Request::Kind::record, .text = last_record_};
         case Prompt::Kind::search:
         case Prompt::Kind::none:
             break;
@@ -276,9 +276,9 @@ RawValues UiModel::known_limits() const {
     return known;
 }
 
-Wish UiModel::finish_write() {
+Request UiModel::finish_write() {
     const Register& reg = selected();
-    Wish wish{.kind = Wish::Kind::write, .reg = &reg};
+    Request request{.kind = Request::Kind::write, .reg = &reg};
     if (panel_ == Panel::bits && !fields().empty()) {
         const Field& field = fields()[field_];
         const auto value = field_value(field, prompt_.text);
@@ -290,28 +290,28 @@ Wish UiModel::finish_write() {
         }
         const auto bits = static_cast<std::uint32_t>(raw_of(reg.number).value_or(0));
         const std::uint32_t changed = (bits & ~registers::mask_of(field)) | *value << field.first;
-        wish.raw = model_ == registers::Model::mac800 ? static_cast<std::int32_t>(changed)
-                                                      : registers::value_of(reg.format, changed);
+        request.raw = model_ == registers::Model::mac800 ? static_cast<std::int32_t>(changed)
+                                                         : registers::value_of(reg.format, changed);
     } else {
         const TypedValue typed = typed_value(reg, model_, prompt_.text);
         if (!typed.error.empty()) {
             tell(typed.error, true);
             return {};
         }
-        wish.raw = typed.raw;
+        request.raw = typed.raw;
         if (!typed.rounding.empty()) tell(typed.rounding);
     }
-    if (const std::string problem = no_mode(model_, reg, wish.raw); !problem.empty()) {
+    if (const std::string problem = no_mode(model_, reg, request.raw); !problem.empty()) {
         tell(problem, true);
         return {};
     }
     prompt_ = {};
     const bool overwritten = reg.access == registers::Access::read_only;
-    const std::string limits = limits_danger(known_limits(), {{reg.number, wish.raw}});
-    const std::string harm = limits.empty() ? danger(model_, reg, wish.raw) : limits;
-    if (harm.empty() && !overwritten) return wish;
-    pending_ = wish;
-    const std::string value = value_text(reg, model_, wish.raw);
+    const std::string limits = limits_danger(known_limits(), {{reg.number, request.raw}});
+    const std::string harm = limits.empty() ? danger(model_, reg, request.raw) : limits;
+    if (harm.empty() && !overwritten) return request;
+    pending_ = request;
+    const std::string value = value_text(reg, model_, request.raw);
     if (harm.empty()) {
         ask(Prompt::Kind::confirm,
             fmt::format("{} is read only, the motor overwrites it; type yes: ", reg.name));
@@ -321,13 +321,13 @@ Wish UiModel::finish_write() {
     return {};
 }
 
-Wish UiModel::finish_confirm() {
+Request UiModel::finish_confirm() {
     const bool yes = prompt_.text == "yes";
     prompt_ = {};
-    const Wish wish = std::exchange(pending_, {});
-    if (yes) return wish;
-    tell(wish.kind == Wish::Kind::write ? "not confirmed, nothing was written"
-                                        : "not confirmed, nothing was done");
+    const Request request = std::exchange(pending_, {});
+    if (yes) return request;
+    tell(request.kind == Request::Kind::write ? "not confirmed, nothing was written"
+                                              : "not confirmed, nothing was done");
     return {};
 }
 

@@ -269,7 +269,7 @@ class Screen {
         ::curs_set(prompt.kind == Prompt::Kind::none ? 0 : 1);
         draw_note(prompt.kind == Prompt::Kind::none ? y : y - 1);
         if (prompt.kind != Prompt::Kind::none) {
-            // The end of a long label and text is what a person types at.
+            // The end of a long label and text is where a user types.
             const std::string text = prompt.label + prompt.text;
             const auto width = static_cast<std::size_t>(columns_ - 1);
             const std::string shown = text.size() > width ? text.substr(text.size() - width) : text;

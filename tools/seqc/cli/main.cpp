@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
     add_report(app, exit_code);
     add_verify(app, exit_code);
     try {
-        using Kind = nplc::arguments::Outcome::Kind;
+        using Kind = nplc::arguments::ParseResult::Kind;
         const auto outcome = app.parse(argc, argv);
         if (outcome.kind == Kind::told) return outcome.exit_code;
         if (outcome.kind == Kind::wrong)

@@ -50,9 +50,9 @@ template <class Options>
 DeviceCommandLine<Options> parse_devices(arguments::App& app, int argc, const char* const* argv,
                                          const Options& options, const std::function<void()>& check) {
     try {
-        const arguments::Outcome outcome = app.parse(argc, argv);
-        if (outcome.kind == arguments::Outcome::Kind::told) return {};
-        if (outcome.kind == arguments::Outcome::Kind::wrong)
+        const arguments::ParseResult outcome = app.parse(argc, argv);
+        if (outcome.kind == arguments::ParseResult::Kind::told) return {};
+        if (outcome.kind == arguments::ParseResult::Kind::wrong)
             return {std::nullopt, outcome.error + " (see " + app.get_name() + " --help)"};
         check();
     } catch (const std::invalid_argument& error) {

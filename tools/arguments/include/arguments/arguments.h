@@ -51,7 +51,7 @@ struct OptionText {
     bool has_value = false;  ///< false for a flag
 };
 
-struct Outcome {
+struct ParseResult {
     enum class Kind : std::uint8_t {
         done,   ///< understood, and the callbacks were called
         told,   ///< help or version has been printed
@@ -95,7 +95,7 @@ class App {
     void footer(const std::string& text);
 
     /// Prints help or version when asked to. What a callback throws comes through.
-    Outcome parse(int argc, const char* const* argv);
+    ParseResult parse(int argc, const char* const* argv);
     bool got_subcommand(const std::string& name) const;
 
     std::string get_name() const;

@@ -30,7 +30,7 @@ using Json = nlohmann::ordered_json;
 inline constexpr std::array<std::uint32_t, 11> kSpeeds{19'200, 9'600, 38'400,  57'600,  115'200, 4'800,
                                                        2'400,  1'200, 230'400, 460'800, 921'600};
 
-/// One line for a person and the program's exit code. `details` go into the document of --json. Who throws
+/// One line for a user and the program's exit code. `details` go into the document of --json. Who throws
 /// one with details, or tells something, includes <nlohmann/json.hpp>.
 class Failure : public std::runtime_error {
   public:
@@ -100,7 +100,7 @@ std::unique_ptr<host::ByteClient> open_port(
 /// Does the work of a subcommand; sets the exit code and tells what went wrong.
 void guard(Common& common, const std::function<void()>& what);
 
-/// A line for a person, or the same as a JSON document on one line, with "ok".
+/// A line for a user, or the same as a JSON document on one line, with "ok".
 void tell(const Common& common, const std::string& text, const Json& document);
 
 /// Until SIGINT or SIGTERM came. A second one ends the program at once.

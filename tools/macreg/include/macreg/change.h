@@ -11,7 +11,7 @@
 /// One register's change, read back, and why it was not taken if it was not.
 namespace nplc::macreg {
 
-struct Outcome {
+struct ChangeResult {
     std::int64_t before = 0;
     std::int64_t after = 0;
     bool taken = true;
@@ -22,7 +22,7 @@ struct Outcome {
 /// Writes `raw` with the register's exact width and reads it back. A new address (MYADDR) is read back under
 /// itself. A write that a gateway does not let through is an outcome too; a motor that does not answer is a
 /// LineError.
-Outcome change(Motor& motor, const registers::Register& reg, std::int64_t raw);
+ChangeResult change(Motor& motor, const registers::Register& reg, std::int64_t raw);
 
 /// Why this value is no mode that `change` may give MODE_REG or STARTMODE, with what to do instead; empty: it
 /// is one. 256 to 258 would act on a motor in SAFE_MODE, on its flash (001 §4.4.16).

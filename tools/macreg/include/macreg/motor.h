@@ -44,7 +44,7 @@ class WrongUnit : public std::runtime_error {
 };
 
 /// A write that got no accept and was not repeated, since twice is not once: it may have been carried out.
-class Doubtful : public std::runtime_error {
+class Unconfirmed : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
@@ -85,7 +85,7 @@ class Motor {
     Snapshot read_block(std::uint8_t first);
 
     /// Of the register's exact width, so that no other changes. Out of its format's range: std::out_of_range.
-    /// What may be written twice is repeated until accepted; else Doubtful.
+    /// What may be written twice is repeated until accepted; else Unconfirmed.
     void write(const Register& reg, std::int64_t value);
     /// Once, for registers where writing twice is not writing once. False: no accept came.
     bool try_write(const Register& reg, std::int64_t value);

@@ -93,7 +93,7 @@ class Service {
     Trail trail_;
 };
 
-/// MODE_REG's name, for a person.
+/// MODE_REG's name, for a user.
 std::string mode_text(registers::Model model, std::int64_t mode);
 
 }  // namespace nplc::macreg

@@ -30,7 +30,7 @@ std::string range_text(const registers::Register& reg, registers::Model model);
 /// The same, but of MODE_REG only the modes: what else it takes is no value to choose.
 std::string choice_text(const registers::Register& reg, registers::Model model);
 
-/// What a person typed for a register. `error` is a whole sentence, empty if all is well.
+/// What a user typed for a register. `error` is a whole sentence, empty if all is well.
 struct TypedValue {
     std::int64_t raw = 0;
     std::string error{};

@@ -61,7 +61,7 @@ class Link {
     virtual void pause(base::Microseconds time) = 0;
     virtual base::Instant now() = 0;
 
-    /// The last request and what came back, as a person writes it: "02 30 31 .. 03", "601#2313200000000320".
+    /// The last request and what came back, as a user writes it: "02 30 31 .. 03", "601#2313200000000320".
     virtual std::string last_sent() const = 0;
     virtual std::string last_heard() const = 0;
     /// The module has said that it started anew, since this was asked last. Only on CAN (003 §V.2).

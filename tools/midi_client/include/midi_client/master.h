@@ -25,7 +25,7 @@ class Refused : public std::runtime_error {
 };
 
 /// Whether the module carried a command out is not known.
-class Doubtful : public std::runtime_error {
+class Unconfirmed : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
@@ -52,7 +52,7 @@ class Master {
     /// SameAddress.
     std::uint32_t expect_alone(std::uint8_t address);
 
-    /// Throws Refused, Doubtful.
+    /// Throws Refused, Unconfirmed.
     void command(std::uint8_t address, registers::midi::Command command, std::uint32_t data = 0);
     /// The last answer; never `not_taken` unless that was said `attempts` times.
     Answer try_command(std::uint8_t address, registers::midi::Command command, std::uint32_t data = 0);

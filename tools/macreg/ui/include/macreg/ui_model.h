@@ -45,7 +45,7 @@ struct KeyPress {
 };
 
 /// What a key asks of the line.
-struct Wish {
+struct Request {
     enum class Kind : std::uint8_t {
         none,
         read,
@@ -74,7 +74,7 @@ class UiModel {
   public:
     explicit UiModel(registers::Model model);
 
-    Wish press(KeyPress key);
+    Request press(KeyPress key);
 
     // What came from the line.
     void store(const Snapshot& values);
@@ -122,18 +122,18 @@ class UiModel {
     void set_page(std::size_t rows) { page_ = std::max<std::size_t>(1, rows); }
 
   private:
-    Wish browse(KeyPress key);
-    Wish browse_letter(char letter);
-    Wish answer_prompt(KeyPress key);
-    Wish finish_prompt();
+    Request browse(KeyPress key);
+    Request browse_letter(char letter);
+    Request answer_prompt(KeyPress key);
+    Request finish_prompt();
     RawValues known_limits() const;
-    Wish finish_write();
-    Wish finish_confirm();
+    Request finish_write();
+    Request finish_confirm();
     void move(int steps);
     void search(bool next);
     void ask(Prompt::Kind kind, std::string label, std::string text = {});
     void ask_write();
-    void ask_service(Wish::Kind kind);
+    void ask_service(Request::Kind kind);
 
     registers::Model model_;
     std::vector<const registers::Register*> rows_;
@@ -152,7 +152,7 @@ class UiModel {
     std::size_t row_before_search_ = 0;
     std::string last_search_;
     std::string last_record_ = "P_IST,V_IST slow";
-    Wish pending_;  ///< waits for a yes
+    Request pending_;  ///< waits for a yes
     std::string note_;
     bool bad_ = false;
     std::string trouble_;

@@ -21,7 +21,7 @@ struct Readings {
     bool busy() const { return (measures & reg::kNotBusy) == 0; }
 };
 
-struct Outcome {
+struct ChangeResult {
     std::optional<std::int64_t> before{}, after{};  ///< nothing where it cannot be read
     bool taken = false;
     std::string why{};  ///< a sentence if not
@@ -45,7 +45,7 @@ class Module {
 
     /// Writes and reads back; what is not certain to have been taken is written again. A parameter that
     /// cannot be read is written once.
-    Outcome change(const Parameter& parameter, std::int64_t raw);
+    ChangeResult change(const Parameter& parameter, std::int64_t raw);
 
     /// Two looks at its position, or BUSY.
     bool moves();
