@@ -5,7 +5,7 @@
 #include <regex>
 
 #include "cli_support.h"
-#include "codes/catalog.h"
+#include "diagnostics/explanations.h"
 
 namespace nplc::seqc {
 namespace {
@@ -32,9 +32,9 @@ TEST_F(Explain, ACodeInAnyCase) {
 TEST_F(Explain, WithoutACodeAllAreListed) {
     ASSERT_EQ(run("explain"), 0);
     const std::string list = read("out");
-    const std::vector<CodeInfo> all = catalog();
+    const std::vector<Explanation> all = explanations();
     EXPECT_EQ(std::count(list.begin(), list.end(), '\n'), std::ssize(all));
-    for (const CodeInfo& info : all)
+    for (const Explanation& info : all)
         EXPECT_NE(list.find(std::string(info.code) + "  " + std::string(info.title) + "\n"),
                   std::string::npos);
 }
@@ -53,7 +53,7 @@ TEST_F(Explain, AsJson) {
     ASSERT_EQ(run("explain --json W004"), 0);
     EXPECT_EQ(Json::parse(read("out"))["code"], "W004");
     ASSERT_EQ(run("explain --json"), 0);
-    EXPECT_EQ(Json::parse(read("out"))["codes"].size(), catalog().size());
+    EXPECT_EQ(Json::parse(read("out"))["codes"].size(), explanations().size());
     EXPECT_EQ(run("explain --json E777"), 2);
     EXPECT_TRUE(Json::parse(read("out")).contains("error"));
     EXPECT_EQ(read("err"), "");

@@ -8,7 +8,7 @@
 
 #include "case_file.h"
 #include "cli_support.h"
-#include "codes/catalog.h"
+#include "diagnostics/explanations.h"
 
 namespace nplc::seqc {
 namespace {
@@ -70,7 +70,7 @@ TEST_F(Golden, EveryCodeHasAProgramAndEveryProgramItsOwnName) {
         EXPECT_TRUE(names.insert(one.name).second) << one.name;
         with_program.insert(code_of(one));
     }
-    for (const CodeInfo& info : catalog()) {
+    for (const Explanation& info : explanations()) {
         const bool has_program = with_program.contains(std::string(info.code));
         EXPECT_EQ(has_program, info.code != "E099") << info.code;
     }

@@ -49,7 +49,7 @@ void check_fewest_terms(const Plan& plan, Span span, Report& report) {
     std::size_t written = 0;
     for (const StepPlan& step : plan.steps) written += step.terms.size();
     if (fewest == written || fewest < kTermsEverywhere) return;
-    report.error(
+    report.add(
         "E086", span,
         fmt::format("at least {} terms: a gateway need not hold more than {}", fewest + 1, kTermsEverywhere),
         "simplify conditions or join steps");
@@ -65,17 +65,23 @@ void check_length(std::size_t in_steps, const Plan& plan, Span span, Report& rep
     const std::string message =
         fmt::format("{} terms: a gateway need not hold more than {}", count, kTermsEverywhere);
     if (written == in_steps) {
-        report.warning("W010", span, message, "make sure that yours does");
+        report.add("W010", span, message, "make sure that yours does");
     } else {
-        report.error("E086", span, message, "simplify conditions or join steps");
+        report.add("E086", span, message, "simplify conditions or join steps");
     }
 }
 
-/// After a syntax error whole statements are missing, so only what names and values say is worth reporting.
+/// Worth reporting although whole statements are missing after a syntax error.
+bool stands_without_the_rest(const Diagnostic& d) {
+    const Phase phase = find_code(d.code)->phase;
+    return d.severity == Severity::error &&
+           (phase == Phase::names || phase == Phase::motor || phase == Phase::commands);
+}
+
 void merge(Report& report, Report& checks, bool all) {
     if (checks.has_more()) report.note_more();
     for (Diagnostic& d : checks.take()) {
-        if (all || (d.code >= "E020" && d.code <= "E059")) report.add(std::move(d));
+        if (all || stands_without_the_rest(d)) report.add(std::move(d));
     }
 }
 
@@ -85,8 +91,8 @@ Compilation compile(std::string_view source) {
     Compilation result;
     Report report;
     if (source.size() > kLongestSource) {
-        report.error("E001", {}, "the file is larger than 16 MiB: this is no program",
-                     "name the program's text, a .seq file");
+        report.add("E001", {}, "the file is larger than 16 MiB: this is no program",
+                   "name the program's text, a .seq file");
         result.diagnostics = report.take();
         return result;
     }

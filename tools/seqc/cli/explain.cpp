@@ -11,7 +11,7 @@
 #include "cli/common.h"
 #include "cli/json.h"
 #include "cli/subcommands.h"
-#include "codes/catalog.h"
+#include "diagnostics/explanations.h"
 #include "syntax/names.h"
 
 namespace nplc::seqc::cli {
@@ -39,17 +39,17 @@ std::string example(std::string_view title, std::string_view shade, std::string_
     return fmt::format("\n{}\n{}", painted(stdout, shade, title), indented(shown_program(program)));
 }
 
-std::string page(const CodeInfo& info) {
+std::string page(const Explanation& info) {
     return fmt::format("{}: {}\n\n{}\n", painted(stdout, info.code[0] == 'E' ? "1;31" : "1;33", info.code),
-                       painted(stdout, "1", info.title), info.explanation) +
+                       painted(stdout, "1", info.title), info.text) +
            example("Wrong:", "1;31", info.wrong) + example("Right:", "1;32", info.right);
 }
 
-Json page_object(const CodeInfo& info) {
+Json page_object(const Explanation& info) {
     Json object;
     object["code"] = info.code;
     object["title"] = info.title;
-    object["explanation"] = info.explanation;
+    object["explanation"] = info.text;
     object["wrong"] = whole_program(info.wrong);
     object["right"] = whole_program(info.right);
     return object;
@@ -63,20 +63,20 @@ int number_of(std::string_view code) {
 }
 
 /// "E010, E011 and E012" for E015; nothing for what looks like no code at all.
-std::string nearest_codes(std::string_view wanted, std::vector<CodeInfo> all) {
+std::string nearest_codes(std::string_view wanted, std::vector<Explanation> all) {
     const int number = number_of(wanted);
     const std::string letter = upper(wanted.substr(0, 1));
     if (number < 0) return {};
-    std::erase_if(all, [&](const CodeInfo& info) {
+    std::erase_if(all, [&](const Explanation& info) {
         return (letter == "E" || letter == "W") && !info.code.starts_with(letter);
     });
-    std::stable_sort(all.begin(), all.end(), [&](const CodeInfo& a, const CodeInfo& b) {
+    std::stable_sort(all.begin(), all.end(), [&](const Explanation& a, const Explanation& b) {
         return std::abs(number_of(a.code) - number) < std::abs(number_of(b.code) - number);
     });
     return fmt::format("; near it are {}, {} and {}", all[0].code, all[1].code, all[2].code);
 }
 
-int unknown(const ExplainArguments& options, const std::vector<CodeInfo>& all) {
+int unknown(const ExplainArguments& options, const std::vector<Explanation>& all) {
     const std::string problem = fmt::format("there is no code '{}'{} (seqc explain lists all)",
                                             options.code.substr(0, 40), nearest_codes(options.code, all));
     if (!options.json) return file_problem(problem);
@@ -85,24 +85,24 @@ int unknown(const ExplainArguments& options, const std::vector<CodeInfo>& all) {
     return print_json(document, kUsageOrFile);
 }
 
-int list(const std::vector<CodeInfo>& all, bool json) {
+int list(const std::vector<Explanation>& all, bool json) {
     if (json) {
         Json document;
         document["codes"] = Json::array();
-        for (const CodeInfo& info : all) document["codes"].push_back(page_object(info));
+        for (const Explanation& info : all) document["codes"].push_back(page_object(info));
         return print_json(document, kOk);
     }
     std::string text;
-    for (const CodeInfo& info : all)
+    for (const Explanation& info : all)
         text += fmt::format("{}  {}\n", painted(stdout, "1", info.code), info.title);
     return print_or_write(text, {});
 }
 
 int explain(const ExplainArguments& options) {
-    const std::vector<CodeInfo> all = catalog();
+    const std::vector<Explanation> all = explanations();
     if (options.code.empty()) return list(all, options.json);
-    const auto found = std::find_if(all.begin(), all.end(),
-                                    [&](const CodeInfo& info) { return same_name(info.code, options.code); });
+    const auto found = std::find_if(
+        all.begin(), all.end(), [&](const Explanation& info) { return same_name(info.code, options.code); });
     if (found == all.end()) return unknown(options, all);
     return options.json ? print_json(page_object(*found), kOk) : print_or_write(page(*found), {});
 }

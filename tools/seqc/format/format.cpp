@@ -79,7 +79,7 @@ Formatted format_program(std::string_view source) {
     Formatted result;
     Report report;
     if (source.size() > kLongestSource) {
-        report.error("E001", {}, "the file is larger than 16 MiB: this is no program");
+        report.add("E001", {}, "the file is larger than 16 MiB: this is no program");
         result.diagnostics = report.take();
         return result;
     }
@@ -95,7 +95,7 @@ Formatted format_program(std::string_view source) {
     }
     std::string text = layout::lay_out(source, parser.take_tokens(), std::move(comments));
     if (text.size() > kLongestSource) {
-        report.error("E001", {}, "the formatted program would be larger than 16 MiB");
+        report.add("E001", {}, "the formatted program would be larger than 16 MiB");
         result.diagnostics = report.take();
         return result;
     }

@@ -26,8 +26,8 @@ int rank(Group group, Mode mode) {
 
 void conflict(Report& report, Span span, const char* what, Span entry) {
     report
-        .error("E061", span, fmt::format("{} twice in the same scan", what),
-               "only the last would count: keep one, here or in the ENTRY")
+        .add("E061", span, fmt::format("{} twice in the same scan", what),
+             "only the last would count: keep one, here or in the ENTRY")
         .notes.push_back({entry, "the ENTRY of the step that is entered does it too"});
 }
 
@@ -89,23 +89,23 @@ bool ActionBuilder::once(bool already, const Statement& statement, const char* w
         return true;
     }
     scope_.report()
-        .error("E061", statement.span, fmt::format("{} twice in the same branch", what),
-               "only the last would count: keep one")
+        .add("E061", statement.span, fmt::format("{} twice in the same branch", what),
+             "only the last would count: keep one")
         .notes.push_back({place, "the first one is here"});
     return false;
 }
 
 void ActionBuilder::add_next(const Statement& statement) {
     if (statement.every_scan) {
-        scope_.report().error("E064", statement.every_scan_span, "EVERY_SCAN does not go with NEXT",
-                              "leave it out");
+        scope_.report().add("E064", statement.every_scan_span, "EVERY_SCAN does not go with NEXT",
+                            "leave it out");
     }
     const bool to_power_up = same_name(statement.name.text, "POWER_UP");
     if (const ast::Step* zero = scope_.step_numbered(0); to_power_up && zero != nullptr) {
         scope_.report()
-            .error("E096", statement.name.span,
-                   fmt::format("there is no POWER_UP: '{}' is what power-up starts in", zero->name.text),
-                   fmt::format("write NEXT := {};", zero->name.text))
+            .add("E096", statement.name.span,
+                 fmt::format("there is no POWER_UP: '{}' is what power-up starts in", zero->name.text),
+                 fmt::format("write NEXT := {};", zero->name.text))
             .notes.push_back({zero->name.span, "it has the number 0"});
     }
     const auto number = to_power_up ? std::optional<std::uint8_t>(0) : scope_.step(statement.name);
@@ -132,11 +132,11 @@ void ActionBuilder::add_send(const Send& send) {
     if (action_.sends.size() + 1 < kTermsEverywhere) {
         action_.sends.push_back(send);
     } else if (!scope_.report().has("E086")) {
-        scope_.report().error("E086", send.span,
-                              fmt::format("more than {} commands and values in one scan: a gateway need not "
-                                          "hold more than {} terms",
-                                          kTermsEverywhere - 1, kTermsEverywhere),
-                              "send less, or spread it over several steps");
+        scope_.report().add("E086", send.span,
+                            fmt::format("more than {} commands and values in one scan: a gateway need not "
+                                        "hold more than {} terms",
+                                        kTermsEverywhere - 1, kTermsEverywhere),
+                            "send less, or spread it over several steps");
     }
 }
 
@@ -155,19 +155,19 @@ void ActionBuilder::add_command(const Statement& statement) {
                 "motor commands are INIT(..), VELOCITY(..), POSITION(..), STOP, HOME, RESET_ERROR and "
                 "others; "
                 "`seqc explain E021` lists them";
-        scope_.report().error("E021", statement.name.span,
-                              fmt::format("there is no command '{}'", statement.name.text), help);
+        scope_.report().add("E021", statement.name.span,
+                            fmt::format("there is no command '{}'", statement.name.text), help);
         return;
     }
     if (!command->refusal.empty()) {
-        scope_.report().error("E051", statement.span, fmt::format("a sequence cannot send {}", command->name),
-                              std::string(command->refusal));
+        scope_.report().add("E051", statement.span, fmt::format("a sequence cannot send {}", command->name),
+                            std::string(command->refusal));
         return;
     }
     if (statement.has_arguments) {
-        scope_.report().error("E050", statement.span,
-                              fmt::format("{} takes nothing in parentheses", command->name),
-                              fmt::format("write {};", command->name));
+        scope_.report().add("E050", statement.span,
+                            fmt::format("{} takes nothing in parentheses", command->name),
+                            fmt::format("write {};", command->name));
         return;
     }
     add_send(statement, protocol::fastmac::command_byte(command->number));
@@ -177,8 +177,8 @@ void ActionBuilder::add_use_set(const Statement& statement) {
     const bool sound = statement.arguments.size() == 1 && statement.arguments[0].text.size() == 1 &&
                        statement.arguments[0].text[0] >= '1' && statement.arguments[0].text[0] <= '4';
     if (!sound) {
-        scope_.report().error("E050", statement.span, "USE_SET takes the number of a register set, 1..4",
-                              "write USE_SET(1);");
+        scope_.report().add("E050", statement.span, "USE_SET takes the number of a register set, 1..4",
+                            "write USE_SET(1);");
         return;
     }
     add_send(statement,
@@ -188,9 +188,9 @@ void ActionBuilder::add_use_set(const Statement& statement) {
 
 void ActionBuilder::add_selections(const Statement& statement, Mode mode) {
     if (statement.arguments.empty()) {
-        scope_.report().error("E050", statement.span,
-                              fmt::format("{} needs the registers to select", upper(statement.name.text)),
-                              fmt::format("name at least one, as in {}(V1)", upper(statement.name.text)));
+        scope_.report().add("E050", statement.span,
+                            fmt::format("{} needs the registers to select", upper(statement.name.text)),
+                            fmt::format("name at least one, as in {}(V1)", upper(statement.name.text)));
         return;
     }
     std::vector<Selection> selections;
@@ -200,7 +200,7 @@ void ActionBuilder::add_selections(const Statement& statement, Mode mode) {
         if (reg == nullptr) continue;
         const auto selection = selection_of(reg->number);
         if (!selection) {
-            Diagnostic& d = scope_.report().error(
+            Diagnostic& d = scope_.report().add(
                 "E050", argument.span, fmt::format("{} cannot be selected", argument.text),
                 "registers to select are P1..P8, V1..V8, A1..A4, T1..T4, L1..L4 and Z1..Z4");
             scope_.note_declaration(d, argument.text);
@@ -210,8 +210,8 @@ void ActionBuilder::add_selections(const Statement& statement, Mode mode) {
                                           [&](const Selection& s) { return s.group == selection->group; });
         if (earlier != selections.end()) {
             scope_.report()
-                .error("E050", argument.span, "two registers of the same kind cannot be selected at once",
-                       "keep one of them")
+                .add("E050", argument.span, "two registers of the same kind cannot be selected at once",
+                     "keep one of them")
                 .notes.push_back({places[static_cast<std::size_t>(earlier - selections.begin())],
                                   "the first one is here"});
             continue;
@@ -229,26 +229,25 @@ std::optional<std::uint16_t> ActionBuilder::milliseconds(const ast::Value& value
     double ms = value.number;
     const bool seconds = same_name(value.unit.text, "s");
     if (!value.is_time && !seconds && !same_name(value.unit.text, "ms")) {
-        scope_.report().error("E043", value.span, "the timer needs a time", "write it as T#500ms");
+        scope_.report().add("E043", value.span, "the timer needs a time", "write it as T#500ms");
         return std::nullopt;
     }
     if (seconds) ms *= 1000;
     const double rounded = std::round(ms);
     if (!(rounded >= 0 && rounded <= kLongest)) {
-        scope_.report().error("E062", value.span, "the timer holds at most T#65s535ms",
-                              "for longer times let the counter count repetitions of a shorter one");
+        scope_.report().add("E062", value.span, "the timer holds at most T#65s535ms",
+                            "for longer times let the counter count repetitions of a shorter one");
         return std::nullopt;
     }
     if (rounded == 0) {
-        scope_.report().warning("W007", value.span, "the timer cannot be set to 0: it becomes 1 ms",
-                                "write T#1ms");
+        scope_.report().add("W007", value.span, "the timer cannot be set to 0: it becomes 1 ms",
+                            "write T#1ms");
         return std::uint16_t{1};
     }
     if (std::fabs(rounded - ms) > 0.01 * ms) {
-        scope_.report().warning(
-            "W002", value.span,
-            fmt::format("the timer counts whole milliseconds: this becomes {} ms", rounded),
-            fmt::format("write T#{}ms if that will do", rounded));
+        scope_.report().add("W002", value.span,
+                            fmt::format("the timer counts whole milliseconds: this becomes {} ms", rounded),
+                            fmt::format("write T#{}ms if that will do", rounded));
     }
     return static_cast<std::uint16_t>(rounded);
 }
@@ -263,8 +262,8 @@ void ActionBuilder::add_counter(const Statement& statement) {
     const ast::Value& value = statement.value;
     const bool plain = value.unit.text.empty() && !value.is_time && std::floor(value.number) == value.number;
     if (!plain || !(value.number >= 0 && value.number <= kLongest)) {
-        scope_.report().error("E063", value.span, "the counter holds whole numbers 0..65535",
-                              "for more, count in tens or hundreds");
+        scope_.report().add("E063", value.span, "the counter holds whole numbers 0..65535",
+                            "for more, count in tens or hundreds");
         return;
     }
     if (!once(uses_counter(action_), statement, "the counter is changed", action_.counter_span)) return;

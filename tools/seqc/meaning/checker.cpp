@@ -51,8 +51,8 @@ class Checker {
     Plan run() {
         const bool raw_only = program_.steps.empty() && !program_.power_up;
         if (raw_only && program_.terms.empty()) {
-            report_.error("E084", program_.name.span, "the program has no steps",
-                          "write STEP Name: ... END_STEP");
+            report_.add("E084", program_.name.span, "the program has no steps",
+                        "write STEP Name: ... END_STEP");
             return {};
         }
         build_entries();
@@ -82,11 +82,11 @@ class Checker {
             Action& entry = entries_[scope_.number_of(i)];
             entry = builder.build(scope_.steps()[i]->entry);
             if (const auto marked = builder.marked()) {
-                report_.warning("W006", *marked, "ENTRY happens once by itself", "leave EVERY_SCAN out");
+                report_.add("W006", *marked, "ENTRY happens once by itself", "leave EVERY_SCAN out");
             }
             if (entry.next) {
-                report_.error("E064", entry.span, "ENTRY cannot hold NEXT",
-                              "name the step where the sequence really goes");
+                report_.add("E064", entry.span, "ENTRY cannot hold NEXT",
+                            "name the step where the sequence really goes");
                 entry.next.reset();
             }
         }
@@ -98,9 +98,9 @@ class Checker {
         const ast::Step* step = fault_ ? scope_.step_numbered(*fault_) : nullptr;
         if (step == nullptr || step->own_error) return;
         report_
-            .error("E081", step->name.span,
-                   fmt::format("'{}' is the fault step, so it must deal with ERROR itself", step->name.text),
-                   "write OWN ERROR; in it")
+            .add("E081", step->name.span,
+                 fmt::format("'{}' is the fault step, so it must deal with ERROR itself", step->name.text),
+                 "write OWN ERROR; in it")
             .notes.push_back({program_.on_error->span, "it is made the fault step here"});
     }
 
@@ -133,11 +133,11 @@ class Checker {
             if (!written.choices.empty())
                 action = builder.build(written.choices.front().branches.front().statements);
             if (const auto marked = builder.marked()) {
-                report_.warning("W006", *marked, "POWER_UP happens once by itself", "leave EVERY_SCAN out");
+                report_.add("W006", *marked, "POWER_UP happens once by itself", "leave EVERY_SCAN out");
             }
             if (!action.next || *action.next == kPowerUp) {
-                report_.error("E085", written.name.span, "POWER_UP does not say which step comes first",
-                              "end it with NEXT := Name;");
+                report_.add("E085", written.name.span, "POWER_UP does not say which step comes first",
+                            "end it with NEXT := Name;");
                 return plan;
             }
         } else {
@@ -153,7 +153,7 @@ class Checker {
 
     void refuse_in_power_up(const ast::Step& written) {
         const auto refuse = [&](Span span, const char* what) {
-            report_.error(
+            report_.add(
                 "E064", span, fmt::format("{} cannot stand in POWER_UP", what),
                 "POWER_UP happens once: commands, register values and NEXT; put the rest into a step");
         };
@@ -171,9 +171,9 @@ class Checker {
     void refuse_power_up_beside(const ast::Step& zero) {
         const auto refuse = [&](Span span, const char* what) {
             report_
-                .error("E096", span, fmt::format("{} cannot stand beside a step with the number 0", what),
-                       fmt::format("'{}' is what power-up starts in: send it from there, or leave its AT out",
-                                   zero.name.text))
+                .add("E096", span, fmt::format("{} cannot stand beside a step with the number 0", what),
+                     fmt::format("'{}' is what power-up starts in: send it from there, or leave its AT out",
+                                 zero.name.text))
                 .notes.push_back({zero.name.span, "it has the number 0"});
         };
         if (program_.power_up) refuse(program_.power_up->name.span, "POWER_UP");
@@ -195,16 +195,16 @@ class Checker {
             if (fault_) {
                 plan.rules.push_back(fault_rule({}));
             } else if (!program_.on_error) {
-                report_.error("E080", written.name.span,
-                              fmt::format("'{}' does not say what happens on ERROR", plan.name),
-                              "write ON ERROR NEXT := Fault; at the top, or OWN ERROR; in the step");
+                report_.add("E080", written.name.span,
+                            fmt::format("'{}' does not say what happens on ERROR", plan.name),
+                            "write ON ERROR NEXT := Fault; at the top, or OWN ERROR; in the step");
             }
         }
         for (const ast::RawTerm& term : written.terms) {
             plan.terms.push_back(raw_term(term, number));
             const int step = sequencer::step_of(plan.terms.back().bytes);
             if (step == number) continue;
-            Diagnostic& d = report_.error(
+            Diagnostic& d = report_.add(
                 "E092", term.span,
                 fmt::format("this term is for step {}, and '{}' is step {}", step, plan.name, number),
                 term.symbols ? "leave its name out, or write the TERM outside of the step"
@@ -234,8 +234,8 @@ class Checker {
                 output.outputs |= static_cast<std::uint8_t>(1U << *bit);
                 if ((plan.outputs >> *bit) & 1) {
                     report_
-                        .warning("W008", name.span, fmt::format("'{}' is on in this step anyway", name.text),
-                                 "take it out of one of the two OUT")
+                        .add("W008", name.span, fmt::format("'{}' is on in this step anyway", name.text),
+                             "take it out of one of the two OUT")
                         .notes.push_back({places.at(*bit), "switched on here"});
                 }
             }
@@ -273,14 +273,14 @@ class Checker {
     /// Notes which branches take its cases, each case once.
     void warn_never(const ast::Branch& branch, const Truth& own, const std::vector<Rule>& up_to_it) {
         if (own.none()) {
-            report_.warning("W001", place_of(branch), "this branch is never taken",
-                            "its condition contradicts itself: mend it, or take the branch out");
+            report_.add("W001", place_of(branch), "this branch is never taken",
+                        "its condition contradicts itself: mend it, or take the branch out");
             return;
         }
         const bool is_dropped = report_.full();
-        Diagnostic& d = report_.warning("W001", place_of(branch), "this branch is never taken",
-                                        "the branches before it take every case: put it before them, or "
-                                        "take it out");
+        Diagnostic& d = report_.add("W001", place_of(branch), "this branch is never taken",
+                                    "the branches before it take every case: put it before them, or "
+                                    "take it out");
         Truth left = own;
         for (std::size_t i = 0; left.any() && !is_dropped; ++i) {
             if ((up_to_it[i].when & left).none()) continue;
@@ -297,15 +297,15 @@ class Checker {
         if (leaves) {
             if (const auto marked = builder.marked()) {
                 report_
-                    .warning("W006", *marked, "the branch leaves the step, so this happens once anyway",
-                             "leave EVERY_SCAN out")
+                    .add("W006", *marked, "the branch leaves the step, so this happens once anyway",
+                         "leave EVERY_SCAN out")
                     .notes.push_back({action.next_span, "it leaves the step here"});
             }
             return action;
         }
         const bool repeats_entry = action.next && !entries_[number].is_empty();
         if (builder.unmarked()) {
-            Diagnostic& d = report_.error(
+            Diagnostic& d = report_.add(
                 "E060", *builder.unmarked(),
                 action.next ? "the branch stays in its step, so this would happen again in every scan"
                             : "without NEXT this would happen again in every scan",
@@ -315,10 +315,10 @@ class Checker {
                 d.notes.push_back({entries_[number].span, "the step's ENTRY would be repeated too"});
         } else if (repeats_entry) {
             report_
-                .error("E060", action.next_span,
-                       "this would enter the same step in every scan, and its ENTRY would happen again each "
-                       "time",
-                       "to stay in the step leave NEXT out, or go on to another one")
+                .add("E060", action.next_span,
+                     "this would enter the same step in every scan, and its ENTRY would happen again each "
+                     "time",
+                     "to stay in the step leave NEXT out, or go on to another one")
                 .notes.push_back({entries_[number].span, "the ENTRY is here"});
         }
         return action;
@@ -327,8 +327,8 @@ class Checker {
     void check_error_covered(const ast::Branch& branch, const Rule& rule, const StepPlan& plan) {
         if (plan.own_error || !program_.on_error || (rule.when & error_cases()).none()) return;
         report_
-            .error("E082", place_of(branch), fmt::format("ON ERROR covers '{}' already", plan.name),
-                   "write OWN ERROR; in the step, and deal with ERROR in it")
+            .add("E082", place_of(branch), fmt::format("ON ERROR covers '{}' already", plan.name),
+                 "write OWN ERROR; in the step, and deal with ERROR in it")
             .notes.push_back({program_.on_error->span, "ON ERROR is here"});
     }
 
@@ -358,10 +358,10 @@ class Checker {
             const Truth both = earlier.when & rule.when;
             if (earlier.choice == choice || earlier.rule == number || both.none()) continue;
             report_
-                .error("E070", branch.condition ? rule.condition : rule.action.span,
-                       fmt::format("this and an earlier IF can hold together: {}",
-                                   example_of(both, earlier.when, rule.when, symbols_)),
-                       "join them with ELSIF, or make the conditions exclude each other")
+                .add("E070", branch.condition ? rule.condition : rule.action.span,
+                     fmt::format("this and an earlier IF can hold together: {}",
+                                 example_of(both, earlier.when, rule.when, symbols_)),
+                     "join them with ELSIF, or make the conditions exclude each other")
                 .notes.push_back({earlier.condition, "the earlier one is here, and does something else"});
         }
     }
@@ -389,8 +389,8 @@ class Checker {
             }
             if (i + 1 == plan.terms.size()) continue;
             report_
-                .error("E091", plan.terms[i + 1].span, "no term may follow the one that ends the table",
-                       "let the TERM with STATE 63 be the last, or take it out: the compiler ends the table")
+                .add("E091", plan.terms[i + 1].span, "no term may follow the one that ends the table",
+                     "let the TERM with STATE 63 be the last, or take it out: the compiler ends the table")
                 .notes.push_back({raw.span, "the table ends here"});
             return;
         }
@@ -399,11 +399,11 @@ class Checker {
     void check_raw_term(const RawTerm& raw) {
         const sequencer::Term term = sequencer::decode(raw.bytes);
         if (!term.is_flex && term.fast.next_step == sequencer::kEndOfTable) {
-            report_.warning("W009", raw.span, "NEXT_STATE is 63: a gateway refuses a table with this term",
-                            "write 16#3E as the fourth byte if the step is to stay");
+            report_.add("W009", raw.span, "NEXT_STATE is 63: a gateway refuses a table with this term",
+                        "write 16#3E as the fourth byte if the step is to stay");
         } else if (term.is_flex && term.flex.reg == 0) {
-            report_.warning("W009", raw.span, "register 0: a gateway refuses a table with this term",
-                            "bits 6..0 of the fourth byte name the register, 1..127");
+            report_.add("W009", raw.span, "register 0: a gateway refuses a table with this term",
+                        "bits 6..0 of the fourth byte name the register, 1..127");
         } else if (const auto* drive = symbols_.drive) {
             warn_if_not_for_drive(raw.span, term, *drive);
         }
@@ -412,9 +412,9 @@ class Checker {
     void warn_if_not_for_drive(Span span, const sequencer::Term& term, const registers::DriveModel& drive) {
         const registers::Refusal why = refusal_of(drive, term);
         if (why.empty()) return;
-        report_.warning("W009", span,
-                        fmt::format("a gateway with a {} refuses a table with this term", drive.program_name),
-                        std::string(why));
+        report_.add("W009", span,
+                    fmt::format("a gateway with a {} refuses a table with this term", drive.program_name),
+                    std::string(why));
     }
 
     using StepSet = std::bitset<sequencer::kEndOfTable + 1U>;
@@ -447,8 +447,8 @@ class Checker {
         }
         for (const StepPlan& step : plan.steps) {
             if (reached.test(step.number)) continue;
-            report_.warning("W005", step.span, fmt::format("no step leads to '{}'", step.name),
-                            "name it in a NEXT, or take it out");
+            report_.add("W005", step.span, fmt::format("no step leads to '{}'", step.name),
+                        "name it in a NEXT, or take it out");
         }
     }
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "diagnostics/report.h"
 #include "meaning/model.h"
 #include "meaning/scope.h"
 #include "syntax/ast.h"
-#include "syntax/report.h"
 
 namespace nplc::seqc {
 

@@ -200,11 +200,11 @@ class DriveWalk {
             !waited_.insert(send.span.offset).second)
             return;
         report_
-            .warning("W015", send.span,
-                     fmt::format("this waits until the motor stands: in motion a {} takes no {}",
-                                 drive_.program_name,
-                                 std::string_view(what).substr(std::string_view(what).find(' ') + 1)),
-                     "wait for INPOS before, or STOP first; leave it if waiting is what you want")
+            .add("W015", send.span,
+                 fmt::format("this waits until the motor stands: in motion a {} takes no {}",
+                             drive_.program_name,
+                             std::string_view(what).substr(std::string_view(what).find(' ') + 1)),
+                 "wait for INPOS before, or STOP first; leave it if waiting is what you want")
             .notes.push_back({state.motion, "it may still move since this"});
     }
 
@@ -227,9 +227,9 @@ class DriveWalk {
         const std::string message =
             fmt::format("a {} cannot reach {}", drive_.program_name, impossible.front());
         if (always)
-            report_.error("E044", send.span, message, std::string(why));
+            report_.add("E044", send.span, message, std::string(why));
         else
-            report_.warning("W016", send.span, message + ", if they meet here", std::string(why));
+            report_.add("W016", send.span, message + ", if they meet here", std::string(why));
     }
 
     /// Too small a difference to warn of.

@@ -79,7 +79,7 @@ class UnsetRegisters {
         if (given_.contains(number)) return;
         const std::string name(registers::find(registers::Model::mac140, number)->name);
         const bool is_place = group == Group::p;
-        report_.warning(
+        report_.add(
             "W017", send.span,
             is_place ? fmt::format("{} is never given a value: with a {} it is the place 0", name,
                                    drive_.program_name)

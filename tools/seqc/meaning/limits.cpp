@@ -68,7 +68,7 @@ void check_invisible_limits(const Plan& plan, registers::Model model, Report& re
     bool waits = false;
     const Rule* wait = endless_wait(plan, waits);
     if (waits && wait == nullptr) return;
-    Diagnostic& d = report.warning(
+    Diagnostic& d = report.add(
         "W013", send->span, fmt::format("{}, and this does not show in ERROR", limit_of(*send->reg, model)),
         "a sequence sees only that INPOS does not come: give each wait a time limit (ELSIF TIMER.Q THEN "
         "NEXT := Fault;), or wire limit switches to inputs");

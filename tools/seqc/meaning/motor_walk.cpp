@@ -146,7 +146,7 @@ class MotorWalk {
 
     void warn_homing_wait(const MotorState& state, const Rule& rule) {
         if (!is_news(rule.condition)) return;
-        Diagnostic& d = report_.warning(
+        Diagnostic& d = report_.add(
             "W012", rule.condition,
             "this may wait for ever: INPOS stays 0 while the motor homes, and then depends on " + start_mode_,
             fmt::format(
@@ -165,11 +165,10 @@ class MotorWalk {
     }
 
     /// One word for each place in the source: an ENTRY is copied into many branches.
-    Diagnostic* complain(const char* code, const Send& send, const Rule& rule, std::string message,
+    Diagnostic* complain(Code code, const Send& send, const Rule& rule, std::string message,
                          std::string help) {
         if (!is_news(send.span)) return nullptr;
-        Diagnostic& d = code[0] == 'W' ? report_.warning(code, send.span, std::move(message), std::move(help))
-                                       : report_.error(code, send.span, std::move(message), std::move(help));
+        Diagnostic& d = report_.add(code, send.span, std::move(message), std::move(help));
         const bool elsewhere = rule.action.span.offset > send.span.offset ||
                                rule.action.span.offset + rule.action.span.length < send.span.offset;
         if (elsewhere) d.notes.push_back({rule.action.span, "when the step is entered from here"});

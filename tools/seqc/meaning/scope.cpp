@@ -75,8 +75,8 @@ void Scope::declare_motor(const ast::Program& program) {
     }
     const auto names = motor_names();
     std::string help = suggestion(program.motor->text, {names.begin(), names.end()});
-    report_.error("E030", program.motor->span, fmt::format("there is no motor '{}'", program.motor->text),
-                  help.empty() ? motor_names_text() : help);
+    report_.add("E030", program.motor->span, fmt::format("there is no motor '{}'", program.motor->text),
+                help.empty() ? motor_names_text() : help);
 }
 
 void Scope::declare_scale(const ast::Program& program) {
@@ -84,8 +84,8 @@ void Scope::declare_scale(const ast::Program& program) {
     const ast::Scale& scale = *program.scale;
     for (std::string_view taken : {"rev", "rpm", "counts", "count", "samples", "s", "ms"}) {
         if (!same_name(scale.unit.text, taken)) continue;
-        report_.error("E032", scale.unit.span, fmt::format("'{}' is a unit already", scale.unit.text),
-                      "SCALE names a unit of your machine, such as mm or deg");
+        report_.add("E032", scale.unit.span, fmt::format("'{}' is a unit already", scale.unit.text),
+                    "SCALE names a unit of your machine, such as mm or deg");
         return;
     }
     scale_span_ = scale.span;
@@ -99,8 +99,8 @@ void Scope::declare_steps(const ast::Program& program) {
         const auto [earlier, is_new] = step_places_.try_emplace(upper(step.name.text), steps_.size());
         if (!is_new) {
             report_
-                .error("E020", step.name.span, fmt::format("step '{}' stands twice", step.name.text),
-                       "give one of them another name")
+                .add("E020", step.name.span, fmt::format("step '{}' stands twice", step.name.text),
+                     "give one of them another name")
                 .notes.push_back({steps_[earlier->second]->name.span, "the first one is here"});
             continue;
         }
@@ -112,7 +112,7 @@ void Scope::declare_steps(const ast::Program& program) {
 bool Scope::is_new_name(const ast::Name& name) {
     const std::string_view text = name.text;
     if (address_number(text, 'I') || address_number(text, 'Q') || registers::find(model_, text) != nullptr) {
-        report_.error(
+        report_.add(
             "E011", name.span,
             fmt::format("'{}' has a meaning already: {}", text,
                         registers::find(model_, text) ? "it is a register of the motor" : "it is an address"),
@@ -125,8 +125,8 @@ bool Scope::is_new_name(const ast::Name& name) {
         if (earlier == nullptr) continue;
         const bool later = earlier->span.offset < name.span.offset;
         report_
-            .error("E020", later ? name.span : earlier->span, fmt::format("'{}' is declared twice", text),
-                   "choose another name")
+            .add("E020", later ? name.span : earlier->span, fmt::format("'{}' is declared twice", text),
+                 "choose another name")
             .notes.push_back({later ? earlier->span : name.span, "the first declaration is here"});
         return false;
     }
@@ -138,10 +138,10 @@ void Scope::declare_io(const std::vector<ast::Variable>& declared, std::vector<V
     for (const ast::Variable& variable : declared) {
         const auto number = address_number(variable.address.text, direction);
         if (!number || *number >= count) {
-            report_.error("E022", variable.address.span,
-                          fmt::format("'{}' is not an {}", variable.address.text,
-                                      direction == 'I' ? "input" : "output"),
-                          fmt::format("there are {}", addresses(direction, count)));
+            report_.add("E022", variable.address.span,
+                        fmt::format("'{}' is not an {}", variable.address.text,
+                                    direction == 'I' ? "input" : "output"),
+                        fmt::format("there are {}", addresses(direction, count)));
             faulty_.insert(upper(variable.name.text));
             continue;
         }
@@ -149,9 +149,9 @@ void Scope::declare_io(const std::vector<ast::Variable>& declared, std::vector<V
                                           [&](const Variable& v) { return v.bit == *number; });
         if (earlier != variables.end()) {
             report_
-                .error("E022", variable.address.span,
-                       fmt::format("'{}' has a name already", variable.address.text),
-                       fmt::format("use '{}'", earlier->name))
+                .add("E022", variable.address.span,
+                     fmt::format("'{}' has a name already", variable.address.text),
+                     fmt::format("use '{}'", earlier->name))
                 .notes.push_back({earlier->span, "declared here"});
             faulty_.insert(upper(variable.name.text));
         } else if (is_new_name(variable.name)) {
@@ -171,8 +171,8 @@ void Scope::declare_motor_variables(const ast::Program& program) {
                                           [&](const Variable& v) { return v.reg == target; });
         if (earlier != motor_variables_.end()) {
             report_
-                .error("E022", variable.name.span, fmt::format("{} has a name already", shown),
-                       fmt::format("use '{}', or another register", earlier->name))
+                .add("E022", variable.name.span, fmt::format("{} has a name already", shown),
+                     fmt::format("use '{}', or another register", earlier->name))
                 .notes.push_back({earlier->span, "declared here"});
             faulty_.insert(upper(variable.name.text));
             continue;
@@ -208,7 +208,7 @@ std::optional<std::uint8_t> Scope::step(const ast::Name& name) {
     std::string help = suggestion(name.text, names);
     if (help.empty())
         help = fmt::format("write STEP {}: ... END_STEP, or name one of the steps there are", name.text);
-    report_.error("E021", name.span, fmt::format("there is no step '{}'", name.text), help);
+    report_.add("E021", name.span, fmt::format("there is no step '{}'", name.text), help);
     return std::nullopt;
 }
 
@@ -231,9 +231,9 @@ std::optional<std::size_t> Scope::signal(const ast::Name& name, const std::vecto
     if (number && *number < count) return number;
     const bool input = direction == 'I';
     if (number) {
-        report_.error("E022", name.span,
-                      fmt::format("there is no {} '{}'", input ? "input" : "output", name.text),
-                      fmt::format("there are {}", addresses(direction, count)));
+        report_.add("E022", name.span,
+                    fmt::format("there is no {} '{}'", input ? "input" : "output", name.text),
+                    fmt::format("there are {}", addresses(direction, count)));
         return std::nullopt;
     }
     if (is_faulty(name.text)) return std::nullopt;
@@ -246,14 +246,14 @@ std::optional<std::size_t> Scope::signal(const ast::Name& name, const std::vecto
     std::string help = suggestion(name.text, names);
     if (help.empty()) help = how_to_declare(name.text, variables, direction, count);
     if (other) {
-        Diagnostic& d = report_.error(
+        Diagnostic& d = report_.add(
             "E023", name.span, fmt::format("'{}' is an {}", name.text, input ? "output" : "input"),
             input ? "a condition can test inputs, INPOS, ERROR, TIMER.Q and COUNTER.Q" : "OUT takes outputs");
         const Variable* declared = find(input ? outputs_ : inputs_, name.text);
         if (declared != nullptr) d.notes.push_back({declared->span, "declared here"});
     } else {
-        report_.error("E021", name.span,
-                      fmt::format("there is no {} '{}'", input ? "input" : "output", name.text), help);
+        report_.add("E021", name.span,
+                    fmt::format("there is no {} '{}'", input ? "input" : "output", name.text), help);
     }
     return std::nullopt;
 }

@@ -7,11 +7,11 @@
 #include <unordered_set>
 #include <vector>
 
+#include "diagnostics/report.h"
 #include "meaning/model.h"
 #include "meaning/units.h"
 #include "seqc/seqc.h"
 #include "syntax/ast.h"
-#include "syntax/report.h"
 
 namespace nplc::seqc {
 

@@ -57,7 +57,7 @@ bool Scope::is_for_drive(const Send& send) {
 }
 
 void Scope::report_refusal(const Send& send, std::string message) {
-    report_.error("E044", send.span, std::move(message), std::string(refusal_of(*drive_, send)))
+    report_.add("E044", send.span, std::move(message), std::string(refusal_of(*drive_, send)))
         .notes.push_back({motor_span_, "the drive is chosen here"});
 }
 
@@ -86,8 +86,8 @@ void Scope::note_drive_value(const ast::Value& value, const Register& reg, std::
     result_.roundings.push_back({value.span, what});
     if (std::fabs(error) <= kWorthAWarning) return;
     Diagnostic& d =
-        report_.warning("W002", value.span, fmt::format("the drive is too coarse for this value: {}", what),
-                        "write what it will be, or live with the difference");
+        report_.add("W002", value.span, fmt::format("the drive is too coarse for this value: {}", what),
+                    "write what it will be, or live with the difference");
     note_value(d, value, shown_name);
 }
 
@@ -119,12 +119,12 @@ std::string Scope::unit_help(const Register& reg, std::string_view unit) const {
 void Scope::require_motor(Span span) {
     if (motor_known_) return;
     motor_known_ = true;
-    report_.error("E031", span, "which motor is this register's?", "name it at the top: MOTOR MAC140;");
+    report_.add("E031", span, "which motor is this register's?", "name it at the top: MOTOR MAC140;");
 }
 
 bool Scope::is_reachable(const Register* reg, Span span, std::string_view shown) {
     if (reg->number <= kLastReachable) return true;
-    report_.error(
+    report_.add(
         "E041", span,
         fmt::format("{} is register {}, and a table reaches 1..{}", shown, reg->number, kLastReachable),
         "set it with a register tool and save it in the motor");
@@ -150,9 +150,9 @@ void Scope::report_no_register(const ast::Name& name) {
     for (registers::Model other : {registers::Model::mac140, registers::Model::mac800}) {
         if (registers::find(other, name.text) == nullptr || !motor_known_) continue;
         report_
-            .error("E040", name.span, message,
-                   fmt::format("it is one of {}; REG(number) writes a register by its number",
-                               registers::name_of(other)))
+            .add("E040", name.span, message,
+                 fmt::format("it is one of {}; REG(number) writes a register by its number",
+                             registers::name_of(other)))
             .notes.push_back({motor_span_, "the motor is chosen here"});
         return;
     }
@@ -163,7 +163,7 @@ void Scope::report_no_register(const ast::Name& name) {
                            ? "there are P1..P8, V1..V8, A1..A4, T1..T4, L1..L4 and Z1..Z4"
                            : suggestion(name.text, names);
     if (help.empty()) help = "declare it under VAR_MOTOR, or use the manual's name or REG(number)";
-    report_.error("E040", name.span, message, help);
+    report_.add("E040", name.span, message, help);
 }
 
 const Register* Scope::reg(const ast::Value& number) {
@@ -171,18 +171,18 @@ const Register* Scope::reg(const ast::Value& number) {
     const bool whole =
         number.unit.text.empty() && !number.is_time && std::floor(number.number) == number.number;
     if (!whole || number.number < 1 || number.number > kLastReachable) {
-        report_.error("E041", number.span, fmt::format("a table reaches registers 1..{}", kLastReachable),
-                      "set others with a register tool and save them in the motor");
+        report_.add("E041", number.span, fmt::format("a table reaches registers 1..{}", kLastReachable),
+                    "set others with a register tool and save them in the motor");
         return nullptr;
     }
     const auto wanted = static_cast<std::uint8_t>(number.number);
     if (const Register* found = registers::find(model_, wanted)) return found;
     const Register* before = registers::find(model_, static_cast<std::uint8_t>(wanted - 1));
     const bool second_word = before != nullptr && registers::is_32_bit(before->format);
-    report_.error("E040", number.span, fmt::format("{} has no register {}", motor_name(), wanted),
-                  second_word
-                      ? fmt::format("it is the upper half of {}: write REG({})", before->name, before->number)
-                      : "the register map is in the motor's manual");
+    report_.add("E040", number.span, fmt::format("{} has no register {}", motor_name(), wanted),
+                second_word
+                    ? fmt::format("it is the upper half of {}: write REG({})", before->name, before->number)
+                    : "the register map is in the motor's manual");
     return nullptr;
 }
 
@@ -195,8 +195,8 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& value, const Registe
     auto per_unit = raw_per_unit(reg, model_, length_, unit);
     if (!per_unit) {
         Diagnostic& d =
-            report_.error("E043", value.unit.text.empty() ? value.span : value.unit.span,
-                          fmt::format("{} cannot be given in '{}'", shown_name, unit), unit_help(reg, unit));
+            report_.add("E043", value.unit.text.empty() ? value.span : value.unit.span,
+                        fmt::format("{} cannot be given in '{}'", shown_name, unit), unit_help(reg, unit));
         note_declaration(d, shown_name);
         return std::nullopt;
     }
@@ -209,7 +209,7 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& value, const Registe
     if (!(raw >= static_cast<double>(reg.min) && raw <= static_cast<double>(reg.max))) {
         const std::string_view shown = value.is_raw ? std::string_view() : unit;
         const double one = value.is_raw ? 1 : *per_unit;
-        Diagnostic& d = report_.error(
+        Diagnostic& d = report_.add(
             "E042", value.span, fmt::format("{} does not fit {}", text(value.span), shown_name),
             fmt::format("it takes {} .. {}{}{}", limit_text(static_cast<double>(reg.min) / one),
                         limit_text(static_cast<double>(reg.max) / one), shown.empty() ? "" : " ", shown));
@@ -217,9 +217,9 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& value, const Registe
         return std::nullopt;
     }
     if (reg.dangerous) {
-        report_.warning("W003", value.span,
-                        fmt::format("a wrong value in {} can damage the motor ({})", shown_name, reg.section),
-                        "leave it alone unless its maker told you the value");
+        report_.add("W003", value.span,
+                    fmt::format("a wrong value in {} can damage the motor ({})", shown_name, reg.section),
+                    "leave it alone unless its maker told you the value");
     }
     const auto all_bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(raw));
     const std::uint32_t bits = registers::is_32_bit(reg.format) ? all_bits : all_bits & 0xFFFFU;
@@ -245,7 +245,7 @@ bool Scope::note_rounding(const ast::Value& value, std::string_view shown_name, 
     const std::string step =
         fmt::format("one step of {} is {:.4g}{}{}", shown_name, 1 / per_unit, unit.empty() ? "" : " ", unit);
     if (raw == 0) {
-        Diagnostic& d = report_.error(
+        Diagnostic& d = report_.add(
             "E042", value.span,
             fmt::format("{} is too small for {}: it would become 0", text(value.span), shown_name),
             step + "; write at least that, or 0 if you mean 0");
@@ -254,9 +254,9 @@ bool Scope::note_rounding(const ast::Value& value, std::string_view shown_name, 
     }
     result_.roundings.push_back({value.span, what});
     if (std::fabs(error) > kWorthAWarning) {
-        Diagnostic& d = report_.warning("W002", value.span,
-                                        fmt::format("the register is too coarse for this value: {}", what),
-                                        step + "; write a multiple of it, or live with the difference");
+        Diagnostic& d = report_.add("W002", value.span,
+                                    fmt::format("the register is too coarse for this value: {}", what),
+                                    step + "; write a multiple of it, or live with the difference");
         note_value(d, value, shown_name);
     }
     return true;

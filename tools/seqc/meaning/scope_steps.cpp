@@ -26,8 +26,8 @@ std::optional<std::uint8_t> Scope::written_number(const ast::Step& step) {
     const bool plain = value.unit.text.empty() && !value.is_time && std::floor(value.number) == value.number;
     if (plain && value.number >= 0 && value.number <= kLastNamed)
         return static_cast<std::uint8_t>(value.number);
-    Diagnostic& d = report_.error("E095", value.span, fmt::format("steps have the numbers 0..{}", kLastNamed),
-                                  "leave AT out if the number does not matter");
+    Diagnostic& d = report_.add("E095", value.span, fmt::format("steps have the numbers 0..{}", kLastNamed),
+                                "leave AT out if the number does not matter");
     if (plain && value.number == sequencer::kLastStep)
         d.notes.push_back({value.span, "62 in a NEXT means no switch, so this step could never be entered"});
     if (plain && value.number == sequencer::kEndOfTable) d.notes.push_back({value.span, "63 ends the table"});
@@ -43,9 +43,9 @@ void Scope::number_steps() {
         if (!number) continue;
         if (owners[*number] != nullptr) {
             report_
-                .error("E095", steps_[i]->number->span,
-                       fmt::format("'{}' has the number {} already", owners[*number]->name.text, *number),
-                       "choose another number, or leave AT out")
+                .add("E095", steps_[i]->number->span,
+                     fmt::format("'{}' has the number {} already", owners[*number]->name.text, *number),
+                     "choose another number, or leave AT out")
                 .notes.push_back({owners[*number]->number->span, "it is given here"});
             continue;
         }
@@ -61,10 +61,10 @@ void Scope::number_steps() {
             numbers_[i] = next++;
         } else if (!too_many) {
             too_many = true;
-            report_.error("E083", steps_[i]->name.span,
-                          fmt::format("a table holds at most {} named steps",
-                                      kLastNamed + (owners[0] != nullptr ? 1 : 0)),
-                          "join steps, or use the counter for repetitions");
+            report_.add("E083", steps_[i]->name.span,
+                        fmt::format("a table holds at most {} named steps",
+                                    kLastNamed + (owners[0] != nullptr ? 1 : 0)),
+                        "join steps, or use the counter for repetitions");
         }
     }
     for (std::size_t i = 0; i < steps_.size(); ++i) {

@@ -30,8 +30,8 @@ class TermEncoder {
     std::uint8_t step_number(std::optional<std::uint8_t> inside) {
         if (written_.step.text.empty()) {
             if (!inside) {
-                scope_.report().error("E094", span_, "which step is this TERM for?",
-                                      "write TERM Name: IF ..., or put it into its step");
+                scope_.report().add("E094", span_, "which step is this TERM for?",
+                                    "write TERM Name: IF ..., or put it into its step");
             }
             return inside.value_or(0);
         }
@@ -39,7 +39,7 @@ class TermEncoder {
     }
 
     void no_product(const Expression& part, const char* message, const char* help) {
-        scope_.report().error("E093", part.span, message, help);
+        scope_.report().add("E093", part.span, message, help);
     }
 
     void add_condition(const Expression& part) {
@@ -103,8 +103,8 @@ class TermEncoder {
         ActionBuilder builder(scope_);
         const Action action = builder.build({statement});
         if (const auto marked = builder.marked()) {
-            scope_.report().error("E064", *marked, "EVERY_SCAN does not go with TERM",
-                                  "leave it out: a TERM acts in every scan in which it holds");
+            scope_.report().add("E064", *marked, "EVERY_SCAN does not go with TERM",
+                                "leave it out: a TERM acts in every scan in which it holds");
         }
         sequencer::FastStatement& fast = term_.fast;
         if (action.next && once(next_, statement, "NEXT is set")) fast.next_step = *action.next;
@@ -122,7 +122,7 @@ class TermEncoder {
             return true;
         }
         scope_.report()
-            .error("E061", statement.span, fmt::format("{} twice in the same TERM", what), "keep one")
+            .add("E061", statement.span, fmt::format("{} twice in the same TERM", what), "keep one")
             .notes.push_back({first->span, "the other one is here"});
         return false;
     }
@@ -130,8 +130,8 @@ class TermEncoder {
     void add_send(const Send& send) {
         if (send_) {
             scope_.report()
-                .error("E094", send.span, "a single term sends one command or writes one register",
-                       "write a TERM with the same condition for each")
+                .add("E094", send.span, "a single term sends one command or writes one register",
+                     "write a TERM with the same condition for each")
                 .notes.push_back({send_->span, "it sends this"});
             return;
         }
@@ -144,8 +144,8 @@ class TermEncoder {
     void add_preset(const Statement& statement, bool counter, std::uint16_t value) {
         if (preset_ != nullptr && counter != term_.fast.presets_counter) {
             scope_.report()
-                .error("E094", statement.span, "a single term presets the timer or the counter, not both",
-                       "write a TERM with the same condition for each")
+                .add("E094", statement.span, "a single term presets the timer or the counter, not both",
+                     "write a TERM with the same condition for each")
                 .notes.push_back({preset_->span, "the other preset is here"});
             return;
         }
@@ -165,8 +165,8 @@ class TermEncoder {
         if (other_ != nullptr || !written_.outputs.empty()) {
             const Span span = other_ != nullptr ? other_->span : written_.outputs.front().span;
             scope_.report()
-                .error("E094", span, "a term that writes a register can hold nothing else",
-                       "write a TERM with the same condition for each")
+                .add("E094", span, "a term that writes a register can hold nothing else",
+                     "write a TERM with the same condition for each")
                 .notes.push_back({send_->span, "it writes a register"});
         }
         term_.is_flex = true;

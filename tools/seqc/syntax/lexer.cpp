@@ -34,9 +34,9 @@ class Lexer {
         if (source_.starts_with("\xEF\xBB\xBF")) at_ = 3;
         while (skip_blanks_and_comments(), at_ < source_.size()) {
             if (tokens_.size() == kMostTokens) {
-                report_.error("E001", {static_cast<std::uint32_t>(at_), 1},
-                              fmt::format("more than {} words and signs: this is no program", kMostTokens),
-                              "name the program's text, a .seq file");
+                report_.add("E001", {static_cast<std::uint32_t>(at_), 1},
+                            fmt::format("more than {} words and signs: this is no program", kMostTokens),
+                            "name the program's text, a .seq file");
                 tokens_.clear();
                 break;
             }
@@ -84,8 +84,8 @@ class Lexer {
     void skip_block_comment() {
         const std::size_t end = source_.find("*)", at_ + 2);
         if (end == std::string_view::npos) {
-            report_.error("E002", {static_cast<std::uint32_t>(at_), 2}, "this comment is never closed",
-                          "close it with *)");
+            report_.add("E002", {static_cast<std::uint32_t>(at_), 2}, "this comment is never closed",
+                        "close it with *)");
             at_ = source_.size();
         } else {
             at_ = end + 2;
@@ -147,9 +147,9 @@ class Lexer {
         for (const auto& [sign, word] : kOperators) {
             if (peek() != sign) continue;
             while (peek() == sign && at_ < start + 2) ++at_;
-            report_.error("E001", span_from(start),
-                          fmt::format("'{}' means nothing here", source_.substr(start, at_ - start)),
-                          fmt::format("write {}", word));
+            report_.add("E001", span_from(start),
+                        fmt::format("'{}' means nothing here", source_.substr(start, at_ - start)),
+                        fmt::format("write {}", word));
             tokens_.push_back({TokenKind::identifier, word, span_from(start)});
             return true;
         }
@@ -164,10 +164,10 @@ class Lexer {
         }
         const std::string_view text = source_.substr(start, at_ - start);
         const bool shown = text.size() <= 4 && text.find_first_not_of("\"'!#$&*<>?@[]\\^`{|}~%") == text.npos;
-        report_.error("E001", span_from(start),
-                      shown ? fmt::format("'{}' means nothing here", text)
-                            : "these characters mean nothing in a program",
-                      "names are letters, digits and _; comments are // ... or (* ... *)");
+        report_.add("E001", span_from(start),
+                    shown ? fmt::format("'{}' means nothing here", text)
+                          : "these characters mean nothing in a program",
+                    "names are letters, digits and _; comments are // ... or (* ... *)");
     }
 
     std::string_view source_;

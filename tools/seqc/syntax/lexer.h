@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "syntax/report.h"
+#include "diagnostics/report.h"
 #include "syntax/token.h"
 
 namespace nplc::seqc {

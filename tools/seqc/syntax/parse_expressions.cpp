@@ -54,8 +54,8 @@ bool Parser::parse_primary(Expression& result) {
     if (before_operand) mend({"NOT"}, "a condition");
     const Token first = token();
     if (depth_ == kDeepest && (at("NOT") || at_symbol("("))) {
-        report_.error("E013", first.span, "this condition is nested too deeply",
-                      "split it with ELSIF or more steps");
+        report_.add("E013", first.span, "this condition is nested too deeply",
+                    "split it with ELSIF or more steps");
         return false;
     }
     if (take("NOT")) {
@@ -103,9 +103,9 @@ bool Parser::parse_named_primary(Expression& result) {
         result.kind = at("TIMER") ? Kind::timer_q : Kind::counter_q;
         ++at_;
         if (take_symbol(".") && take("Q")) return true;
-        report_.error("E014", tokens_[at_ - 1].span,
-                      "only TIMER.Q and COUNTER.Q can be tested: they are true at zero",
-                      "write TIMER.Q or COUNTER.Q");
+        report_.add("E014", tokens_[at_ - 1].span,
+                    "only TIMER.Q and COUNTER.Q can be tested: they are true at zero",
+                    "write TIMER.Q or COUNTER.Q");
         return false;
     }
     if (token().kind == TokenKind::direct) {

@@ -121,13 +121,13 @@ void Parser::parse_branch_body(ast::Branch& branch, Span opened) {
         if (at("IF")) {
             ast::Choice inner;
             report_
-                .error("E064", token().span, "an IF cannot stand inside another",
-                       "join the two conditions with AND, or use ELSIF")
+                .add("E064", token().span, "an IF cannot stand inside another",
+                     "join the two conditions with AND, or use ELSIF")
                 .notes.push_back({opened, "the outer IF begins here"});
             parse_if(inner);
         } else if (at("OUT")) {
-            report_.error("E064", token().span, "OUT cannot stand inside an IF",
-                          "outputs belong to the step: write OUT Name WHEN condition; beside the IF");
+            report_.add("E064", token().span, "OUT cannot stand inside an IF",
+                        "outputs belong to the step: write OUT Name WHEN condition; beside the IF");
             recover();
         } else {
             Statement statement;
@@ -234,19 +234,19 @@ bool Parser::parse_value(ast::Value& value) {
         return false;
     }
     ++at_;
-    const char* code = literal.kind == TokenKind::time ? "E004" : "E003";
+    const Code code = literal.kind == TokenKind::time ? Code("E004") : Code("E003");
     bool sound = false;
     if (literal.kind == TokenKind::number) sound = to_number(literal.text, value.number);
     if (literal.kind == TokenKind::based) sound = to_based(literal.text, value.number);
     if (literal.kind == TokenKind::time) sound = parse_time(literal.text, value.number);
     if (!sound || (negative && literal.kind != TokenKind::number)) {
-        report_.error(code, literal.span, fmt::format("'{}' is not a value", literal.text.substr(0, 60)),
-                      literal.kind == TokenKind::time ? "write times as T#500ms or T#1s500ms"
-                      : literal.kind == TokenKind::based
-                          ? "write 16#C0, 8#300 or 2#1100_0000, up to 32 bits, no sign"
-                      : literal.text.find('.') < literal.text.find('_')
-                          ? "write 1_000.5: underscores stand before the point"
-                          : "no register takes a number of this size");
+        report_.add(code, literal.span, fmt::format("'{}' is not a value", literal.text.substr(0, 60)),
+                    literal.kind == TokenKind::time ? "write times as T#500ms or T#1s500ms"
+                    : literal.kind == TokenKind::based
+                        ? "write 16#C0, 8#300 or 2#1100_0000, up to 32 bits, no sign"
+                    : literal.text.find('.') < literal.text.find('_')
+                        ? "write 1_000.5: underscores stand before the point"
+                        : "no register takes a number of this size");
         return false;
     }
     value.is_raw = literal.kind == TokenKind::based;
@@ -288,7 +288,7 @@ bool Parser::parse_raw_term(std::vector<ast::RawTerm>& terms) {
                              std::floor(value.number) == value.number && value.unit.text.empty() &&
                              !value.is_time;
         if (!is_byte) {
-            report_.error("E090", value.span, "this is not a byte", "write 0..255 or 16#00..16#FF");
+            report_.add("E090", value.span, "this is not a byte", "write 0..255 or 16#00..16#FF");
             sound = false;
             continue;
         }
@@ -296,8 +296,8 @@ bool Parser::parse_raw_term(std::vector<ast::RawTerm>& terms) {
     } while (take_symbol(","));
     term.span = span_since(first);
     if (sound && term.bytes.size() != 8) {
-        report_.error("E090", term.span, fmt::format("a term has 8 bytes, here are {}", term.bytes.size()),
-                      "write all eight: STATE, INPUT, CARE, NEXT_STATE and four bytes more (001 §6.1)");
+        report_.add("E090", term.span, fmt::format("a term has 8 bytes, here are {}", term.bytes.size()),
+                    "write all eight: STATE, INPUT, CARE, NEXT_STATE and four bytes more (001 §6.1)");
         sound = false;
     }
     if (sound) terms.push_back(std::move(term));

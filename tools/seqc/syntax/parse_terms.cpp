@@ -24,8 +24,8 @@ bool Parser::parse_symbolic_term(const Token& first, std::vector<ast::RawTerm>& 
     if (!take("THEN")) error_here("THEN after the condition");
     parse_symbolic_body(symbols);
     if (at("ELSIF") || at("ELSE")) {
-        report_.error("E094", token().span, "a TERM is one term, which has one condition",
-                      "write another TERM; the last that holds decides");
+        report_.add("E094", token().span, "a TERM is one term, which has one condition",
+                    "write another TERM; the last that holds decides");
         while (!at_block_end("END_IF")) ++at_;
     }
     end_block("END_IF", opened);

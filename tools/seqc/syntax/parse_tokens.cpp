@@ -94,8 +94,8 @@ Span Parser::place_here() const {
 
 void Parser::error_here(std::string_view expected, std::string help) {
     if (in_open_comment() || end_was_reported()) return;
-    report_.error("E010", place_here(), fmt::format("expected {}, found {}", expected, shown(token())),
-                  std::move(help));
+    report_.add("E010", place_here(), fmt::format("expected {}, found {}", expected, shown(token())),
+                std::move(help));
 }
 
 bool Parser::expect(std::string_view word, std::string_view where) {
@@ -150,9 +150,8 @@ bool Parser::expect_name(ast::Name& name, std::string_view what) {
     }
     name = name_of(token());
     if (is_reserved(name.text)) {
-        report_.error("E011", name.span,
-                      fmt::format("'{}' is a word of the language, not {}", name.text, what),
-                      "choose another name");
+        report_.add("E011", name.span, fmt::format("'{}' is a word of the language, not {}", name.text, what),
+                    "choose another name");
         return false;
     }
     ++at_;
@@ -175,9 +174,9 @@ Span Parser::span_since(const Token& first) const {
 void Parser::end_statement() {
     if (take_symbol(";") || in_open_comment() || end_was_reported()) return;
     const Token& last = tokens_[at_ == 0 ? 0 : at_ - 1];
-    report_.error("E010", {last.span.offset + last.span.length, 1},
-                  fmt::format("expected ';' before {}", shown(token())),
-                  "every statement ends with a semicolon");
+    report_.add("E010", {last.span.offset + last.span.length, 1},
+                fmt::format("expected ';' before {}", shown(token())),
+                "every statement ends with a semicolon");
     if (token().kind == TokenKind::identifier && token().span.offset > 0 && !at("ERROR")) return;
     recover();
 }
@@ -210,8 +209,8 @@ void Parser::end_block(std::string_view end_word, Span opened) {
         return;
     }
     Diagnostic& d =
-        report_.error("E012", place_here(), fmt::format("expected {}, found {}", end_word, shown(token())),
-                      fmt::format("write {} where the {} ends", end_word, block));
+        report_.add("E012", place_here(), fmt::format("expected {}, found {}", end_word, shown(token())),
+                    fmt::format("write {} where the {} ends", end_word, block));
     d.notes.push_back({opened, fmt::format("this {} is still open", block)});
 }
 

@@ -14,7 +14,7 @@ ast::Program Parser::parse() {
     program.steps_missing = comment_is_open_;
     if (token().kind == TokenKind::end) {
         if (!report_.has_errors())
-            report_.error("E010", {}, "the file holds no program", "write PROGRAM Name ... END_PROGRAM");
+            report_.add("E010", {}, "the file holds no program", "write PROGRAM Name ... END_PROGRAM");
         return program;
     }
     if (expect("PROGRAM", "at the start")) {
@@ -27,16 +27,16 @@ ast::Program Parser::parse() {
     end_block("END_PROGRAM", opened);
     program.texts = std::move(texts_);
     if (token().kind != TokenKind::end && !report_.full()) {
-        report_.error("E010", token().span, fmt::format("{} stands after END_PROGRAM", shown(token())),
-                      "a file holds one program");
+        report_.add("E010", token().span, fmt::format("{} stands after END_PROGRAM", shown(token())),
+                    "a file holds one program");
     }
     return program;
 }
 
 void Parser::twice(Span span, std::string_view what, Span first) {
     report_
-        .error("E020", span, fmt::format("{} stands twice", what),
-               what == "POWER_UP" ? "put all of it into one" : "keep one of the two")
+        .add("E020", span, fmt::format("{} stands twice", what),
+             what == "POWER_UP" ? "put all of it into one" : "keep one of the two")
         .notes.push_back({first, "the first one is here"});
 }
 
@@ -94,8 +94,8 @@ void Parser::parse_scale(ast::Program& program) {
                        right.number > 0 && !left.is_raw && !right.is_raw && !left.is_time && !right.is_time &&
                        right.unit.text.find_first_of("/%") == std::string_view::npos;
     if (!sound) {
-        report_.error("E032", scale.span, "SCALE must say how far the machine moves in some revolutions",
-                      "write it as SCALE 1 rev = 5 mm;");
+        report_.add("E032", scale.span, "SCALE must say how far the machine moves in some revolutions",
+                    "write it as SCALE 1 rev = 5 mm;");
     } else if (program.scale) {
         twice(scale.span, "SCALE", program.scale->span);
     } else {

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "diagnostics/report.h"
 #include "syntax/ast.h"
-#include "syntax/report.h"
 #include "syntax/token.h"
 
 namespace nplc::seqc {

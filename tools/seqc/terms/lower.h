@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "diagnostics/report.h"
 #include "meaning/model.h"
 #include "sequencer/term.h"
-#include "syntax/report.h"
 
 namespace nplc::seqc {
 

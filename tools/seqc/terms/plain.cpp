@@ -287,7 +287,7 @@ class Lowering {
                     : "test TIMER.Q or COUNTER.Q without NOT and in the branch that comes first, or go "
                       "to a step of "
                       "its own that waits; only NEXT and outputs can depend on a timer that still runs";
-        Diagnostic& diagnostic = report_.error("E071", overridden.span, message, help);
+        Diagnostic& diagnostic = report_.add("E071", overridden.span, message, help);
         note_entry(diagnostic, overridden);
         if (by != kNobody && effect(by).action != nullptr)
             diagnostic.notes.push_back({effect(by).span, "this branch decides where both conditions hold"});
@@ -326,7 +326,7 @@ class Lowering {
     void report_twice(int index) {
         if (failed_) return;
         failed_ = true;
-        Diagnostic& diagnostic = report_.error(
+        Diagnostic& diagnostic = report_.add(
             "E072", effect(index).span, "when TIMER.Q and COUNTER.Q hold together, this would be sent twice",
             "a table cannot test that a timer still runs: use two steps, or send it where only one "
             "of them counts");

@@ -162,7 +162,7 @@ void check_terms(const StepPlan& step, const std::vector<std::uint8_t>& outputs_
                  const std::vector<LoweredTerm>& terms, Report& report) {
     const auto found = first_difference(step, outputs_of, terms);
     if (!found) return;
-    report.error(
+    report.add(
         "E099", step.span,
         fmt::format("internal error of seqc: its terms for '{}' do something else than the program "
                     "when inputs, IN_POS and ERROR are 16#{:02X}, TIMER.Q = {}, COUNTER.Q = {}",

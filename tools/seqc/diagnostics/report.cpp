@@ -1,4 +1,4 @@
-#include "syntax/report.h"
+#include "diagnostics/report.h"
 
 #include <algorithm>
 #include <iterator>
@@ -20,12 +20,9 @@ Diagnostic& Report::add(Diagnostic diagnostic) {
     return diagnostics_.emplace_back(std::move(diagnostic));
 }
 
-Diagnostic& Report::error(const char* code, Span span, std::string message, std::string help) {
-    return add({Severity::error, code, std::move(message), std::move(help), span, {}});
-}
-
-Diagnostic& Report::warning(const char* code, Span span, std::string message, std::string help) {
-    return add({Severity::warning, code, std::move(message), std::move(help), span, {}});
+Diagnostic& Report::add(Code code, Span span, std::string message, std::string help) {
+    const CodeRow& row = code.row();
+    return add({row.severity, std::string(row.code), std::move(message), std::move(help), span, {}});
 }
 
 bool Report::has(std::string_view code) const {

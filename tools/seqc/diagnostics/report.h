@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "diagnostics/codes.h"
 #include "seqc/diagnostic.h"
 
 namespace nplc::seqc {
@@ -11,9 +12,7 @@ namespace nplc::seqc {
 /// Collects diagnostics. Beyond a bound further ones are dropped, warnings first: nobody reads them.
 class Report {
   public:
-    Diagnostic& error(const char* code, Span span, std::string message, std::string help = {});
-    Diagnostic& warning(const char* code, Span span, std::string message, std::string help = {});
-
+    Diagnostic& add(Code code, Span span, std::string message, std::string help = {});
     Diagnostic& add(Diagnostic diagnostic);
 
     /// The one added last; there must be one.

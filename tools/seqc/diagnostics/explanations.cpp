@@ -1,9 +1,12 @@
-#include "codes/catalog.h"
+#include "diagnostics/explanations.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
+
+#include "diagnostics/explanation_texts.h"
 
 namespace nplc::seqc {
 namespace {
@@ -58,15 +61,42 @@ std::string written_out(std::string_view example, Repeat repeat) {
     return text;
 }
 
+constexpr std::string_view kEntry = "\n=== ";
+constexpr std::string_view kExample = "\n--- wrong (-) and right (+)\n";
+
+/// "=== E012 title", the explanation, and perhaps an example: lines of both programs begin with a blank,
+/// those of the wrong one with -, of the right one with +.
+Explanation entry(std::string_view text) {
+    const std::size_t title_end = text.find('\n');
+    const std::size_t example = std::min(text.find(kExample), text.size() - 1);
+    Explanation result{text.substr(4, 4),
+                       text.substr(9, title_end - 9),
+                       text.substr(title_end + 1, example - title_end - 1),
+                       {},
+                       {}};
+    text.remove_prefix(std::min(example + kExample.size(), text.size()));
+    while (!text.empty()) {
+        const std::string_view line = text.substr(1, text.find('\n'));
+        if (text[0] != '+') result.wrong += line;
+        if (text[0] != '-') result.right += line;
+        text.remove_prefix(line.size() + 1);
+    }
+    return result;
+}
+
 }  // namespace
 
-std::vector<CodeInfo> catalog() {
-    using namespace codes;
-    std::vector<CodeInfo> all;
-    for (const auto& family : {kText, kGrammar, kNames, kMotor, kCommands, kScan, kTerms, kProgram, kRaw,
-                               kWarnings, kMoreWarnings}) {
-        all.insert(all.end(), family.begin(), family.end());
+std::vector<Explanation> explanations() {
+    std::vector<Explanation> all;
+    for (std::string_view text : kExplanationTexts) {
+        while (!text.empty()) {
+            const std::size_t length = std::min(text.find(kEntry, 1), text.size() - 1) + 1;
+            all.push_back(entry(text.substr(0, length)));
+            text.remove_prefix(length);
+        }
     }
+    std::sort(all.begin(), all.end(),
+              [](const Explanation& a, const Explanation& b) { return a.code < b.code; });
     return all;
 }
 

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "seqc/diagnostic.h"
+
+namespace nplc::seqc {
+
+/// What of the compiler finds the mistake. A file of explanations and one of golden cases belong to each.
+enum class Phase : std::uint8_t {
+    lexical,
+    syntax,
+    names,
+    motor,       ///< MOTOR, SCALE, registers and their values
+    commands,    ///< what each command takes
+    scan,        ///< what a scan can do, and how often
+    conditions,  ///< what the conditions of a step and its terms can tell apart
+    steps,       ///< the program as a whole
+    terms,       ///< TERM lines
+    motion,      ///< the motor followed through the steps
+};
+
+struct CodeRow {
+    std::string_view code;
+    Severity severity;
+    Phase phase;
+};
+
+/// Every diagnostic there is, sorted.
+constexpr auto kCodes = std::to_array<CodeRow>({
+    {"E001", Severity::error, Phase::lexical},    {"E002", Severity::error, Phase::lexical},
+    {"E003", Severity::error, Phase::lexical},    {"E004", Severity::error, Phase::lexical},
+    {"E010", Severity::error, Phase::syntax},     {"E011", Severity::error, Phase::syntax},
+    {"E012", Severity::error, Phase::syntax},     {"E013", Severity::error, Phase::syntax},
+    {"E014", Severity::error, Phase::syntax},     {"E020", Severity::error, Phase::names},
+    {"E021", Severity::error, Phase::names},      {"E022", Severity::error, Phase::names},
+    {"E023", Severity::error, Phase::names},      {"E030", Severity::error, Phase::motor},
+    {"E031", Severity::error, Phase::motor},      {"E032", Severity::error, Phase::motor},
+    {"E040", Severity::error, Phase::motor},      {"E041", Severity::error, Phase::motor},
+    {"E042", Severity::error, Phase::motor},      {"E043", Severity::error, Phase::motor},
+    {"E044", Severity::error, Phase::motor},      {"E050", Severity::error, Phase::commands},
+    {"E051", Severity::error, Phase::commands},   {"E052", Severity::error, Phase::motion},
+    {"E060", Severity::error, Phase::scan},       {"E061", Severity::error, Phase::scan},
+    {"E062", Severity::error, Phase::scan},       {"E063", Severity::error, Phase::scan},
+    {"E064", Severity::error, Phase::scan},       {"E070", Severity::error, Phase::conditions},
+    {"E071", Severity::error, Phase::conditions}, {"E072", Severity::error, Phase::conditions},
+    {"E080", Severity::error, Phase::steps},      {"E081", Severity::error, Phase::steps},
+    {"E082", Severity::error, Phase::steps},      {"E083", Severity::error, Phase::steps},
+    {"E084", Severity::error, Phase::steps},      {"E085", Severity::error, Phase::steps},
+    {"E086", Severity::error, Phase::steps},      {"E090", Severity::error, Phase::terms},
+    {"E091", Severity::error, Phase::terms},      {"E092", Severity::error, Phase::terms},
+    {"E093", Severity::error, Phase::terms},      {"E094", Severity::error, Phase::terms},
+    {"E095", Severity::error, Phase::steps},      {"E096", Severity::error, Phase::steps},
+    {"E099", Severity::error, Phase::conditions}, {"W001", Severity::warning, Phase::conditions},
+    {"W002", Severity::warning, Phase::motor},    {"W003", Severity::warning, Phase::motor},
+    {"W004", Severity::warning, Phase::motion},   {"W005", Severity::warning, Phase::steps},
+    {"W006", Severity::warning, Phase::scan},     {"W007", Severity::warning, Phase::scan},
+    {"W008", Severity::warning, Phase::scan},     {"W009", Severity::warning, Phase::terms},
+    {"W010", Severity::warning, Phase::terms},    {"W011", Severity::warning, Phase::motion},
+    {"W012", Severity::warning, Phase::motion},   {"W013", Severity::warning, Phase::motion},
+    {"W014", Severity::warning, Phase::motion},   {"W015", Severity::warning, Phase::motion},
+    {"W016", Severity::warning, Phase::motion},   {"W017", Severity::warning, Phase::motion},
+});
+
+constexpr const CodeRow* find_code(std::string_view code) {
+    const auto* row = std::lower_bound(kCodes.begin(), kCodes.end(), code,
+                                       [](const CodeRow& a, std::string_view b) { return a.code < b; });
+    return row != kCodes.end() && row->code == code ? row : nullptr;
+}
+
+/// A code of the table: any other literal does not compile.
+class Code {
+  public:
+    consteval Code(const char* code)
+        : row_(&known(find_code(code))) {}  // NOLINT(google-explicit-constructor)
+    const CodeRow& row() const { return *row_; }
+
+  private:
+    static consteval const CodeRow& known(const CodeRow* row) { return *row; }
+
+    const CodeRow* row_;
+};
+
+}  // namespace nplc::seqc
