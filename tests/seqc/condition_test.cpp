@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "support.h"
-#include "views/cover10.h"
+#include "terms/cover.h"
 #include "views/words.h"
 
 namespace nplc::seqc {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "support.h"
-#include "views/dot_text.h"
 #include "views/graph_model.h"
 
 namespace nplc::seqc {

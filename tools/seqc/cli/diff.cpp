@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
+#include "cli/input.h"
 #include "cli/subcommands.h"
-#include "cli/views_input.h"
 #include "views/table_diff.h"
 
 namespace nplc::seqc::cli {

@@ -5,14 +5,37 @@
 #include <memory>
 #include <string>
 
-#include "cli/dot_process.h"
+#include "cli/input.h"
 #include "cli/subcommands.h"
-#include "cli/views_input.h"
 #include "host/paths.h"
+#include "host/process.h"
 #include "views/graph.h"
 
 namespace nplc::seqc::cli {
 namespace {
+
+std::string first_line(const std::string& text) {
+    return text.substr(0, text.find_first_of("\r\n"));
+}
+
+struct Rendering {
+    std::string bytes;
+    std::string error;  ///< why there are none, in one line
+};
+
+/// What Graphviz' `dot -Tformat` makes of `text`. No shell is involved; nothing is left behind.
+Rendering render_dot(const std::string& text, const std::string& format) {
+    host::Ran ran = host::run_program("dot", {"-T" + format}, text);
+    if (ran.missing) {
+        return {{},
+                "Graphviz' program 'dot' is missing: install it (on Debian: apt-get install graphviz), or "
+                "take --format "
+                "dot, which needs no Graphviz"};
+    }
+    if (!ran.problem.empty()) return {{}, ran.problem};
+    if (!ran.done) return {{}, fmt::format("'dot' failed: {}", first_line(ran.errors))};
+    return {std::move(ran.output), {}};
+}
 
 constexpr std::array kFormats{"svg", "dot", "pdf", "png"};
 

@@ -9,6 +9,7 @@
 #include "host/paths.h"
 #include "intel_hex/intel_hex.h"
 #include "seqc/symbol_file.h"
+#include "sequencer/table.h"
 #include "sequencer/term.h"
 #include "whole_files/whole_files.h"
 
@@ -132,6 +133,17 @@ void add_symbols_option(arguments::App& command, InputFile& named) {
         .add_option("--symbols", named.symbols,
                     "Take a table's names from here (default: F.sym beside F.bin, if it fits)")
         ->type_name("F.sym");
+}
+
+Input read_for_view(const InputFile& named) {
+    Input input = read_input(named);
+    if (input.exit_code != kOk) return input;
+    const auto loaded = sequencer::Table::load(input.table);
+    if (loaded.ok || loaded.fault.error == base::Error::no_space) return input;
+    input = {};
+    input.exit_code = file_problem(fmt::format("{}: term {}: {}; no gateway takes this table", named.file,
+                                               loaded.fault.term, sequencer::describe(loaded.fault.error)));
+    return input;
 }
 
 }  // namespace nplc::seqc::cli

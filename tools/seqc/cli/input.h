@@ -7,6 +7,7 @@
 
 #include "arguments/arguments.h"
 #include "cli/common.h"
+#include "cli/input.h"
 #include "seqc/seqc.h"
 
 namespace nplc::seqc::cli {
@@ -36,5 +37,13 @@ inline Input read_input(const std::string& file) {
 
 /// `--symbols FILE`, the same in every subcommand that takes a table.
 void add_symbols_option(arguments::App& command, InputFile& named);
+
+/// A program or table as a gateway would take it; one that every gateway refuses for a term of it is a file
+/// problem. More terms than a gateway need hold are not.
+Input read_for_view(const InputFile& named);
+
+inline const Symbols* names_of(const Input& input) {
+    return input.symbols ? &*input.symbols : nullptr;
+}
 
 }  // namespace nplc::seqc::cli

@@ -5,7 +5,6 @@
 
 #include "cli/input.h"
 #include "cli/subcommands.h"
-#include "cli/views_input.h"
 #include "views/table_report.h"
 
 namespace nplc::seqc::cli {

@@ -11,7 +11,6 @@
 #include "cli/input.h"
 #include "cli/json.h"
 #include "cli/subcommands.h"
-#include "cli/views_input.h"
 #include "sequencer/table.h"
 #include "verify/story.h"
 #include "views/line_time.h"

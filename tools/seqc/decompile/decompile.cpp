@@ -20,7 +20,6 @@ using registers::Model;
 
 constexpr std::size_t kMostDrafts = 12;
 constexpr std::string_view kNotForDrive = "E044";
-constexpr std::size_t kTermsEverywhere = 1024;  // beyond it only TERMs compile
 
 /// Nothing that a file may be called can end the comment it stands in.
 std::string printable(const std::string& name) {

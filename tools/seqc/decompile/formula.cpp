@@ -11,21 +11,7 @@ namespace {
 constexpr int kCostOfOr = 2;
 constexpr int kCostOfStillRunning = 4;
 
-struct Product {
-    std::uint16_t value = 0;
-    std::uint16_t care = 0;
-    bool cares(std::size_t bit) const { return ((care >> bit) & 1U) != 0; }
-    bool wants(std::size_t bit) const { return ((value >> bit) & 1U) != 0; }
-};
 using Products = std::vector<Product>;
-
-Truth cases_of_product(Product product) {
-    Truth cases = always();
-    for (std::size_t bit = 0; bit < kBits; ++bit) {
-        if (product.cares(bit)) cases &= product.wants(bit) ? truth_of_bit(bit) : ~truth_of_bit(bit);
-    }
-    return cases;
-}
 
 int cost_of(Product product) {
     int cost = 0;
@@ -48,7 +34,7 @@ Product widened(Product product, const Truth& allowed, bool keep_wanted) {
             Product wider = product;
             wider.care &= static_cast<std::uint16_t>(~(1U << bit));
             wider.value &= wider.care;
-            if ((cases_of_product(wider) & ~allowed).none()) product = wider;
+            if ((truth_of(wider) & ~allowed).none()) product = wider;
         }
     };
     drop(!keep_wanted);
@@ -60,9 +46,7 @@ Product best_around(std::size_t point, const Truth& open, const Truth& allowed) 
     const Product exact{static_cast<std::uint16_t>(point), (1U << kBits) - 1};
     const Product a = widened(exact, allowed, true);
     const Product b = widened(exact, allowed, false);
-    const auto worth = [&](Product p) {
-        return std::pair((cases_of_product(p) & open).count(), -cost_of(p));
-    };
+    const auto worth = [&](Product p) { return std::pair((truth_of(p) & open).count(), -cost_of(p)); };
     return worth(a) >= worth(b) ? a : b;
 }
 
@@ -74,12 +58,12 @@ std::size_t first_case(const Truth& cases) {
 
 Products cover(const Truth& need, const Truth& allowed) {
     Products products;
-    for (Truth open = need; open.any(); open &= ~cases_of_product(products.back()))
+    for (Truth open = need; open.any(); open &= ~truth_of(products.back()))
         products.push_back(best_around(first_case(open), open, allowed));
     for (std::size_t i = products.size(); i-- > 0;) {
         Truth others;
         for (std::size_t k = 0; k < products.size(); ++k) {
-            if (k != i) others |= cases_of_product(products[k]);
+            if (k != i) others |= truth_of(products[k]);
         }
         if ((need & ~others).none()) products.erase(products.begin() + static_cast<std::ptrdiff_t>(i));
     }

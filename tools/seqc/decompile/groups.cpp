@@ -52,14 +52,11 @@ Group group_of(std::span<const TermBytes> terms, registers::Model model) {
 
 Truth cases_of(sequencer::TermView term) {
     const sequencer::Condition condition = sequencer::decode(term).condition;
-    Truth cases = always();
-    for (std::size_t bit = kInput0; bit <= kErrorBit; ++bit) {
-        if (bit != kErrorBit && ((condition.care >> bit) & 1) == 0) continue;
-        cases &= ((condition.input >> bit) & 1) != 0 ? truth_of_bit(bit) : ~truth_of_bit(bit);
-    }
-    if (condition.needs_timer_zero) cases &= truth_of_bit(kTimerZero);
-    if (condition.needs_counter_zero) cases &= truth_of_bit(kCounterZero);
-    return cases;
+    const unsigned zeros = (condition.needs_timer_zero ? 1U << kTimerZero : 0U) |
+                           (condition.needs_counter_zero ? 1U << kCounterZero : 0U);
+    const unsigned care = condition.care | 1U << kErrorBit | zeros;
+    return truth_of(Product{static_cast<std::uint16_t>((condition.input | zeros) & care),
+                            static_cast<std::uint16_t>(care)});
 }
 
 std::vector<Group> groups_of(const Terms& terms, registers::Model model) {

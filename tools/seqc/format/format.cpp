@@ -4,9 +4,6 @@
 #include <utility>
 
 #include "format/layout.h"
-#include "format/lines.h"
-#include "format/shape.h"
-#include "format/spell.h"
 #include "syntax/lexer.h"
 #include "syntax/names.h"
 #include "syntax/parser.h"

@@ -1,4 +1,4 @@
-#include "format/item.h"
+#include "format/layout.h"
 
 #include <algorithm>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <deque>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -7,6 +9,121 @@
 #include "syntax/token.h"
 
 namespace nplc::seqc::layout {
+
+/// What a line does to those around it.
+enum class Role : std::uint8_t {
+    plain,
+    opener,       ///< STEP, IF ..: those after it are one level deeper
+    middle,       ///< ELSIF, ELSE
+    closer,       ///< END_STEP, END_IF ..
+    declaration,  ///< of a variable
+};
+
+/// A token or a comment. What the source says of it comes first, then what the layout says.
+struct Item {
+    enum class Kind : std::uint8_t { keyword, name, other, line_comment, block_comment };
+
+    std::string_view text;
+    Kind kind = Kind::other;
+    TokenKind token = TokenKind::comment;
+    std::uint8_t breaks = 0;   ///< line ends before it; 2 for more
+    std::uint32_t column = 0;  ///< from 0, a tab counts up to the next multiple of 4
+
+    std::uint8_t blanks = 1;  ///< before it, unless it begins a line
+    std::uint8_t level = 0;
+    bool starts_line = false;
+    Role role = Role::plain;
+
+    bool is_comment() const { return kind == Kind::line_comment || kind == Kind::block_comment; }
+    bool is_keyword(std::string_view word) const { return kind == Kind::keyword && text == word; }
+    bool is_symbol(std::string_view symbol) const { return token == TokenKind::symbol && text == symbol; }
+};
+
+/// A program as items. The texts of some are spelled anew and kept here.
+struct Document {
+    std::vector<Item> items;
+    std::deque<std::string> texts;
+
+    Document() = default;
+    Document(const Document&) = delete;
+    Document& operator=(const Document&) = delete;
+    Document(Document&&) = default;
+    Document& operator=(Document&&) = default;
+    ~Document() = default;
+};
+
+/// Tokens (the end token may be among them) and comments of `source` in its order. Comments lose the blanks
+/// at the end of a line comment and the CRs before a line end.
+Document document_of(std::string_view source, const std::vector<Token>& tokens,
+                     const std::vector<Token>& comments);
+
+/// A document's tokens without the comments between them. Past the last one there is nothing and every
+/// question is answered with no.
+class Tokens {
+  public:
+    explicit Tokens(Document& document);
+
+    std::size_t size() const { return places_.size(); }
+    Item& operator[](std::size_t i) { return document_.items[places_[i]]; }
+    const Item& operator[](std::size_t i) const { return document_.items[places_[i]]; }
+    bool is_keyword(std::size_t i, std::string_view word) const {
+        return i < size() && (*this)[i].is_keyword(word);
+    }
+    bool is_symbol(std::size_t i, std::string_view symbol) const {
+        return i < size() && (*this)[i].is_symbol(symbol);
+    }
+    /// Where the token stands among all items.
+    std::size_t place(std::size_t i) const { return places_[i]; }
+
+  private:
+    Document& document_;
+    std::vector<std::size_t> places_;
+};
+
+/// Characters (UTF-8) behind the last line end of `text`.
+std::size_t width(std::string_view text);
+
+/// A line of the result. Either part may be empty, not both.
+struct Line {
+    std::vector<Item*> code;            ///< comments between its words included
+    std::vector<const Item*> comments;  ///< behind the code
+    std::size_t indent = 0;
+    Role role = Role::plain;
+    bool blank_before = false;
+    bool is_own_comment = false;     ///< `code` is a comment of its own, between statements
+    bool continues = false;          ///< the statement of the line before
+    bool continues_comment = false;  ///< the comment behind the line before
+};
+
+/// Its indentation included; 0 without code.
+std::size_t code_width(const Line& line);
+
+/// The lines of a shaped document, comments where they belong.
+std::vector<Line> lines_of(Document& document);
+
+/// Breaks lines over 120 columns before AND, OR, XOR and WHEN and behind commas; a TERM stays whole.
+void wrap(std::vector<Line>& lines);
+
+/// Leaves blank lines where they help: none at the edges of a block, one around blocks of several lines.
+void space_out(std::vector<Line>& lines);
+
+/// Pads the declarations of each block so that AT, and the type or value, stand in columns.
+void align_declarations(std::vector<Line>& lines);
+
+/// The lines as text; comments behind code in column 41, or further right where their run needs it.
+std::string print(const std::vector<Line>& lines);
+
+inline constexpr std::size_t kIndent = 4;
+inline constexpr std::size_t kWidestOneLiner = 100;
+inline constexpr std::size_t kWidest = 120;  ///< beyond it a line is broken
+
+/// Decides which tokens begin a line, on which level, and how many blanks stand before the others. A block
+/// that its author wrote on one line stays on one if it holds a single thing and is not too wide.
+void shape(Document& document);
+
+/// Marks the language's words and gives every word its case: keywords, commands, registers and addresses as
+/// in the manual and the README, names as where they are declared. Words that nothing knows stay as they are.
+void spell(Document& document);
 
 /// The text of a program anew. Whether it is one is not looked into: any tokens are laid out somehow.
 std::string lay_out(std::string_view source, std::vector<Token> tokens, std::vector<Token> comments);

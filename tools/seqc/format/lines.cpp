@@ -1,6 +1,4 @@
-#include "format/lines.h"
-
-#include "format/shape.h"
+#include "format/layout.h"
 
 namespace nplc::seqc::layout {
 namespace {

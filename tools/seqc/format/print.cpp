@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "format/lines.h"
+#include "format/layout.h"
 
 namespace nplc::seqc::layout {
 namespace {

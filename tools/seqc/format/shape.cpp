@@ -1,4 +1,4 @@
-#include "format/shape.h"
+#include "format/layout.h"
 
 #include <algorithm>
 

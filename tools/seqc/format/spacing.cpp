@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <span>
 
-#include "format/lines.h"
-#include "format/shape.h"
+#include "format/layout.h"
 
 namespace nplc::seqc::layout {
 namespace {

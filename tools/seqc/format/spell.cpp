@@ -1,4 +1,4 @@
-#include "format/spell.h"
+#include "format/layout.h"
 
 #include <algorithm>
 #include <array>

@@ -10,6 +10,7 @@
 #include "meaning/commands.h"
 #include "meaning/drive.h"
 #include "meaning/motors.h"
+#include "meaning/step_walk.h"
 #include "meaning/units.h"
 
 namespace nplc::seqc {
@@ -21,21 +22,22 @@ using protocol::fastmac::Number;
 
 /// What may be true of the drive. Values that no statement gives are not among `v` and `a`.
 struct DriveState {
-    bool is_known = false;
+    bool known = false;
     bool positions = false;  ///< it may be on its way to a position
     bool runs = false;       ///< it may turn at a velocity
     Span motion;             ///< what made it move
     std::set<std::int16_t> v;
     std::set<std::uint16_t> a;
 
+    bool is_known() const { return known; }
     bool moves() const { return positions || runs; }
     void stand() { positions = runs = false; }
     bool join(const DriveState& other) {
         const auto sizes = [this] { return std::array{v.size(), a.size()}; };
         const auto before = sizes();
         const bool moved = moves();
-        const bool changed = !is_known || (other.positions && !positions) || (other.runs && !runs);
-        is_known = true;
+        const bool changed = !known || (other.positions && !positions) || (other.runs && !runs);
+        known = true;
         if (!moved) motion = other.motion;
         positions = positions || other.positions;
         runs = runs || other.runs;
@@ -110,49 +112,34 @@ Effect effect_of(const Send& send) {
 
 class DriveWalk {
   public:
+    using State = DriveState;
+
     DriveWalk(const Plan& plan, const registers::DriveModel& drive, Report& report,
               std::vector<Rounding>& roundings)
-        : plan_(plan), drive_(drive), report_(report), roundings_(roundings) {
-        for (const StepPlan& step : plan.steps) {
-            for (const Rule& rule : step.rules) {
-                for (const Send& send : rule.action.sends) {
-                    if (send.reg != nullptr) given_[send.reg->number].insert(send.value);
-                }
-            }
-        }
+        : drive_(drive), report_(report), roundings_(roundings) {
+        for_each_send(plan, [this](const Send& send) {
+            if (send.reg != nullptr) given_[send.reg->number].insert(send.value);
+        });
     }
 
-    void run() {
-        states_[0].is_known = true;
-        bool changed = true;
-        while (changed) {
-            changed = false;
-            for (const StepPlan& step : plan_.steps) changed = pass_on(step) || changed;
-        }
-        for (const StepPlan& step : plan_.steps) {
-            if (!states_[step.number].is_known) continue;
-            for (const Rule& rule : step.rules) judge(step, rule);
+    static void enter(DriveState& state, const StepPlan&, const Rule& rule) {
+        if ((rule.when & ~truth_of_bit(kInPosBit)).none()) state.positions = false;
+    }
+
+    void apply(DriveState& state, const Send& send) const { apply(send, effect_of(send), state); }
+
+    void judge(const Rule& rule, DriveState state) {
+        for (const Send& send : rule.action.sends) {
+            const Effect effect = effect_of(send);
+            const bool goes_on = !effect.mode || *effect.mode != 0;
+            if (state.moves() && goes_on && !effect.stops) judge_wait(effect, send, state);
+            apply(send, effect, state);
+            const bool starts = effect.mode ? *effect.mode != 0 : effect.sets_position && state.moves();
+            if (starts) judge_ramps(send, state);
         }
     }
 
   private:
-    DriveState before(const StepPlan& step, const Rule& rule) const {
-        DriveState state = states_[step.number];
-        if ((rule.when & ~truth_of_bit(kInPosBit)).none()) state.positions = false;
-        return state;
-    }
-
-    bool pass_on(const StepPlan& step) {
-        if (!states_[step.number].is_known) return false;
-        bool changed = false;
-        for (const Rule& rule : step.rules) {
-            DriveState state = before(step, rule);
-            for (const Send& send : rule.action.sends) apply(send, effect_of(send), state);
-            changed = states_[rule.action.next.value_or(step.number)].join(state) || changed;
-        }
-        return changed;
-    }
-
     template <typename Value>
     std::set<Value> values_of(std::uint8_t number, const Send& send) const {
         if (number == 0) return {static_cast<Value>(send.value)};
@@ -175,18 +162,6 @@ class DriveWalk {
             state.motion = send.span;
         }
         if (effect.stops) state.stand();
-    }
-
-    void judge(const StepPlan& step, const Rule& rule) {
-        DriveState state = before(step, rule);
-        for (const Send& send : rule.action.sends) {
-            const Effect effect = effect_of(send);
-            const bool goes_on = !effect.mode || *effect.mode != 0;
-            if (state.moves() && goes_on && !effect.stops) judge_wait(effect, send, state);
-            apply(send, effect, state);
-            const bool starts = effect.mode ? *effect.mode != 0 : effect.sets_position && state.moves();
-            if (starts) judge_ramps(send, state);
-        }
     }
 
     /// What the drive refuses in motion, so that the gateway keeps it until the drive stands.
@@ -252,12 +227,10 @@ class DriveWalk {
 
     static constexpr registers::Model kMap = registers::Model::mac140;
 
-    const Plan& plan_;
     const registers::DriveModel& drive_;
     Report& report_;
     std::vector<Rounding>& roundings_;
     std::map<std::uint8_t, std::set<std::uint32_t>> given_;  ///< every value that a register is given
-    std::array<DriveState, 64> states_{};
     std::set<std::uint32_t> waited_;
     std::set<std::uint32_t> refused_;
     std::set<std::pair<std::int16_t, std::uint16_t>> noted_;
@@ -267,7 +240,10 @@ class DriveWalk {
 
 void check_drive_motion(const Plan& plan, const registers::DriveModel& drive, Report& report,
                         std::vector<Rounding>& roundings) {
-    DriveWalk(plan, drive, report, roundings).run();
+    DriveWalk walk(plan, drive, report, roundings);
+    DriveState at_power_up;
+    at_power_up.known = true;
+    walk_steps(plan, at_power_up, walk);
 }
 
 }  // namespace nplc::seqc

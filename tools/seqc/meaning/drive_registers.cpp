@@ -39,20 +39,14 @@ class UnsetRegisters {
         for (const RawTerm& term : plan.terms) take(term);
         for (const StepPlan& step : plan.steps) {
             for (const RawTerm& term : step.terms) take(term);
-            for (const Rule& rule : step.rules) {
-                for (const Send& send : rule.action.sends) {
-                    if (send.reg != nullptr) given_.insert(send.reg->number);
-                }
-            }
         }
+        for_each_send(plan, [this](const Send& send) {
+            if (send.reg != nullptr) given_.insert(send.reg->number);
+        });
     }
 
     void run() {
-        for (const StepPlan& step : plan_.steps) {
-            for (const Rule& rule : step.rules) {
-                for (const Send& send : rule.action.sends) judge(send);
-            }
-        }
+        for_each_send(plan_, [this](const Send& send) { judge(send); });
     }
 
   private:

@@ -9,14 +9,15 @@
 #include "meaning/truth.h"
 #include "registers/mac.h"
 #include "seqc/diagnostic.h"
+#include "sequencer/table.h"
 #include "sequencer/term.h"
 
 /// The program with every name resolved and every value worked out.
 namespace nplc::seqc {
 
-inline constexpr std::size_t kTermsEverywhere =
-    1024;                                      ///< a gateway holds so many at the least, the end included
-inline constexpr std::size_t kMostSteps = 61;  ///< with names; POWER_UP comes on top
+/// A gateway holds so many at the least, the end included.
+inline constexpr std::size_t kTermsEverywhere = sequencer::kMaxTerms;
+inline constexpr std::size_t kMostSteps = 61;                         ///< with names; POWER_UP comes on top
 inline constexpr std::uint8_t kLastNamed = sequencer::kLastStep - 1;  ///< no NEXT can name step 62
 
 /// What goes to the motor: a FastMAC command or a register value.
@@ -91,5 +92,15 @@ struct Plan {
     std::vector<StepPlan> steps;  ///< POWER_UP first, if the program has steps at all
     std::vector<RawTerm> terms;
 };
+
+/// In the order of the program.
+template <class Visit>
+void for_each_send(const Plan& plan, const Visit& visit) {
+    for (const StepPlan& step : plan.steps) {
+        for (const Rule& rule : step.rules) {
+            for (const Send& send : rule.action.sends) visit(send);
+        }
+    }
+}
 
 }  // namespace nplc::seqc

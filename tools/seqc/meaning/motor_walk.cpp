@@ -5,7 +5,7 @@
 
 #include "meaning/checker.h"
 #include "meaning/commands.h"
-#include "meaning/motor_state.h"
+#include "meaning/step_walk.h"
 
 namespace nplc::seqc {
 namespace {
@@ -13,6 +13,113 @@ namespace {
 using protocol::fastmac::Group;
 using protocol::fastmac::Mode;
 using protocol::fastmac::Number;
+
+/// The modes that selecting commands reach, and all others as one.
+enum ModeBit : std::uint8_t { kInit = 1, kVelocity = 2, kPosition = 4, kOther = 8, kAnyMode = 15 };
+
+/// What may be true of the motor, with the places that made it so (length 0 where there is none).
+struct MotorState {
+    std::uint8_t modes = 0;  ///< in which modes it may be; 0: nothing is known to lead here
+    Span init;               ///< what took it to INIT
+    bool stopped = false;    ///< V_SOLL may be 0 from a STOP
+    Span stop;
+    bool homing = false;  ///< it may be homing, or in STARTMODE after it (001 §4.4.13 - §4.4.15)
+    Span home;
+    bool ends_in_position = false;  ///< STARTMODE is surely one in which IN_POS is set
+    Span start_mode;                ///< what set STARTMODE to another one
+
+    bool is_known() const { return modes != 0; }
+    /// Takes in what may hold on another way to the same place; true if that was news.
+    bool join(const MotorState& other);
+    /// What holds once this was sent.
+    void apply(const Send& send);
+};
+
+/// Whether a mode sets IN_POS at all: velocity, position and gear modes (001 §4.4).
+bool sets_in_position(std::uint32_t mode) {
+    constexpr std::array<std::uint32_t, 9> kModes = {1, 2, 3, 17, 18, 19, 20, 21, 24};
+    return std::find(kModes.begin(), kModes.end(), mode) != kModes.end();
+}
+
+bool is_home_mode(std::uint32_t mode) {
+    return mode >= 12 && mode <= 14;
+}
+
+void apply_mode(std::uint32_t mode, Span span, MotorState& state) {
+    state.modes = mode == 0 ? kInit : mode == 1 ? kVelocity : mode == 2 ? kPosition : kOther;
+    if (mode == 0) state.init = span;
+    state.homing = is_home_mode(mode);
+    state.home = span;
+}
+
+void apply_write(const Send& send, MotorState& state) {
+    switch (send.reg->number) {
+        case registers::MODE_REG:
+            apply_mode(send.value, send.span, state);
+            break;
+        case registers::STARTMODE:
+            state.ends_in_position = sets_in_position(send.value);
+            state.start_mode = state.ends_in_position ? Span{} : send.span;
+            break;
+        case registers::V_SOLL:
+            state.stopped = send.value == 0;
+            state.stop = send.span;
+            break;
+        case registers::V_REG_P:
+            state.stopped = false;
+            break;
+        default:
+            break;
+    }
+}
+
+void apply_number(Number number, Span span, MotorState& state) {
+    switch (number) {
+        case Number::clear_v_soll:
+            state.stopped = true;
+            state.stop = span;
+            break;
+        case Number::use_set_1:
+        case Number::use_set_2:
+        case Number::use_set_3:
+        case Number::use_set_4:
+            state.stopped = false;
+            break;
+        case Number::home:
+            state.modes = kAnyMode;  // STARTMODE takes over when it is done
+            state.homing = true;
+            state.home = span;
+            break;
+        default:
+            break;
+    }
+}
+
+bool MotorState::join(const MotorState& other) {
+    if (modes == 0) {
+        *this = other;
+        return other.modes != 0;
+    }
+    const MotorState before = *this;
+    if ((modes & kInit) == 0) init = other.init;
+    if (!stopped) stop = other.stop;
+    if (!homing) home = other.home;
+    if (ends_in_position) start_mode = other.start_mode;
+    modes |= other.modes;
+    stopped = stopped || other.stopped;
+    homing = homing || other.homing;
+    ends_in_position = ends_in_position && other.ends_in_position;
+    return modes != before.modes || stopped != before.stopped || homing != before.homing ||
+           ends_in_position != before.ends_in_position;
+}
+
+void MotorState::apply(const Send& send) {
+    if (send.reg != nullptr) return apply_write(send, *this);
+    const auto select = select_command(send.command);
+    if (!select) return apply_number(static_cast<Number>(send.command & 0x1F), send.span, *this);
+    apply_mode(select->mode == Mode::init ? 0U : select->mode == Mode::velocity ? 1U : 2U, send.span, *this);
+    if (select->selection.group == Group::v) stopped = false;
+}
 
 /// Holds with INPOS where it does not hold without.
 bool waits_for_in_position(const Truth& when) {
@@ -39,44 +146,19 @@ bool is_move(std::uint8_t command) {
 
 class MotorWalk {
   public:
-    MotorWalk(const Plan& plan, registers::Model model, Report& report)
-        : plan_(plan), start_mode_(registers::find(model, registers::STARTMODE)->name), report_(report) {}
+    using State = MotorState;
 
-    void run() {
-        states_[0].modes = kAnyMode;
-        bool changed = true;
-        while (changed) {
-            changed = false;
-            for (const StepPlan& step : plan_.steps) changed = pass_on(step) || changed;
-        }
-        for (const StepPlan& step : plan_.steps) {
-            if (states_[step.number].modes == 0) continue;
-            for (const Rule& rule : step.rules) judge(step, rule);
-        }
-    }
+    MotorWalk(registers::Model model, Report& report)
+        : start_mode_(registers::find(model, registers::STARTMODE)->name), report_(report) {}
 
-  private:
     /// An error puts the motor in INIT (001 §3.2.35), so where ERROR is dealt with it may be there.
-    MotorState before(const StepPlan& step, const Rule& rule) const {
-        MotorState state = states_[step.number];
+    static void enter(MotorState& state, const StepPlan& step, const Rule& rule) {
         if (step.own_error || (rule.when & truth_of_bit(kErrorBit)).any()) state.modes = kAnyMode;
-        return state;
     }
 
-    bool pass_on(const StepPlan& step) {
-        if (states_[step.number].modes == 0) return false;
-        bool changed = false;
-        for (const Rule& rule : step.rules) {
-            MotorState state = before(step, rule);
-            for (const Send& send : rule.action.sends) state.apply(send);
-            const std::uint8_t to = rule.action.next.value_or(step.number);
-            changed = states_[to].join(state) || changed;
-        }
-        return changed;
-    }
+    static void apply(MotorState& state, const Send& send) { state.apply(send); }
 
-    void judge(const StepPlan& step, const Rule& rule) {
-        MotorState state = before(step, rule);
+    void judge(const Rule& rule, MotorState state) {
         if (state.homing && !state.ends_in_position && waits_for_in_position(rule.when))
             warn_homing_wait(state, rule);
         const Send* home = nullptr;
@@ -95,6 +177,7 @@ class MotorWalk {
         }
     }
 
+  private:
     void judge_mode(const Send& send, const Rule& rule, const MotorState& state) {
         if (send.value == 0 || is_home_mode(send.value) || (state.modes & kInit) == 0) return;
         const char* where = send.value == 1   ? " at an old V_SOLL"
@@ -181,17 +264,18 @@ class MotorWalk {
         return true;
     }
 
-    const Plan& plan_;
     std::string start_mode_;
     Report& report_;
-    std::array<MotorState, 64> states_{};
     std::vector<std::uint32_t> said_;
 };
 
 }  // namespace
 
 void check_motor_state(const Plan& plan, registers::Model model, Report& report) {
-    MotorWalk(plan, model, report).run();
+    MotorWalk walk(model, report);
+    MotorState at_power_up;
+    at_power_up.modes = kAnyMode;
+    walk_steps(plan, at_power_up, walk);
 }
 
 }  // namespace nplc::seqc

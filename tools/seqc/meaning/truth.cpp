@@ -20,6 +20,14 @@ Truth truth_of_bit(std::size_t bit) {
     return bits[bit];
 }
 
+Truth truth_of(Product product) {
+    Truth truth = always();
+    for (std::size_t bit = 0; bit < kBits; ++bit) {
+        if (product.cares(bit)) truth &= product.wants(bit) ? truth_of_bit(bit) : ~truth_of_bit(bit);
+    }
+    return truth;
+}
+
 bool depends_on(const Truth& truth, std::size_t bit) {
     const Truth high = truth & truth_of_bit(bit);
     const Truth low = truth & ~truth_of_bit(bit);

@@ -2,7 +2,7 @@
 
 #include <bitset>
 #include <cstddef>
-#include <string>
+#include <cstdint>
 
 namespace nplc::seqc {
 
@@ -25,6 +25,18 @@ Truth truth_of_bit(std::size_t bit);
 inline Truth always() {
     return Truth().set();
 }
+
+/// A product of bits: the cases whose bits under `care` equal `value`.
+struct Product {
+    std::uint16_t value = 0;
+    std::uint16_t care = 0;
+
+    bool cares(std::size_t bit) const { return ((care >> bit) & 1U) != 0; }
+    bool wants(std::size_t bit) const { return ((value >> bit) & 1U) != 0; }
+    bool operator==(const Product&) const = default;
+};
+
+Truth truth_of(Product product);
 
 /// Whether the condition's value ever depends on `bit`.
 bool depends_on(const Truth& truth, std::size_t bit);

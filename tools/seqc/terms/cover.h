@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "meaning/truth.h"
+
 namespace nplc::seqc {
 
 /// Inputs 0..5 in bits 0..5 and IN_POS in bit 6: what a term may leave open, apart from timer and counter.
@@ -26,5 +28,10 @@ std::vector<Cube> minimal_cover(const Points& need, const Points& allowed);
 /// Fewest cubes that hold exactly `need`, no point twice: for what must not be sent twice. Exact up to a
 /// bound on the search; beyond it the fewest that were found.
 std::vector<Cube> disjoint_cover(const Points& need);
+
+/// Fewest products that together hold in all cases of `need` and in none outside of `allowed` (which contains
+/// `need`), each as short as possible. What a person reads: unlike a term's, they may ask for "timer not
+/// zero". Exact up to a bound on the search, beyond it as few as a greedy choice finds.
+std::vector<Product> shortest_products(const Truth& need, const Truth& allowed);
 
 }  // namespace nplc::seqc

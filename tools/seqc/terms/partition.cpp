@@ -4,7 +4,6 @@
 #include "terms/cover.h"
 #include "terms/least_list.h"
 #include "terms/ternary.h"
-#include "terms/variables.h"
 
 namespace nplc::seqc {
 namespace {

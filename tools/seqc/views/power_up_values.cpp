@@ -4,7 +4,6 @@
 
 #include <set>
 
-#include "views/value_text.h"
 #include "views/words.h"
 
 namespace nplc::seqc {

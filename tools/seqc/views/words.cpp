@@ -2,9 +2,78 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
 #include "meaning/commands.h"
+#include "meaning/units.h"
+#include "terms/cover.h"
 
 namespace nplc::seqc {
+namespace {
+
+/// The cases in which ERROR is `value`, taken for both values of it.
+Truth where_error(const Truth& truth, bool value) {
+    const Truth high = truth_of_bit(kErrorBit);
+    constexpr std::size_t kStep = std::size_t{1} << kErrorBit;
+    return value ? (truth & high) | ((truth & high) >> kStep) : (truth & ~high) | ((truth & ~high) << kStep);
+}
+
+std::string bit_name(std::size_t bit, const Symbols* symbols) {
+    switch (bit) {
+        case kInPosBit:
+            return "INPOS";
+        case kErrorBit:
+            return "ERROR";
+        case kTimerZero:
+            return "TIMER.Q";
+        case kCounterZero:
+            return "COUNTER.Q";
+        default:
+            return input_name(bit, symbols);
+    }
+}
+
+std::string product_text(Product product, const Symbols* symbols) {
+    std::string text;
+    for (std::size_t bit = 0; bit < kBits; ++bit) {
+        if (((product.care >> bit) & 1) == 0) continue;
+        const std::string name = bit_name(bit, symbols);
+        append(text, ((product.value >> bit) & 1) != 0 ? name : "NOT " + name, " AND ");
+    }
+    return text;
+}
+
+/// "" if it always holds.
+std::string sum_text(const Truth& need, const Truth& open, const Symbols* symbols, bool in_brackets) {
+    const std::vector<Product> products = shortest_products(need, need | open);
+    std::string text;
+    for (const Product& product : products) append(text, product_text(product, symbols), " OR ");
+    return in_brackets && products.size() > 1 ? "(" + text + ")" : text;
+}
+
+std::string after(std::string_view word, const std::string& rest) {
+    return rest.empty() ? std::string(word) : fmt::format("{} AND {}", word, rest);
+}
+
+}  // namespace
+
+std::string condition_text(const Truth& need, const Truth& open, const Symbols* symbols) {
+    const Truth good = where_error(need, false);
+    const Truth bad = where_error(need, true);
+    if (need.none()) return "never";
+    if (bad.none()) {
+        const std::string text = sum_text(good, where_error(open, false), symbols, false);
+        return text.empty() ? "always" : text;
+    }
+    if (good.none()) return after("ERROR", sum_text(bad, where_error(open, true), symbols, true));
+    const Truth either = good | bad;
+    const Truth allowed = where_error(need | open, false) & where_error(need | open, true);
+    if ((either & ~allowed).none()) return after("ANY ERROR", sum_text(either, allowed, symbols, true));
+    return sum_text(need, open, symbols, false);
+}
+
 namespace {
 
 constexpr std::uint8_t kLastCommonRegister = 88;  // the same on all motors up to here
@@ -78,6 +147,106 @@ std::vector<std::string> action_texts(const Outcome& outcome, const Symbols* sym
             break;
     }
     return texts;
+}
+
+namespace {
+
+std::optional<LengthUnit> length_of(const Symbols& symbols) {
+    if (!symbols.scale) return std::nullopt;
+    return LengthUnit{symbols.scale->unit, symbols.scale->length / symbols.scale->revolutions};
+}
+
+/// The one in which people speak of it; "" for a plain number.
+std::string unit_for(const registers::Register& reg, const std::optional<LengthUnit>& length) {
+    const std::vector<std::string> units = fitting_units(reg, length);
+    if (units.empty()) return "";
+    if (units.front() == "counts") return units.back();
+    return units.front() == "samples" ? "ms" : units.front();
+}
+
+}  // namespace
+
+std::optional<std::string> with_unit(std::int64_t value, std::uint8_t number, const Symbols* symbols) {
+    constexpr int kMostPlaces = 6;
+    if (symbols == nullptr) return std::nullopt;
+    const registers::Register* reg = registers::find(symbols->motor, number);
+    if (reg == nullptr) return std::nullopt;
+    const std::optional<LengthUnit> length = length_of(*symbols);
+    const std::string unit = unit_for(*reg, length);
+    const auto raw = raw_per_unit(*reg, symbols->motor, length, unit);
+    if (!raw || *raw == 1) return std::nullopt;
+    const double exact = static_cast<double>(value) / *raw;
+    std::string text;
+    for (int places = 0; places <= kMostPlaces; ++places) {
+        text = fmt::format("{:.{}f}", exact, places);
+        if (std::llround(std::strtod(text.c_str(), nullptr) * *raw) == value) break;
+    }
+    return unit.empty() ? text : fmt::format("{} {}", text, unit);
+}
+
+namespace {
+
+std::string counter_text(const Deed& deed) {
+    switch (deed.counter) {
+        case CounterChange::none:
+            break;
+        case CounterChange::clear:
+            return "clears the counter";
+        case CounterChange::preset:
+            return fmt::format("sets COUNTER := {}", deed.counter_preset);
+        case CounterChange::count_down:
+            return "counts down";
+    }
+    return {};
+}
+
+std::string outputs_text(const KnownOutputs& outputs, const Symbols* symbols) {
+    std::string text;
+    for (std::uint8_t bit = 0; bit < 4; ++bit) {
+        if (((outputs.known >> bit) & 1) == 0) continue;
+        append(
+            text,
+            fmt::format("{} {}", output_name(bit, symbols), ((outputs.value >> bit) & 1) != 0 ? "on" : "off"),
+            ", ");
+    }
+    return text.empty() ? text : "has " + text;
+}
+
+}  // namespace
+
+bool Deed::operator==(const Deed& other) const {
+    return next_id == other.next_id && orders == other.orders && timer == other.timer &&
+           counter == other.counter && counter_preset == other.counter_preset && outputs == other.outputs;
+}
+
+Deed deed_of(const Outcome& outcome, std::size_t c) {
+    Deed deed;
+    deed.orders = outcome.orders;
+    deed.timer = outcome.timer;
+    deed.counter = outcome.counter;
+    deed.counter_preset = outcome.counter_preset;
+    const bool counter_zero = ((c >> kCounterZero) & 1) != 0;
+    if (counter_zero && deed.counter != CounterChange::preset) deed.counter = CounterChange::none;
+    return deed;
+}
+
+std::string text_of(const Deed& deed, const Symbols* symbols) {
+    std::vector<std::string> parts;
+    const auto add = [&](std::string part) {
+        if (!part.empty()) parts.push_back(std::move(part));
+    };
+    std::string orders;
+    for (const auto& order : deed.orders) append(orders, order_text(order, symbols), ", ");
+    add(orders.empty() ? "" : "sends " + orders);
+    add(deed.timer == 0 ? "" : fmt::format("sets TIMER := T#{}ms", deed.timer));
+    add(counter_text(deed));
+    add(outputs_text(deed.outputs, symbols));
+    add(deed.kept_outputs == 0 ? "" : "keeps " + outputs_list(deed.kept_outputs, symbols));
+    add(deed.next.empty() ? "" : "goes to " + deed.next);
+    std::string text;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        append(text, parts[i], i + 1 == parts.size() ? " and " : ", ");
+    return text.empty() ? "nothing" : text;
 }
 
 }  // namespace nplc::seqc

@@ -1,14 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "seqc/seqc.h"
 #include "terms/scan.h"
+#include "views/machine.h"
 
-/// Parts of a table in the language's words. Without symbols steps and signals go by number.
 namespace nplc::seqc {
 
 /// `part` at the end of `text`, after `separator` if there is something before it.
@@ -38,5 +39,29 @@ std::vector<std::string> action_texts(const Outcome& outcome, const Symbols* sym
 /// A condition that holds in all cases of `need` and in none outside of `need` and `open`: "Start AND NOT
 /// Guard". As in the language it means NOT ERROR unless it names ERROR. "always" for no condition at all.
 std::string condition_text(const Truth& need, const Truth& open, const Symbols* symbols);
+
+/// "1500 rpm" for 3146 in V1: the shortest number that the compiler rounds to this value. Nothing for a
+/// register without unit, and where the motor is not known.
+std::optional<std::string> with_unit(std::int64_t value, std::uint8_t reg, const Symbols* symbols);
+
+/// What a step does in one case, said so that two tables can be compared.
+struct Deed {
+    int next_id = -1;  ///< of the step that follows, the same for both tables; -1 while it stays
+    std::string next;  ///< its name
+    std::vector<sequencer::MotorOrder> orders;
+    std::uint16_t timer = 0;
+    CounterChange counter = CounterChange::none;
+    std::uint16_t counter_preset = 0;
+    KnownOutputs outputs;           ///< where two tables differ and the steps themselves do not settle it
+    std::uint8_t kept_outputs = 0;  ///< those of them that have no certain value
+    bool operator==(const Deed& other) const;
+};
+
+/// The deed of an outcome in case `c`, without the step that follows. What changes nothing when the counter
+/// is zero is left out.
+Deed deed_of(const Outcome& outcome, std::size_t c);
+
+/// "sends STOP and goes to Fault"; "nothing".
+std::string text_of(const Deed& deed, const Symbols* symbols);
 
 }  // namespace nplc::seqc
