@@ -1,9 +1,9 @@
 // Conditions as people read them.
 #include <gtest/gtest.h>
 
+#include "lowering/cover.h"
 #include "support.h"
-#include "terms/cover.h"
-#include "views/words.h"
+#include "views/table_text.h"
 
 namespace nplc::seqc {
 namespace {

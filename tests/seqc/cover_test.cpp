@@ -1,4 +1,4 @@
-#include "terms/cover.h"
+#include "lowering/cover.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // What a step does in each case, from its bytes, against the machine that runs them and against a reading of
 // our own.
-#include "terms/scan.h"
+#include "lowering/scan.h"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ State state_in(std::size_t c, std::uint8_t step, std::uint8_t outputs) {
     return state;
 }
 
-State after(const Outcome& outcome, State state) {
+State after(const ScanResult& outcome, State state) {
     state.step = outcome.next;
     state.outputs = outcome.outputs.value_or(state.outputs);
     if (outcome.timer != 0) state.timer = outcome.timer;
@@ -67,7 +67,7 @@ TEST(Scan, DoesWhatTheEngineDoes) {
                 engine.restore(before);
                 std::vector<MotorOrder> orders;
                 engine.scan(static_cast<std::uint8_t>(c), [&](const MotorOrder& o) { orders.push_back(o); });
-                const Outcome& outcome = behaviour.in(c);
+                const ScanResult& outcome = behaviour.in(c);
                 ASSERT_EQ(after(outcome, before), engine.state()) << "seed " << kSeed << ", round " << round;
                 ASSERT_EQ(outcome.orders, orders) << "seed " << kSeed << ", round " << round;
                 if (engine.state() != before || !orders.empty()) ++acted;
@@ -85,7 +85,7 @@ TEST(Scan, DoesWhatTheBytesSay) {
         for (std::uint8_t step = 0; step < 3; ++step) {
             const StepBehaviour behaviour = behaviour_of(step, terms_of(table));
             for (unsigned c = 0; c < kCases; ++c) {
-                const Outcome& outcome = behaviour.in(c);
+                const ScanResult& outcome = behaviour.in(c);
                 const test::Scan scan = test::scan_case(table, step, c);
                 std::vector<std::string> sends;
                 for (const MotorOrder& order : outcome.orders) sends.push_back(in_short(order));

@@ -1,10 +1,10 @@
 // What the search over terms finds is right by itself, not only because wrong forms are thrown away.
-#include "terms/shorten.h"
+#include "lowering/shorten.h"
 
 #include <gtest/gtest.h>
 
+#include "lowering/verify.h"
 #include "support.h"
-#include "terms/verify.h"
 
 namespace nplc::seqc {
 namespace {
@@ -61,7 +61,7 @@ TEST(Shorten, RandomStepsDoWhatTheRulesSay) {
         const StepPlan step = random_step(random);
         std::vector<LoweredTerm> terms;
         bool complete = true;
-        for (const Half& half : halves_of(step, kOutputs)) {
+        for (const ReducedStep& half : halves_of(step, kOutputs)) {
             const std::vector<LoweredTerm> own = shorten(half, 1'000);
             bool needs_terms = false;
             for (const Behaviour& behaviour : half.behaviours) {

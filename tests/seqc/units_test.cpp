@@ -1,4 +1,4 @@
-#include "meaning/units.h"
+#include "semantics/units.h"
 
 #include <gtest/gtest.h>
 

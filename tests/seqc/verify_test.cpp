@@ -1,5 +1,5 @@
 // The compiler's check of its own work finds every kind of wrong term.
-#include "terms/verify.h"
+#include "lowering/verify.h"
 
 #include <gtest/gtest.h>
 

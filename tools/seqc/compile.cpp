@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 
-#include "meaning/checker.h"
-#include "meaning/scope.h"
+#include "lowering/lower.h"
+#include "semantics/checker.h"
+#include "semantics/scope.h"
 #include "seqc/seqc.h"
 #include "syntax/lexer.h"
 #include "syntax/parser.h"
-#include "terms/lower.h"
 
 namespace nplc::seqc {
 namespace {

@@ -7,12 +7,12 @@
 #include <optional>
 
 #include "cli/common.h"
-#include "formats/symbols_format.h"
 #include "host/paths.h"
 #include "intel_hex/intel_hex.h"
-#include "meaning/model.h"
+#include "semantics/model.h"
 #include "seqc/symbol_file.h"
 #include "sequencer/term.h"
+#include "symbols/symbol_file_format.h"
 
 namespace nplc::seqc::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "cli/input.h"
 #include "cli/subcommands.h"
 #include "host/paths.h"
-#include "meaning/motors.h"
+#include "semantics/motors.h"
 
 namespace nplc::seqc::cli {
 namespace {

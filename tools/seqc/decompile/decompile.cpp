@@ -39,18 +39,18 @@ class Decompiler {
           drafter_(layout_, motor_) {}
 
     Decompilation run() {
-        Bans bans;
-        if (table_.size() / sequencer::kTermBytes > kTermsEverywhere) bans = only_terms();
+        Exclusions exclusions;
+        if (table_.size() / sequencer::kTermBytes > kTermsEverywhere) exclusions = only_terms();
         for (std::size_t i = 0; i < kMostDrafts; ++i) {
-            if (attempt(bans)) return in_one_style();
+            if (attempt(exclusions)) return in_one_style();
             if (drops_drive()) continue;
-            const Bans before = bans;
-            learn(bans);
-            if (bans == before) break;
+            const Exclusions before = exclusions;
+            learn(exclusions);
+            if (exclusions == before) break;
         }
-        bans = only_terms();
-        bans.given_names = true;
-        return attempt(bans) || (drops_drive() && attempt(bans)) ? in_one_style() : bytes_alone();
+        exclusions = only_terms();
+        exclusions.given_names = true;
+        return attempt(exclusions) || (drops_drive() && attempt(exclusions)) ? in_one_style() : bytes_alone();
     }
 
   private:
@@ -64,21 +64,21 @@ class Decompiler {
     }
     bool motor_is_sure() const { return options_.motor || options_.symbols != nullptr; }
 
-    static Bans only_terms(Bans bans = {}) {
-        bans.shape.set();
-        bans.on_error = true;
-        bans.power_up = true;
-        bans.entry.set();
-        return bans;
+    static Exclusions only_terms(Exclusions exclusions = {}) {
+        exclusions.shape.set();
+        exclusions.on_error = true;
+        exclusions.power_up = true;
+        exclusions.entry.set();
+        return exclusions;
     }
 
-    bool attempt(const Bans& bans) {
-        draft_ = drafter_.draft(bans);
-        Naming naming = naming_of(bans.given_names ? nullptr : options_.symbols, stem(), motor_);
+    bool attempt(const Exclusions& exclusions) {
+        draft_ = drafter_.draft(exclusions);
+        Naming naming = naming_of(exclusions.given_names ? nullptr : options_.symbols, stem(), motor_);
         naming.symbols.drive = drive_;
-        const Speech speech{naming, motor_, motor_is_sure(), draft_.power_up.has_value()};
+        const WriterContext context{naming, motor_, motor_is_sure(), draft_.power_up.has_value()};
         count();
-        manuscript_ = write_program(layout_, draft_, speech, head(naming));
+        manuscript_ = write_program(layout_, draft_, context, head(naming));
         compilation_ = compile(manuscript_.text);
         result_.text = manuscript_.text;
         return compilation_.ok &&
@@ -105,10 +105,10 @@ class Decompiler {
     }
 
     /// What the compiler refused, or made other bytes of, is written in a plainer way next time.
-    void learn(Bans& bans) const {
-        if (compilation_.ok) return learn_from_bytes(bans);
+    void learn(Exclusions& exclusions) const {
+        if (compilation_.ok) return learn_from_bytes(exclusions);
         for (const Diagnostic& d : compilation_.diagnostics) {
-            if (d.severity == Severity::error) ban(passage_at(d.span.offset), bans);
+            if (d.severity == Severity::error) ban(passage_at(d.span.offset), exclusions);
         }
     }
 
@@ -118,41 +118,42 @@ class Decompiler {
         return found == manuscript_.passages.end() ? manuscript_.passages.back() : *found;
     }
 
-    void ban(const Passage& passage, Bans& bans) const {
+    void ban(const Passage& passage, Exclusions& exclusions) const {
         switch (passage.kind) {
             case Passage::Kind::names:
-                bans.given_names = true;
+                exclusions.given_names = true;
                 return;
             case Passage::Kind::values:
             case Passage::Kind::power_up:
-                bans.power_up = true;
+                exclusions.power_up = true;
                 return;
             case Passage::Kind::on_error:
-                bans.on_error = true;
+                exclusions.on_error = true;
                 return;
             case Passage::Kind::entry:
-                bans.entry.set(passage.step);
-                if (draft_.around.fault && draft_.around.fault->next == passage.step) bans.on_error = true;
+                exclusions.entry.set(passage.step);
+                if (draft_.around.fault && draft_.around.fault->next == passage.step)
+                    exclusions.on_error = true;
                 return;
             case Passage::Kind::step:
-                bans.shape.set(passage.step);
+                exclusions.shape.set(passage.step);
                 return;
             case Passage::Kind::rest:
-                bans = only_terms(bans);
+                exclusions = only_terms(exclusions);
                 return;
         }
     }
 
-    void learn_from_bytes(Bans& bans) const {
+    void learn_from_bytes(Exclusions& exclusions) const {
         const auto different =
             std::mismatch(compilation_.table.begin(), compilation_.table.end(), table_.begin(), table_.end());
         const auto at = static_cast<std::size_t>(different.second - table_.begin());
         const std::size_t term =
             std::min(at, table_.size() - 1) / sequencer::kTermBytes * sequencer::kTermBytes;
         const std::uint8_t step = table_[term] & 0x3F;
-        if (step == 0) bans.power_up = true;
-        if (step == 0 && !draft_.power_up) bans.shape.set(0);
-        if (step != 0) bans.shape.set(step);
+        if (step == 0) exclusions.power_up = true;
+        if (step == 0 && !draft_.power_up) exclusions.shape.set(0);
+        if (step != 0) exclusions.shape.set(step);
     }
 
     Decompilation bytes_alone() {
@@ -221,7 +222,7 @@ class Decompiler {
     std::string why_no_drive_;
     Drafter drafter_;
     Draft draft_;
-    Manuscript manuscript_;
+    WrittenProgram manuscript_;
     Compilation compilation_;
     Decompilation result_;
 };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "meaning/commands.h"
+#include "semantics/commands.h"
 
 namespace nplc::seqc {
 namespace {
@@ -104,20 +104,20 @@ std::optional<Action> Drafter::voted_fault(const Surroundings& around) const {
     return *most->first;
 }
 
-Draft Drafter::draft(const Bans& bans) {
+Draft Drafter::draft(const Exclusions& exclusions) {
     Draft draft;
     draft.around.outputs = voted_outputs();
-    if (!bans.on_error) draft.around.fault = voted_fault(draft.around);
-    find_shapes(bans, draft);
+    if (!exclusions.on_error) draft.around.fault = voted_fault(draft.around);
+    find_shapes(exclusions, draft);
     const auto users =
         std::count_if(draft.shapes.begin(), draft.shapes.end(),
                       [](const std::optional<Shape>& shape) { return shape && !shape->plan.own_error; });
     if (draft.around.fault && users < kEnoughForOnError) {
-        Bans more = bans;
+        Exclusions more = exclusions;
         more.on_error = true;
         return this->draft(more);
     }
-    find_entries(bans, draft);
+    find_entries(exclusions, draft);
     take_entry_from_values(draft);
     note_outputs(draft);
     return draft;
@@ -130,7 +130,7 @@ const std::optional<Shape>& Drafter::shape_of(std::size_t index, const Surroundi
     return found_[key] = find_shape(layout_.steps[index], groups_[index], around);
 }
 
-void Drafter::find_shapes(const Bans& bans, Draft& draft) {
+void Drafter::find_shapes(const Exclusions& exclusions, Draft& draft) {
     draft.shapes.assign(layout_.steps.size(), std::nullopt);
     std::size_t zero = layout_.steps.size();
     const bool zero_outside = std::any_of(layout_.outside.begin(), layout_.outside.end(),
@@ -138,18 +138,18 @@ void Drafter::find_shapes(const Bans& bans, Draft& draft) {
     for (std::size_t i = 0; i < layout_.steps.size(); ++i) {
         const Part& part = layout_.steps[i];
         if (part.number == 0) zero = i;
-        if (i == 0 && part.number == 0 && !bans.power_up && !zero_outside) {
+        if (i == 0 && part.number == 0 && !exclusions.power_up && !zero_outside) {
             draft.power_up = find_power_up(part, groups_[i], draft.around);
             if (draft.power_up) continue;
         }
-        if (!bans.shape.test(part.number)) draft.shapes[i] = shape_of(i, draft.around);
+        if (!exclusions.shape.test(part.number)) draft.shapes[i] = shape_of(i, draft.around);
     }
     // A step with the number 0 writes its OUT by itself, so it can have none when it is TERMs.
     const bool must_be_silent =
         zero < layout_.steps.size() && !draft.power_up && !draft.shapes[zero] && draft.around.outputs[0] != 0;
     if (!must_be_silent) return;
     draft.around.outputs[0] = 0;
-    Bans more = bans;
+    Exclusions more = exclusions;
     more.shape.set(0);
     find_shapes(more, draft);
 }
@@ -182,10 +182,10 @@ std::vector<const Action*> Drafter::ways_into(std::uint8_t step, const Draft& dr
 
 /// ENTRY: what all ways into a step end with; of a single way only the move, since the step is about it. That
 /// of the fault step is what ON ERROR does.
-void Drafter::find_entries(const Bans& bans, Draft& draft) const {
+void Drafter::find_entries(const Exclusions& exclusions, Draft& draft) const {
     for (std::size_t i = 0; i < layout_.steps.size(); ++i) {
         const std::uint8_t step = layout_.steps[i].number;
-        if (bans.entry.test(step) || (step == 0 && draft.power_up)) continue;
+        if (exclusions.entry.test(step) || (step == 0 && draft.power_up)) continue;
         if (draft.around.fault && draft.around.fault->next == step) {
             draft.entries[step] = *draft.around.fault;
             draft.entries[step].next.reset();

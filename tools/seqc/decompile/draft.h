@@ -14,13 +14,13 @@
 namespace nplc::seqc {
 
 /// What an earlier draft showed not to work.
-struct Bans {
+struct Exclusions {
     std::bitset<64> shape;  ///< the step must be TERMs
     std::bitset<64> entry;  ///< the step must have no ENTRY
     bool on_error = false;
     bool power_up = false;
     bool given_names = false;
-    bool operator==(const Bans&) const = default;
+    bool operator==(const Exclusions&) const = default;
 };
 
 /// How a table is to be written.
@@ -36,14 +36,14 @@ struct Draft {
 class Drafter {
   public:
     Drafter(const Layout& layout, registers::Model motor);
-    Draft draft(const Bans& bans);
+    Draft draft(const Exclusions& exclusions);
 
   private:
     std::vector<std::uint8_t> voted_outputs() const;
     std::optional<Action> voted_fault(const Surroundings& around) const;
-    void find_shapes(const Bans& bans, Draft& draft);
+    void find_shapes(const Exclusions& exclusions, Draft& draft);
     const std::optional<Shape>& shape_of(std::size_t index, const Surroundings& around);
-    void find_entries(const Bans& bans, Draft& draft) const;
+    void find_entries(const Exclusions& exclusions, Draft& draft) const;
     std::vector<const Action*> ways_into(std::uint8_t step, const Draft& draft) const;
     void take_entry_from_values(Draft& draft) const;
     void note_outputs(Draft& draft) const;

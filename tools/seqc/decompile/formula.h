@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "meaning/truth.h"
+#include "semantics/truth.h"
 
 namespace nplc::seqc {
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "decompile/vocabulary.h"
-#include "terms/effects.h"
+#include "lowering/effects.h"
 
 namespace nplc::seqc {
 namespace {

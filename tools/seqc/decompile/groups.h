@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "decompile/layout.h"
-#include "meaning/model.h"
 #include "registers/mac.h"
+#include "semantics/model.h"
 
 namespace nplc::seqc {
 

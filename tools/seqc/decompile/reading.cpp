@@ -28,7 +28,7 @@ bool take_cases(const std::vector<Group>& groups, std::size_t index, std::array<
 
 }  // namespace
 
-std::size_t peaceful_groups(const std::vector<Group>& groups) {
+std::size_t compatible_groups(const std::vector<Group>& groups) {
     std::array<int, kCases> decisive;
     decisive.fill(kNobody);
     std::size_t count = 0;

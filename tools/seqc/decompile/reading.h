@@ -7,7 +7,7 @@
 
 #include "decompile/groups.h"
 #include "decompile/shape.h"
-#include "meaning/model.h"
+#include "semantics/model.h"
 
 namespace nplc::seqc {
 
@@ -45,7 +45,7 @@ class Reading {
     bool shows_outputs_ = false;
 };
 
-/// How many groups, from the first, never act together so that only a TERM could say it.
-std::size_t peaceful_groups(const std::vector<Group>& groups);
+/// How many groups, from the first, a program can say without TERMs: none of them act together in other ways.
+std::size_t compatible_groups(const std::vector<Group>& groups);
 
 }  // namespace nplc::seqc

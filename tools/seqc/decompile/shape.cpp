@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "decompile/reading.h"
-#include "terms/lower.h"
+#include "lowering/lower.h"
 
 namespace nplc::seqc {
 namespace {
@@ -96,11 +96,11 @@ class ShapeSearch {
         : part_(part), groups_(groups), around_(around) {}
 
     std::optional<Shape> run() {
-        const std::size_t peaceful = std::min(peaceful_groups(groups_), kMostGroups);
-        for (std::size_t left = 0; left < peaceful && left <= kMostLeft; left = left == 0 ? 1 : 2 * left) {
-            if (auto shape = shape_of(peaceful - left)) return shape;
+        const std::size_t compatible = std::min(compatible_groups(groups_), kMostGroups);
+        for (std::size_t left = 0; left < compatible && left <= kMostLeft; left = left == 0 ? 1 : 2 * left) {
+            if (auto shape = shape_of(compatible - left)) return shape;
         }
-        return peaceful > 1 ? shape_of(1) : std::nullopt;
+        return compatible > 1 ? shape_of(1) : std::nullopt;
     }
 
   private:

@@ -7,7 +7,7 @@
 #include "decompile/formula.h"
 #include "decompile/groups.h"
 #include "decompile/layout.h"
-#include "meaning/model.h"
+#include "semantics/model.h"
 
 namespace nplc::seqc {
 

@@ -6,9 +6,9 @@
 
 #include "decompile/groups.h"
 #include "decompile/vocabulary.h"
-#include "meaning/commands.h"
+#include "listing/describe.h"
+#include "semantics/commands.h"
 #include "syntax/parser.h"
-#include "text/describe.h"
 
 namespace nplc::seqc {
 namespace {
@@ -70,43 +70,43 @@ std::string time_text(std::uint16_t milliseconds) {
     return rest == 0 ? fmt::format("T#{}s", seconds) : fmt::format("T#{}s{}ms", seconds, rest);
 }
 
-Line write_line(const Send& send, const Speech& speech) {
-    const ValueText value = value_text(*send.reg, send.value, speech.naming.symbols);
-    return {fmt::format("{} := {};", register_text(*send.reg, speech), value.text), value.comment};
+Line write_line(const Send& send, const WriterContext& context) {
+    const ValueText value = value_text(*send.reg, send.value, context.naming.symbols);
+    return {fmt::format("{} := {};", register_text(*send.reg, context), value.text), value.comment};
 }
 
-std::string condition_text(const sequencer::TermBytes& bytes, const Speech& speech) {
+std::string condition_text(const sequencer::TermBytes& bytes, const WriterContext& context) {
     const Truth cases = cases_of(bytes);
-    return formula_of(cases, cases, speech.naming.bits).text;
+    return formula_of(cases, cases, context.naming.bits).text;
 }
 
 }  // namespace
 
-std::string register_text(const registers::Register& reg, const Speech& speech) {
-    const auto given = speech.naming.registers.find(reg.number);
-    return given != speech.naming.registers.end() ? given->second : register_address(reg, speech);
+std::string register_text(const registers::Register& reg, const WriterContext& context) {
+    const auto given = context.naming.registers.find(reg.number);
+    return given != context.naming.registers.end() ? given->second : register_address(reg, context);
 }
 
 /// Up to 88 the names that commands know too: V1, not the MAC800's VEL0.
-std::string register_address(const registers::Register& reg, const Speech& speech) {
+std::string register_address(const registers::Register& reg, const WriterContext& context) {
     const bool shared = reg.number <= kLastCommonRegister;
     const registers::Register* common =
         shared ? registers::find(registers::Model::mac140, reg.number) : nullptr;
     const std::string_view name = common != nullptr ? common->name : reg.name;
-    const registers::Register* named = registers::find(speech.motor, name);
+    const registers::Register* named = registers::find(context.motor, name);
     const bool usable =
-        (shared || speech.motor_is_sure) && is_name(name) && named != nullptr && named->number == reg.number;
+        (shared || context.motor_is_sure) && is_name(name) && named != nullptr && named->number == reg.number;
     return usable ? std::string(name) : fmt::format("REG({})", reg.number);
 }
 
-std::vector<Line> statements_of(const Action& action, const Speech& speech) {
+std::vector<Line> statements_of(const Action& action, const WriterContext& context) {
     std::vector<Line> lines;
     for (std::size_t i = 0; i < action.sends.size();) {
         if (action.sends[i].reg != nullptr) {
-            lines.push_back(write_line(action.sends[i++], speech));
+            lines.push_back(write_line(action.sends[i++], context));
             continue;
         }
-        const SelectedText selection = selection_at(action.sends, i, speech.naming);
+        const SelectedText selection = selection_at(action.sends, i, context.naming);
         lines.push_back({selection.text + ";", {}});
         i += selection.count;
     }
@@ -117,9 +117,9 @@ std::vector<Line> statements_of(const Action& action, const Speech& speech) {
     return lines;
 }
 
-std::string next_text(std::uint8_t step, const Speech& speech) {
-    const bool power_up = step == 0 && speech.has_power_up;
-    return fmt::format("NEXT := {};", power_up ? "POWER_UP" : speech.naming.symbols.steps[step]);
+std::string next_text(std::uint8_t step, const WriterContext& context) {
+    const bool power_up = step == 0 && context.has_power_up;
+    return fmt::format("NEXT := {};", power_up ? "POWER_UP" : context.naming.symbols.steps[step]);
 }
 
 std::string outputs_text(std::uint8_t outputs, const Naming& naming) {
@@ -131,23 +131,23 @@ std::string outputs_text(std::uint8_t outputs, const Naming& naming) {
     return text + ";";
 }
 
-Line term_line(sequencer::TermView term, bool inside, const Speech& speech) {
+Line term_line(sequencer::TermView term, bool inside, const WriterContext& context) {
     sequencer::TermBytes bytes{};
     std::copy(term.begin(), term.end(), bytes.begin());
     if (sequencer::is_end(bytes)) return {byte_line(bytes), describe(bytes, nullptr)};
-    const std::string_view why = obstacle(bytes, speech.motor);
+    const std::string_view why = obstacle(bytes, context.motor);
     if (!why.empty())
-        return {byte_line(bytes), fmt::format("{}: {}", why, describe(bytes, &speech.naming.symbols))};
-    const std::vector<Group> groups = groups_of({bytes}, speech.motor);
+        return {byte_line(bytes), fmt::format("{}: {}", why, describe(bytes, &context.naming.symbols))};
+    const std::vector<Group> groups = groups_of({bytes}, context.motor);
     const Action& action = groups.front().action;
-    const std::string name = inside ? "" : speech.naming.symbols.steps[sequencer::step_of(bytes)] + ": ";
-    Line line{fmt::format("TERM {}IF {} THEN ", name, condition_text(bytes, speech)), {}};
-    for (const Line& statement : statements_of(action, speech)) {
+    const std::string name = inside ? "" : context.naming.symbols.steps[sequencer::step_of(bytes)] + ": ";
+    Line line{fmt::format("TERM {}IF {} THEN ", name, condition_text(bytes, context)), {}};
+    for (const Line& statement : statements_of(action, context)) {
         line.text += statement.text + " ";
         line.comment += statement.comment;
     }
-    if (groups.front().outputs != 0) line.text += outputs_text(groups.front().outputs, speech.naming) + " ";
-    if (action.next) line.text += next_text(*action.next, speech) + " ";
+    if (groups.front().outputs != 0) line.text += outputs_text(groups.front().outputs, context.naming) + " ";
+    if (action.next) line.text += next_text(*action.next, context) + " ";
     line.text += "END_IF;";
     return line;
 }

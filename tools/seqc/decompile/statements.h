@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "decompile/naming.h"
-#include "meaning/model.h"
+#include "semantics/model.h"
 #include "sequencer/term.h"
 
 namespace nplc::seqc {
 
-/// How the program to be written speaks.
-struct Speech {
+/// Names, units and motor of the program that is written.
+struct WriterContext {
     const Naming& naming;
     registers::Model motor;
     bool motor_is_sure = true;  ///< not: registers that motors do not share go by number
@@ -25,20 +25,20 @@ struct Line {
 };
 
 /// What an action does beside its NEXT, in the order of a program.
-std::vector<Line> statements_of(const Action& action, const Speech& speech);
+std::vector<Line> statements_of(const Action& action, const WriterContext& context);
 
-std::string next_text(std::uint8_t step, const Speech& speech);
+std::string next_text(std::uint8_t step, const WriterContext& context);
 
 /// "OUT Grip, Lamp;"; `outputs` is not 0.
 std::string outputs_text(std::uint8_t outputs, const Naming& naming);
 
 /// "Place", if it has a given name; else as below.
-std::string register_text(const registers::Register& reg, const Speech& speech);
+std::string register_text(const registers::Register& reg, const WriterContext& context);
 /// "P2", or "REG(200)".
-std::string register_address(const registers::Register& reg, const Speech& speech);
+std::string register_address(const registers::Register& reg, const WriterContext& context);
 
 /// The line of one term: in symbols, or as bytes with the reason and the meaning in a comment. `inside`: in
 /// its step, so that it needs no name.
-Line term_line(sequencer::TermView term, bool inside, const Speech& speech);
+Line term_line(sequencer::TermView term, bool inside, const WriterContext& context);
 
 }  // namespace nplc::seqc

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <optional>
 
-#include "meaning/commands.h"
-#include "meaning/units.h"
 #include "registers/scale.h"
+#include "semantics/commands.h"
+#include "semantics/units.h"
 
 namespace nplc::seqc {
 namespace {

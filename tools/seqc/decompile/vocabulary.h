@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "meaning/model.h"
 #include "registers/mac.h"
+#include "semantics/model.h"
 #include "seqc/seqc.h"
 #include "sequencer/term.h"
 

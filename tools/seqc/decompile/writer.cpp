@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "decompile/vocabulary.h"
-#include "meaning/motors.h"
+#include "semantics/motors.h"
 
 namespace nplc::seqc {
 namespace {
@@ -37,10 +37,10 @@ bool numbers_itself(const Layout& layout) {
 
 class Writer {
   public:
-    Writer(const Layout& layout, const Draft& draft, const Speech& speech)
-        : layout_(layout), draft_(draft), speech_(speech), numbered_(!numbers_itself(layout)) {}
+    Writer(const Layout& layout, const Draft& draft, const WriterContext& context)
+        : layout_(layout), draft_(draft), context_(context), numbered_(!numbers_itself(layout)) {}
 
-    Manuscript run(const std::string& head) {
+    WrittenProgram run(const std::string& head) {
         result_.text = head;
         line(0, "PROGRAM " + names().program);
         if (needs_motor()) line(0, fmt::format("MOTOR {};", motor_name(names())));
@@ -51,7 +51,7 @@ class Writer {
         write_values();
         if (draft_.around.fault) {
             line(0, "");
-            line(0, "ON ERROR " + next_text(*draft_.around.fault->next, speech_));
+            line(0, "ON ERROR " + next_text(*draft_.around.fault->next, context_));
             end_passage(Kind::on_error);
         }
         if (draft_.power_up) write_power_up();
@@ -63,7 +63,7 @@ class Writer {
     }
 
   private:
-    const Symbols& names() const { return speech_.naming.symbols; }
+    const Symbols& names() const { return context_.naming.symbols; }
 
     void line(std::size_t indent, const std::string& text) {
         if (!text.empty()) result_.text.append(4 * indent, ' ');
@@ -94,8 +94,8 @@ class Writer {
                 return !sequencer::is_flex(term) && ((term[5] >> bit) & 1) != 0;
             });
         };
-        write_block("VAR_INPUT", names().inputs, speech_.naming.declared_inputs, "IN", cares);
-        write_block("VAR_OUTPUT", names().outputs, speech_.naming.declared_outputs, "OUT", writes);
+        write_block("VAR_INPUT", names().inputs, context_.naming.declared_inputs, "IN", cares);
+        write_block("VAR_OUTPUT", names().outputs, context_.naming.declared_outputs, "OUT", writes);
         end_passage(Kind::names);
     }
 
@@ -120,7 +120,7 @@ class Writer {
 
     void write_values() {
         std::vector<std::string> lines;
-        auto unsaid = speech_.naming.registers;
+        auto unsaid = context_.naming.registers;
         const std::size_t values = draft_.power_up ? draft_.power_up->values : 0;
         for (std::size_t i = 0; i < values; ++i) {
             const Send& send = draft_.power_up->action.sends[i];
@@ -130,7 +130,7 @@ class Writer {
             unsaid.erase(send.reg->number);
         }
         for (const auto& [number, name] : unsaid)
-            lines.push_back(declared(*registers::find(speech_.motor, number)) + ";");
+            lines.push_back(declared(*registers::find(context_.motor, number)) + ";");
         if (!draft_.power_up && lines.empty()) return;
         write_variables("VAR_MOTOR", lines);
         end_passage(Kind::values);
@@ -138,12 +138,12 @@ class Writer {
 
     /// "Place AT P2"
     std::string declared(const registers::Register& reg) const {
-        const std::string address = register_address(reg, speech_);
-        const auto given = speech_.naming.registers.find(reg.number);
+        const std::string address = register_address(reg, context_);
+        const auto given = context_.naming.registers.find(reg.number);
         const std::string name = address.starts_with("REG(") ? fmt::format("R{}", reg.number) : address;
         return fmt::format(
             "{} AT {}",
-            given != speech_.naming.registers.end() ? given->second : speech_.naming.value_name(name),
+            given != context_.naming.registers.end() ? given->second : context_.naming.value_name(name),
             address);
     }
 
@@ -159,8 +159,8 @@ class Writer {
                            action.sends.begin() + static_cast<std::ptrdiff_t>(draft_.power_up->values));
         line(0, "");
         line(0, "POWER_UP");
-        for (const Line& statement : statements_of(action, speech_)) line(1, commented(statement));
-        line(1, next_text(*action.next, speech_));
+        for (const Line& statement : statements_of(action, context_)) line(1, commented(statement));
+        line(1, next_text(*action.next, context_));
         line(0, "END_POWER_UP");
         end_passage(Kind::power_up);
     }
@@ -176,12 +176,12 @@ class Writer {
         write_outputs(part, shape);
         if (!shape || shape->plan.own_error) line(1, "OWN ERROR;");
         end_passage(Kind::step, part.number);
-        for (const Line& statement : statements_of(draft_.entries[part.number], speech_))
+        for (const Line& statement : statements_of(draft_.entries[part.number], context_))
             line(1, "ENTRY " + commented(statement));
         end_passage(Kind::entry, part.number);
         if (shape) write_branches(shape->plan);
         for (std::size_t i = shape ? shape->terms : 0; i < part.terms.size(); ++i)
-            line(1, commented(term_line(part.terms[i], true, speech_)));
+            line(1, commented(term_line(part.terms[i], true, context_)));
         line(0, "END_STEP");
         end_passage(Kind::step, part.number);
     }
@@ -189,7 +189,7 @@ class Writer {
     void write_outputs(const Part& part, const std::optional<Shape>& shape) {
         const std::uint8_t outputs = draft_.around.outputs[part.number];
         if (draft_.says_outputs.test(part.number) && outputs != 0)
-            line(1, outputs_text(outputs, speech_.naming));
+            line(1, outputs_text(outputs, context_.naming));
         if (!shape) return;
         Truth leaves = shape->plan.own_error ? Truth() : truth_of_bit(kErrorBit);
         for (const Rule& rule : shape->plan.rules) {
@@ -197,15 +197,15 @@ class Writer {
         }
         for (const ConditionalOutput& output : shape->plan.conditional) {
             if (output.outputs == outputs) continue;  // a step with the number 0 writes its own in any case
-            std::string text = outputs_text(output.outputs, speech_.naming);
+            std::string text = outputs_text(output.outputs, context_.naming);
             text.pop_back();
-            const Formula when = formula_of(output.when, output.when | leaves, speech_.naming.bits);
+            const Formula when = formula_of(output.when, output.when | leaves, context_.naming.bits);
             line(1, fmt::format("{} WHEN {};", text, when.text));
         }
     }
 
     void write_branches(const StepPlan& plan) {
-        const std::vector<Link> chain = chain_of(plan.rules, speech_.naming.bits);
+        const std::vector<Link> chain = chain_of(plan.rules, context_.naming.bits);
         if (chain.size() == 1 && chain.front().condition.is_true)
             return write_statements(*chain.front().action, plan.number, 1);
         for (std::size_t i = 0; i < chain.size(); ++i) {
@@ -222,32 +222,32 @@ class Writer {
 
     void write_statements(const Action& action, std::uint8_t step, std::size_t indent) {
         const bool leaves = action.next && *action.next != step;
-        for (const Line& statement : statements_of(said(action, step), speech_))
+        for (const Line& statement : statements_of(said(action, step), context_))
             line(indent, (leaves ? "" : "EVERY_SCAN ") + commented(statement));
-        if (action.next) line(indent, next_text(*action.next, speech_));
+        if (action.next) line(indent, next_text(*action.next, context_));
     }
 
     void write_outside() {
         line(0, "");
         end_passage(Kind::rest);
         if (!layout_.outside.empty()) line(0, "// behind the terms of all steps above");
-        for (const TermBytes& term : layout_.outside) line(0, commented(term_line(term, false, speech_)));
+        for (const TermBytes& term : layout_.outside) line(0, commented(term_line(term, false, context_)));
         if (layout_.end != kPlainEnd || (layout_.steps.empty() && layout_.outside.empty()))
-            line(0, commented(term_line(layout_.end, false, speech_)));
+            line(0, commented(term_line(layout_.end, false, context_)));
     }
 
     const Layout& layout_;
     const Draft& draft_;
-    const Speech& speech_;
+    const WriterContext& context_;
     bool numbered_;
-    Manuscript result_;
+    WrittenProgram result_;
 };
 
 }  // namespace
 
-Manuscript write_program(const Layout& layout, const Draft& draft, const Speech& speech,
-                         const std::string& head) {
-    return Writer(layout, draft, speech).run(head);
+WrittenProgram write_program(const Layout& layout, const Draft& draft, const WriterContext& context,
+                             const std::string& head) {
+    return Writer(layout, draft, context).run(head);
 }
 
 }  // namespace nplc::seqc

@@ -18,13 +18,13 @@ struct Passage {
     std::size_t end = 0;  ///< it reaches from the one before to here
 };
 
-struct Manuscript {
+struct WrittenProgram {
     std::string text;
     std::vector<Passage> passages;
 };
 
 /// The program of a draft, `head` (comment lines) first.
-Manuscript write_program(const Layout& layout, const Draft& draft, const Speech& speech,
-                         const std::string& head);
+WrittenProgram write_program(const Layout& layout, const Draft& draft, const WriterContext& context,
+                             const std::string& head);
 
 }  // namespace nplc::seqc

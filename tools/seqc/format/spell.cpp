@@ -5,9 +5,9 @@
 #include <optional>
 #include <unordered_map>
 
-#include "meaning/commands.h"
-#include "meaning/motors.h"
 #include "registers/mac.h"
+#include "semantics/commands.h"
+#include "semantics/motors.h"
 #include "syntax/names.h"
 #include "syntax/parser.h"
 

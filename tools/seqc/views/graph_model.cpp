@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "base/crc32.h"
-#include "meaning/motors.h"
-#include "views/words.h"
+#include "semantics/motors.h"
+#include "views/table_text.h"
 
 namespace nplc::seqc {
 namespace {
@@ -75,7 +75,7 @@ class Builder {
     }
 
     std::string actions(std::uint8_t step, const Reaction& reaction) const {
-        Outcome outcome = reaction.outcome;
+        ScanResult outcome = reaction.outcome;
         auto& orders = outcome.orders;
         if (outcome.next != step) {
             const Entry& entry = entries_[outcome.next];
@@ -133,7 +133,7 @@ class Builder {
 
     std::string entry(std::uint8_t step) const {
         const Entry& entry = entries_[step];
-        Outcome outcome;
+        ScanResult outcome;
         outcome.orders = step == 0 ? power_up_ : entry.orders;
         outcome.timer = entry.timer;
         outcome.counter_preset = entry.counter_preset;

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "terms/scan.h"
+#include "lowering/scan.h"
 
 /// What a table does, seen whole: any table, not only what the compiler makes.
 namespace nplc::seqc {
@@ -40,7 +40,7 @@ Machine machine_of(std::span<const std::uint8_t> table);
 /// Something a step does, and when. Not: to stay and at most write outputs.
 struct Reaction {
     Truth when;
-    Outcome outcome;                 ///< `outputs` only where the step that follows does not fix them
+    ScanResult outcome;              ///< `outputs` only where the step that follows does not fix them
     std::uint8_t outputs_shown = 0;  ///< which bits of `outcome.outputs` it does not fix
 
     bool only_on_error() const { return (when & ~truth_of_bit(kErrorBit)).none(); }

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "views/words.h"
+#include "views/table_text.h"
 
 namespace nplc::seqc {
 namespace {

@@ -6,13 +6,13 @@
 #include <optional>
 #include <utility>
 
-#include "meaning/motors.h"
+#include "semantics/motors.h"
 #include "seqc/seqc.h"
 #include "sequencer/term.h"
 #include "syntax/names.h"
 #include "views/machine.h"
 #include "views/power_up_values.h"
-#include "views/words.h"
+#include "views/table_text.h"
 
 namespace nplc::seqc {
 
@@ -76,8 +76,8 @@ class Matching {
         std::size_t acting = 0;
         std::size_t same = 0;
         for (std::size_t c = 0; c < kCases; ++c) {
-            const Outcome& x = before_.steps[a].in(c);
-            const Outcome& y = now_.steps[b].in(c);
+            const ScanResult& x = before_.steps[a].in(c);
+            const ScanResult& y = now_.steps[b].in(c);
             const bool stays = x.next == a && y.next == b;
             if (stays && x.is_quiet() && y.is_quiet()) continue;
             ++acting;
@@ -127,17 +127,17 @@ struct Side {
 
     /// Outputs that are the step's own affair: what a step that follows is entered with, or what a step that
     /// stays always has. A step that is never reached may enter it with others.
-    std::uint8_t settled(std::uint8_t step, const Outcome& outcome) const {
+    std::uint8_t settled(std::uint8_t step, const ScanResult& outcome) const {
         const KnownOutputs& always =
             outcome.next == step ? machine.held[step] : machine.entered_with[outcome.next];
         const KnownOutputs after = outputs_after(step, outcome);
         return static_cast<std::uint8_t>(always.known & after.known & ~(always.value ^ after.value));
     }
-    KnownOutputs outputs_after(std::uint8_t step, const Outcome& outcome) const {
+    KnownOutputs outputs_after(std::uint8_t step, const ScanResult& outcome) const {
         constexpr std::uint8_t kAll = 0x0F;
         return outcome.outputs ? KnownOutputs{kAll, *outcome.outputs} : machine.held[step];
     }
-    std::vector<MotorOrder> without_entry(const Outcome& outcome) const {
+    std::vector<MotorOrder> without_entry(const ScanResult& outcome) const {
         std::vector<MotorOrder> orders = outcome.orders;
         orders.resize(orders.size() - entries[outcome.next].orders.size());
         return orders;
@@ -205,7 +205,7 @@ class Differ {
 
     void compare(std::uint8_t a, std::uint8_t b) {
         compare_outputs(a, b);
-        std::vector<std::pair<Deed, Deed>> kinds;
+        std::vector<std::pair<StepAction, StepAction>> kinds;
         std::vector<Truth> cases;
         for (std::size_t c = 0; c < kCases; ++c) {
             auto [before, now] = deeds(a, b, c);
@@ -224,10 +224,10 @@ class Differ {
         }
     }
 
-    std::pair<Deed, Deed> deeds(std::uint8_t a, std::uint8_t b, std::size_t c) const {
-        const Outcome& x = before_.machine.steps[a].in(c);
-        const Outcome& y = now_.machine.steps[b].in(c);
-        std::pair<Deed, Deed> result{deed_of(x, c), deed_of(y, c)};
+    std::pair<StepAction, StepAction> deeds(std::uint8_t a, std::uint8_t b, std::size_t c) const {
+        const ScanResult& x = before_.machine.steps[a].in(c);
+        const ScanResult& y = now_.machine.steps[b].in(c);
+        std::pair<StepAction, StepAction> result{step_action_of(x, c), step_action_of(y, c)};
         auto& [before, now] = result;
         if (x.next != a) name_target_before(x.next, before);
         if (y.next != b) {
@@ -241,10 +241,10 @@ class Differ {
     }
 
     static void tell_outputs(const KnownOutputs& before, const KnownOutputs& now, std::uint8_t settled,
-                             std::pair<Deed, Deed>& deeds) {
+                             std::pair<StepAction, StepAction>& deeds) {
         const auto differ =
             static_cast<std::uint8_t>(((before.known ^ now.known) | (before.value ^ now.value)) & ~settled);
-        const auto tell = [differ](const KnownOutputs& outputs, Deed& deed) {
+        const auto tell = [differ](const KnownOutputs& outputs, StepAction& deed) {
             deed.outputs = {static_cast<std::uint8_t>(outputs.known & differ),
                             static_cast<std::uint8_t>(outputs.value & differ)};
             deed.kept_outputs = static_cast<std::uint8_t>(differ & ~outputs.known);
@@ -253,14 +253,14 @@ class Differ {
         tell(now, deeds.second);
     }
 
-    void name_target_before(std::uint8_t step, Deed& deed) const {
+    void name_target_before(std::uint8_t step, StepAction& deed) const {
         const auto now = match_.now_of[step];
         deed.next_id = now ? *now : static_cast<int>(kStepNumbers) + step;
         deed.next = now ? name_now(*now) : name_before(step);
     }
 
     /// Both lead to the same step, and differ only in what all ways into that step do.
-    bool is_only_entry(std::uint8_t a, std::uint8_t b, std::size_t c, Deed before, Deed now) {
+    bool is_only_entry(std::uint8_t a, std::uint8_t b, std::size_t c, StepAction before, StepAction now) {
         if (before.next_id < 0 || before.next_id != now.next_id) return false;
         before.orders = before_.without_entry(before_.machine.steps[a].in(c));
         now.orders = now_.without_entry(now_.machine.steps[b].in(c));
@@ -273,8 +273,8 @@ class Differ {
     }
 
     void add_entry(std::uint8_t a, std::uint8_t b) {
-        Deed before;
-        Deed now;
+        StepAction before;
+        StepAction now;
         before.orders = before_.entries[a].orders;
         now.orders = now_.entries[b].orders;
         diff_.entries.push_back({name_now(b), "entered", text_of(now, names_), text_of(before, names_)});

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "views/table_diff.h"
-#include "views/words.h"
+#include "views/table_text.h"
 
 namespace nplc::seqc {
 namespace {

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "meaning/model.h"
-#include "meaning/motors.h"
+#include "semantics/model.h"
+#include "semantics/motors.h"
 #include "sequencer/term.h"
-#include "views/words.h"
+#include "views/table_text.h"
 
 namespace nplc::seqc {
 namespace {

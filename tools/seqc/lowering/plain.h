@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "lowering/lower.h"
+
+namespace nplc::seqc {
+
+/// The terms of a step, each branch by itself: what `lower` starts from, and what says why a table cannot do
+/// it. Raw terms of the step come last.
+std::vector<LoweredTerm> plain_terms(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of,
+                                     Report& report);
+
+}  // namespace nplc::seqc

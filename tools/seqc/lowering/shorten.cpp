@@ -1,0 +1,117 @@
+#include "lowering/shorten.h"
+
+#include "lowering/effects.h"
+#include "lowering/label_search.h"
+#include "lowering/least_list.h"
+#include "lowering/order_plan.h"
+
+namespace nplc::seqc {
+namespace {
+
+using sequencer::Condition;
+using sequencer::Term;
+
+/// Spreads the bits of a reduced case over those of truth.h.
+std::size_t spread(std::size_t reduced, const ReducedStep& half, std::size_t first, std::size_t last) {
+    std::size_t result = 0;
+    for (std::size_t i = first; i < last; ++i) result |= ((reduced >> (i - first)) & 1U) << half.bits[i];
+    return result;
+}
+
+Condition condition_of(const Region& region, const ReducedStep& half) {
+    const std::size_t zeros = spread(region.zeros, half, half.inputs, half.bits.size());
+    const std::size_t value = spread(region.value, half, 0, half.inputs);
+    return {
+        .step = half.step->number,
+        .needs_counter_zero = (zeros >> kCounterZero & 1U) != 0,
+        .needs_timer_zero = (zeros >> kTimerZero & 1U) != 0,
+        .input = static_cast<sequencer::InputImage>(value | (half.error ? sequencer::kError : 0)),
+        .care = static_cast<std::uint8_t>(spread(region.care, half, 0, half.inputs)),
+    };
+}
+
+/// Where in the source the behaviour of the first case in the region stands.
+Span span_of(const PlacedTerm& placed, const ReducedStep& half) {
+    if (placed.order != nullptr) return placed.order->send->span;
+    for (std::size_t c = 0; c < half.cases(); ++c) {
+        const Behaviour& wanted = half.at(c);
+        if (!placed.region.holds(c, half.inputs) || wanted.action == nullptr) continue;
+        if (wanted.next == placed.next && wanted.output_byte() == placed.output_byte)
+            return wanted.action->span;
+    }
+    return half.step->span;
+}
+
+LoweredTerm lowered(const PlacedTerm& placed, const ReducedStep& half) {
+    Term term;
+    term.condition = condition_of(placed.region, half);
+    if (placed.order != nullptr && !placed.order->is_fast()) {
+        term.is_flex = true;
+        term.flex = write_of(*placed.order->send);
+        return {sequencer::encode(term), span_of(placed, half)};
+    }
+    term.fast.next_step = placed.names_next ? placed.next : sequencer::kNoSwitch;
+    term.fast.outputs = placed.output_byte & 0x0F;
+    term.fast.clears_counter = (placed.output_byte & 0x40) != 0;
+    term.fast.counts_down = (placed.output_byte & 0x80) != 0;
+    term.fast.presets_counter = placed.preset == Preset::counter;
+    term.fast.preset = placed.value;
+    term.fast.sends = placed.order != nullptr;
+    if (placed.order != nullptr) term.fast.command = placed.order->send->command & 0x7F;
+    return {sequencer::encode(term), span_of(placed, half)};
+}
+
+/// What all cases do that do not stay as they are, if that is one switch without orders and presets.
+const Behaviour* only_switch(const ReducedStep& half) {
+    const Behaviour* only = nullptr;
+    for (const Behaviour& behaviour : half.behaviours) {
+        if (behaviour.action == nullptr && !behaviour.writes) continue;
+        const bool is_switch = behaviour.action != nullptr && behaviour.leaves && behaviour.sends() == 0 &&
+                               !behaviour.action->presets();
+        if (!is_switch || only != nullptr) return nullptr;
+        only = &behaviour;
+    }
+    return only;
+}
+
+/// The terms of a reduced step that is one switch over few variables; empty if there are none of fewer.
+std::vector<LoweredTerm> least_switch(const ReducedStep& half, std::size_t fewer_than) {
+    const Behaviour* wanted = only_switch(half);
+    if (wanted == nullptr || half.bits.size() > SmallCubes::kMostVariables) return {};
+    SmallSet set = 0;
+    for (std::size_t c = 0; c < half.cases(); ++c) set |= &half.at(c) == wanted ? SmallSet{1} << c : 0;
+    const SmallCubes& cubes = SmallCubes::of(half.bits.size(), half.bits.size() - half.inputs);
+    std::vector<LoweredTerm> terms;
+    for (const ListedCube& listed : least_list(set, cubes, fewer_than)) {
+        const std::size_t inputs = (std::size_t{1} << half.inputs) - 1;
+        PlacedTerm term;
+        term.region = {static_cast<std::uint8_t>(listed.cube->value & inputs),
+                       static_cast<std::uint8_t>(listed.cube->care & inputs),
+                       static_cast<std::uint8_t>(listed.cube->value >> half.inputs)};
+        term.next = listed.in ? wanted->next : half.step->number;
+        term.output_byte = listed.in ? wanted->output_byte() : half.step->outputs;
+        terms.push_back(lowered(term, half));
+    }
+    return terms;
+}
+
+}  // namespace
+
+std::vector<LoweredTerm> shorten(const ReducedStep& half, std::size_t fewer_than) {
+    std::vector<LoweredTerm> best;
+    if (fewer_than < 2) return best;
+    for (const OrderPlan& plan : order_plans(half)) {
+        if (plan.size() >= fewer_than) break;
+        LabelSearch search(half, plan);
+        if (plan.size() + search.fewest() >= fewer_than) continue;
+        const auto found = search.run(fewer_than - 1 - plan.size());
+        if (!found) continue;
+        best.clear();
+        for (const PlacedTerm& placed : *found) best.push_back(lowered(placed, half));
+        fewer_than = best.size();
+    }
+    const std::vector<LoweredTerm> least = least_switch(half, fewer_than);
+    return least.empty() ? best : least;
+}
+
+}  // namespace nplc::seqc

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <bitset>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <vector>
+
+#include "lowering/cover.h"
+
+namespace nplc::seqc {
+
+/// All cubes over some variables, narrow ones before the wider ones that hold them. The index is a number in
+/// base three with a digit for each variable: 0, 1, or 2 for open.
+class Ternary {
+  public:
+    static constexpr std::size_t kMostVariables = 7;
+    static constexpr std::size_t kMostCubes = 2187;
+    struct Entry {
+        std::uint8_t value = 0;
+        std::uint8_t care = 0;
+    };
+
+    static const Ternary& of(std::size_t variables);
+
+    std::size_t variables() const { return steps_.size(); }
+    std::size_t size() const { return entries_.size(); }
+    const Entry& operator[](std::size_t index) const { return entries_[index]; }
+    /// The cube that is one point, by the point's number.
+    std::size_t point(std::size_t number) const { return points_[number]; }
+
+    /// From what `by_cube` holds for the points to what it holds for all cubes, each the union (|) of its
+    /// points.
+    template <class T>
+    void unite(T* by_cube) const {
+        for (const Block& block : blocks_) {
+            T* both = by_cube + block.begin;
+            const T* low = both - 2 * block.length;
+            const T* high = both - block.length;
+            for (std::size_t i = 0; i < block.length; ++i) both[i] = static_cast<T>(low[i] | high[i]);
+        }
+    }
+
+    /// Takes from each cube's bits in `by_cube` those that `given` has for a cube wider by one variable.
+    template <class T>
+    void remove_wider(const T* given, T* by_cube) const {
+        for (const std::size_t step : steps_) {
+            for (std::size_t begin = 0; begin < entries_.size(); begin += 3 * step) {
+                for (std::size_t i = begin; i < begin + step; ++i) {
+                    const auto kept = static_cast<T>(~given[i + 2 * step]);
+                    by_cube[i] = static_cast<T>(by_cube[i] & kept);
+                    by_cube[i + step] = static_cast<T>(by_cube[i + step] & kept);
+                }
+            }
+        }
+    }
+
+    /// The half of the cube, in which `variable` is open, where it is `one`.
+    std::size_t half(std::size_t index, std::size_t variable, bool one) const {
+        return index - (one ? 1U : 2U) * steps_[variable];
+    }
+
+    explicit Ternary(std::size_t variables);
+
+  private:
+    struct Block {  // cubes in a row whose highest open variable is the same one
+        std::size_t begin;
+        std::size_t length;
+    };
+    std::vector<Block> blocks_;
+    std::vector<std::size_t> points_;
+    std::vector<std::size_t> steps_;  // 3 to the power of the variable's number
+    std::vector<Entry> entries_;
+};
+
+/// The variables on which some sets of points depend. A set over them only has its points at the low numbers.
+class Variables {
+  public:
+    explicit Variables(std::initializer_list<const Points*> sets);
+
+    std::size_t count() const { return bits_.size(); }
+    Points narrowed(const Points& set) const;
+    Cube widened(Cube cube) const;
+
+  private:
+    std::uint8_t spread(std::size_t low) const;
+    std::vector<std::uint8_t> bits_;
+};
+
+}  // namespace nplc::seqc

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "lowering/lower.h"
+#include "semantics/model.h"
+
+namespace nplc::seqc {
+
+/// The first case (see truth.h) in which the step's terms do something else than its rules say: next step,
+/// outputs, presets, counter and orders in their order, the last true term deciding (001 §6.1.9). The raw
+/// terms at the end of `terms` are left out. Made from the bytes alone, so that it also finds what the
+/// lowering got wrong.
+std::optional<std::size_t> first_difference(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of,
+                                            const std::vector<LoweredTerm>& terms);
+
+/// Reports a difference as an error of the compiler itself.
+void check_terms(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of,
+                 const std::vector<LoweredTerm>& terms, Report& report);
+
+}  // namespace nplc::seqc

@@ -1,0 +1,289 @@
+#include "semantics/actions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "syntax/names.h"
+
+namespace nplc::seqc {
+namespace {
+
+using ast::Statement;
+using protocol::fastmac::Group;
+using protocol::fastmac::Mode;
+
+constexpr double kLongest = 65'535;
+
+/// The place of a selection among others: a move begins with its P, a speed with its V, so that each starts
+/// with what it needs.
+int rank(Group group, Mode mode) {
+    if (group == Group::p) return 2;
+    if (group == Group::v && mode == Mode::velocity) return 0;
+    return 1;
+}
+
+void conflict(Report& report, Span span, const char* what, Span entry) {
+    report
+        .add("E061", span, fmt::format("{} twice in the same scan", what),
+             "only the last would count: keep one, here or in the ENTRY")
+        .notes.push_back({entry, "the ENTRY of the step that is entered does it too"});
+}
+
+bool uses_counter(const Action& action) {
+    return action.counter || action.counts();
+}
+
+}  // namespace
+
+bool Action::same_effect(const Action& other) const {
+    return next == other.next && timer == other.timer && counter == other.counter &&
+           clears_counter == other.clears_counter && counts_down == other.counts_down &&
+           std::equal(sends.begin(), sends.end(), other.sends.begin(), other.sends.end(),
+                      [](const Send& a, const Send& b) { return a.same_effect(b); });
+}
+
+Action ActionBuilder::build(const std::vector<Statement>& statements) {
+    for (const Statement& statement : statements) add(statement);
+    if (!statements.empty()) {
+        const Span first = statements.front().span;
+        const Span last = statements.back().span;
+        action_.span = {first.offset, last.offset + last.length - first.offset};
+    }
+    return action_;
+}
+
+void ActionBuilder::add(const Statement& statement) {
+    if (statement.every_scan && !marked_ && statement.kind != Statement::Kind::next)
+        marked_ = statement.every_scan_span;
+    if (!statement.every_scan && !unmarked_ && statement.kind != Statement::Kind::next)
+        unmarked_ = statement.span;
+    switch (statement.kind) {
+        case Statement::Kind::next:
+            return add_next(statement);
+        case Statement::Kind::command:
+            return add_command(statement);
+        case Statement::Kind::assign:
+            return add_assignment(statement, scope_.reg(statement.name), statement.name.text);
+        case Statement::Kind::assign_number:
+            return add_assignment(statement, scope_.reg(*statement.register_number), {});
+        case Statement::Kind::timer:
+            return add_timer(statement);
+        case Statement::Kind::counter:
+            return add_counter(statement);
+        case Statement::Kind::count_down:
+            if (once(uses_counter(action_), statement, "the counter is changed", action_.counter_span))
+                action_.counts_down = true;
+            return;
+        case Statement::Kind::clear_counter:
+            if (once(uses_counter(action_), statement, "the counter is changed", action_.counter_span))
+                action_.clears_counter = true;
+            return;
+    }
+}
+
+bool ActionBuilder::once(bool already, const Statement& statement, const char* what, Span& place) {
+    if (!already) {
+        place = statement.span;
+        return true;
+    }
+    scope_.report()
+        .add("E061", statement.span, fmt::format("{} twice in the same branch", what),
+             "only the last would count: keep one")
+        .notes.push_back({place, "the first one is here"});
+    return false;
+}
+
+void ActionBuilder::add_next(const Statement& statement) {
+    if (statement.every_scan) {
+        scope_.report().add("E064", statement.every_scan_span, "EVERY_SCAN does not go with NEXT",
+                            "leave it out");
+    }
+    const bool to_power_up = same_name(statement.name.text, "POWER_UP");
+    if (const ast::Step* zero = scope_.step_numbered(0); to_power_up && zero != nullptr) {
+        scope_.report()
+            .add("E096", statement.name.span,
+                 fmt::format("there is no POWER_UP: '{}' is what power-up starts in", zero->name.text),
+                 fmt::format("write NEXT := {};", zero->name.text))
+            .notes.push_back({zero->name.span, "it has the number 0"});
+    }
+    const auto number = to_power_up ? std::optional<std::uint8_t>(0) : scope_.step(statement.name);
+    if (!once(action_.next.has_value(), statement, "NEXT is set", action_.next_span)) return;
+    // A step that does not exist was reported; 62 keeps the branch one that leaves its step.
+    action_.next = number.value_or(sequencer::kNoSwitch);
+}
+
+void ActionBuilder::add_assignment(const Statement& statement, const registers::Register* reg,
+                                   std::string_view shown) {
+    if (reg == nullptr) return;
+    if (const auto bits = scope_.value(statement.value, *reg, shown.empty() ? reg->name : shown)) {
+        add_send({reg, 0, *bits, statement.span});
+    }
+}
+
+void ActionBuilder::add_send(const Statement& statement, std::uint8_t command) {
+    const Send send{nullptr, command, 0, statement.span};
+    if (scope_.is_for_drive(send)) add_send(send);
+}
+
+/// Each takes a term at the least.
+void ActionBuilder::add_send(const Send& send) {
+    if (action_.sends.size() + 1 < kTermsEverywhere) {
+        action_.sends.push_back(send);
+    } else if (!scope_.report().has("E086")) {
+        scope_.report().add("E086", send.span,
+                            fmt::format("more than {} commands and values in one scan: a gateway need not "
+                                        "hold more than {} terms",
+                                        kTermsEverywhere - 1, kTermsEverywhere),
+                            "send less, or spread it over several steps");
+    }
+}
+
+void ActionBuilder::add_command(const Statement& statement) {
+    if (const auto mode = mode_named(statement.name.text)) return add_selections(statement, *mode);
+    if (same_name(statement.name.text, "USE_SET")) return add_use_set(statement);
+    const NamedCommand* command = find_command(statement.name.text);
+    if (command == nullptr) {
+        std::string help = suggestion(statement.name.text, command_names());
+        if (scope_.find_register(statement.name.text) != nullptr)
+            help = "to write a register: Name := value;";
+        if (scope_.is_input(statement.name.text)) help = "inputs are tested: IF Name THEN ... END_IF";
+        if (scope_.is_output(statement.name.text)) help = "to switch an output: OUT Name; in the step";
+        if (help.empty())
+            help =
+                "motor commands are INIT(..), VELOCITY(..), POSITION(..), STOP, HOME, RESET_ERROR and "
+                "others; "
+                "`seqc explain E021` lists them";
+        scope_.report().add("E021", statement.name.span,
+                            fmt::format("there is no command '{}'", statement.name.text), help);
+        return;
+    }
+    if (!command->refusal.empty()) {
+        scope_.report().add("E051", statement.span, fmt::format("a sequence cannot send {}", command->name),
+                            std::string(command->refusal));
+        return;
+    }
+    if (statement.has_arguments) {
+        scope_.report().add("E050", statement.span,
+                            fmt::format("{} takes nothing in parentheses", command->name),
+                            fmt::format("write {};", command->name));
+        return;
+    }
+    add_send(statement, protocol::fastmac::command_byte(command->number));
+}
+
+void ActionBuilder::add_use_set(const Statement& statement) {
+    const bool sound = statement.arguments.size() == 1 && statement.arguments[0].text.size() == 1 &&
+                       statement.arguments[0].text[0] >= '1' && statement.arguments[0].text[0] <= '4';
+    if (!sound) {
+        scope_.report().add("E050", statement.span, "USE_SET takes the number of a register set, 1..4",
+                            "write USE_SET(1);");
+        return;
+    }
+    add_send(statement,
+             static_cast<std::uint8_t>(protocol::fastmac::command_byte(protocol::fastmac::Number::use_set_1) +
+                                       (statement.arguments[0].text[0] - '1')));
+}
+
+void ActionBuilder::add_selections(const Statement& statement, Mode mode) {
+    if (statement.arguments.empty()) {
+        scope_.report().add("E050", statement.span,
+                            fmt::format("{} needs the registers to select", upper(statement.name.text)),
+                            fmt::format("name at least one, as in {}(V1)", upper(statement.name.text)));
+        return;
+    }
+    std::vector<Selection> selections;
+    std::vector<Span> places;
+    for (const ast::Name& argument : statement.arguments) {
+        const registers::Register* reg = scope_.reg(argument);
+        if (reg == nullptr) continue;
+        const auto selection = selection_of(reg->number);
+        if (!selection) {
+            Diagnostic& d = scope_.report().add(
+                "E050", argument.span, fmt::format("{} cannot be selected", argument.text),
+                "registers to select are P1..P8, V1..V8, A1..A4, T1..T4, L1..L4 and Z1..Z4");
+            scope_.note_declaration(d, argument.text);
+            continue;
+        }
+        const auto earlier = std::find_if(selections.begin(), selections.end(),
+                                          [&](const Selection& s) { return s.group == selection->group; });
+        if (earlier != selections.end()) {
+            scope_.report()
+                .add("E050", argument.span, "two registers of the same kind cannot be selected at once",
+                     "keep one of them")
+                .notes.push_back({places[static_cast<std::size_t>(earlier - selections.begin())],
+                                  "the first one is here"});
+            continue;
+        }
+        selections.push_back(*selection);
+        places.push_back(argument.span);
+    }
+    std::stable_sort(selections.begin(), selections.end(), [&](const Selection& a, const Selection& b) {
+        return rank(a.group, mode) < rank(b.group, mode);
+    });
+    for (const Selection& selection : selections) add_send(statement, command_byte(mode, selection));
+}
+
+std::optional<std::uint16_t> ActionBuilder::milliseconds(const ast::Value& value) {
+    double ms = value.number;
+    const bool seconds = same_name(value.unit.text, "s");
+    if (!value.is_time && !seconds && !same_name(value.unit.text, "ms")) {
+        scope_.report().add("E043", value.span, "the timer needs a time", "write it as T#500ms");
+        return std::nullopt;
+    }
+    if (seconds) ms *= 1000;
+    const double rounded = std::round(ms);
+    if (!(rounded >= 0 && rounded <= kLongest)) {
+        scope_.report().add("E062", value.span, "the timer holds at most T#65s535ms",
+                            "for longer times let the counter count repetitions of a shorter one");
+        return std::nullopt;
+    }
+    if (rounded == 0) {
+        scope_.report().add("W007", value.span, "the timer cannot be set to 0: it becomes 1 ms",
+                            "write T#1ms");
+        return std::uint16_t{1};
+    }
+    if (std::fabs(rounded - ms) > 0.01 * ms) {
+        scope_.report().add("W002", value.span,
+                            fmt::format("the timer counts whole milliseconds: this becomes {} ms", rounded),
+                            fmt::format("write T#{}ms if that will do", rounded));
+    }
+    return static_cast<std::uint16_t>(rounded);
+}
+
+void ActionBuilder::add_timer(const Statement& statement) {
+    const auto ms = milliseconds(statement.value);
+    if (ms && once(action_.timer.has_value(), statement, "the timer is set", action_.timer_span))
+        action_.timer = ms;
+}
+
+void ActionBuilder::add_counter(const Statement& statement) {
+    const ast::Value& value = statement.value;
+    const bool plain = value.unit.text.empty() && !value.is_time && std::floor(value.number) == value.number;
+    if (!plain || !(value.number >= 0 && value.number <= kLongest)) {
+        scope_.report().add("E063", value.span, "the counter holds whole numbers 0..65535",
+                            "for more, count in tens or hundreds");
+        return;
+    }
+    if (!once(uses_counter(action_), statement, "the counter is changed", action_.counter_span)) return;
+    if (value.number == 0) {
+        action_.clears_counter = true;  // a preset of 0 presets nothing (001 §6.1.7)
+    } else {
+        action_.counter = static_cast<std::uint16_t>(value.number);
+    }
+}
+
+void append_entry(Action& action, const Action& entry, Report& report) {
+    action.sends.insert(action.sends.end(), entry.sends.begin(), entry.sends.end());
+    if (action.timer && entry.timer)
+        conflict(report, action.timer_span, "the timer is set", entry.timer_span);
+    if (uses_counter(action) && uses_counter(entry))
+        conflict(report, action.counter_span, "the counter is changed", entry.counter_span);
+    if (entry.timer) action.timer = entry.timer;
+    if (entry.counter) action.counter = entry.counter;
+    action.clears_counter = action.clears_counter || entry.clears_counter;
+    action.counts_down = action.counts_down || entry.counts_down;
+}
+
+}  // namespace nplc::seqc

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "semantics/commands.h"
+#include "semantics/model.h"
+#include "semantics/scope.h"
+#include "syntax/ast.h"
+
+namespace nplc::seqc {
+
+/// Works out what a branch's statements do.
+class ActionBuilder {
+  public:
+    explicit ActionBuilder(Scope& scope) : scope_(scope) {}
+
+    Action build(const std::vector<ast::Statement>& statements);
+
+    /// The first statement that would act again in every scan and is not marked EVERY_SCAN.
+    std::optional<Span> unmarked() const { return unmarked_; }
+    std::optional<Span> marked() const { return marked_; }
+
+  private:
+    void add(const ast::Statement& statement);
+    void add_next(const ast::Statement& statement);
+    void add_assignment(const ast::Statement& statement, const registers::Register* reg,
+                        std::string_view shown);
+    void add_command(const ast::Statement& statement);
+    void add_selections(const ast::Statement& statement, protocol::fastmac::Mode mode);
+    void add_use_set(const ast::Statement& statement);
+    void add_timer(const ast::Statement& statement);
+    void add_counter(const ast::Statement& statement);
+    std::optional<std::uint16_t> milliseconds(const ast::Value& value);
+    void add_send(const ast::Statement& statement, std::uint8_t command);
+    void add_send(const Send& send);
+    bool once(bool already, const ast::Statement& statement, const char* what, Span& place);
+
+    Scope& scope_;
+    Action action_;
+    std::optional<Span> unmarked_;
+    std::optional<Span> marked_;
+};
+
+/// Adds the entered step's ENTRY to a branch that enters it; reports what cannot happen in one scan.
+void append_entry(Action& action, const Action& entry, Report& report);
+
+}  // namespace nplc::seqc

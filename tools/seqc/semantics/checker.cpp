@@ -1,0 +1,469 @@
+#include "semantics/drive.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bitset>
+
+#include "semantics/actions.h"
+#include "semantics/motors.h"
+#include "semantics/seen_branches.h"
+#include "semantics/single_term.h"
+#include "sequencer/term.h"
+#include "syntax/names.h"
+
+namespace nplc::seqc {
+namespace {
+
+constexpr std::uint8_t kPowerUp = 0;
+
+Truth error_cases() {
+    return truth_of_bit(kErrorBit);
+}
+Truth no_error_cases() {
+    return ~error_cases();
+}
+
+/// "Start = 1, Guard = 0": one case of `both`, without the bits that matter to neither condition.
+std::string example_of(const Truth& both, const Truth& a, const Truth& b, const Symbols& symbols) {
+    std::size_t first = 0;
+    while (first < kCases && !both.test(first)) ++first;
+    std::string text;
+    for (std::size_t bit = 0; bit < kBits; ++bit) {
+        if (!depends_on(a, bit) && !depends_on(b, bit)) continue;
+        const bool on = ((first >> bit) & 1U) != 0;
+        const std::string_view name = bit < 6             ? std::string_view(symbols.inputs[bit])
+                                      : bit == kInPosBit  ? "INPOS"
+                                      : bit == kErrorBit  ? "ERROR"
+                                      : bit == kTimerZero ? "TIMER.Q"
+                                                          : "COUNTER.Q";
+        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, on ? 1 : 0);
+    }
+    return text.empty() ? "always" : text;
+}
+
+class Checker {
+  public:
+    Checker(const ast::Program& program, Scope& scope, Report& report, const Symbols& symbols)
+        : program_(program), scope_(scope), report_(report), symbols_(symbols) {}
+
+    Plan run() {
+        const bool raw_only = program_.steps.empty() && !program_.power_up;
+        if (raw_only && program_.terms.empty()) {
+            report_.add("E084", program_.name.span, "the program has no steps",
+                        "write STEP Name: ... END_STEP");
+            return {};
+        }
+        build_entries();
+        find_fault_step();
+        Plan plan;
+        if (!raw_only) {
+            if (const ast::Step* zero = scope_.step_numbered(kPowerUp)) {
+                refuse_power_up_beside(*zero);
+            } else {
+                plan.steps.push_back(power_up());
+            }
+            for (std::size_t i = 0; i < scope_.steps().size(); ++i) {
+                if (scope_.number_of(i) > kLastNamed) continue;
+                plan.steps.push_back(step(*scope_.steps()[i], scope_.number_of(i)));
+            }
+        }
+        for (const ast::RawTerm& term : program_.terms) plan.terms.push_back(raw_term(term, {}));
+        check_raw_terms(plan);
+        warn_unreachable(plan);
+        return plan;
+    }
+
+  private:
+    void build_entries() {
+        for (std::size_t i = 0; i < scope_.steps().size(); ++i) {
+            ActionBuilder builder(scope_);
+            Action& entry = entries_[scope_.number_of(i)];
+            entry = builder.build(scope_.steps()[i]->entry);
+            if (const auto marked = builder.marked()) {
+                report_.add("W006", *marked, "ENTRY happens once by itself", "leave EVERY_SCAN out");
+            }
+            if (entry.next) {
+                report_.add("E064", entry.span, "ENTRY cannot hold NEXT",
+                            "name the step where the sequence really goes");
+                entry.next.reset();
+            }
+        }
+    }
+
+    void find_fault_step() {
+        if (!program_.on_error) return;
+        fault_ = scope_.step(*program_.on_error);
+        const ast::Step* step = fault_ ? scope_.step_numbered(*fault_) : nullptr;
+        if (step == nullptr || step->own_error) return;
+        report_
+            .add("E081", step->name.span,
+                 fmt::format("'{}' is the fault step, so it must deal with ERROR itself", step->name.text),
+                 "write OWN ERROR; in it")
+            .notes.push_back({program_.on_error->span, "it is made the fault step here"});
+    }
+
+    void enter(Action& action, std::uint8_t number) {
+        action.next = number;
+        append_entry(action, entries_[number], report_);
+    }
+
+    Rule fault_rule(const std::vector<Send>& before) {
+        Rule rule;
+        rule.when = error_cases();
+        rule.action.span = program_.on_error->span;
+        rule.condition = program_.on_error->span;
+        rule.action.sends = before;
+        enter(rule.action, *fault_);
+        return rule;
+    }
+
+    /// Register values go out whatever ERROR is, so that a motor that starts with an error has them too.
+    StepPlan power_up() {
+        StepPlan plan;
+        plan.name = "POWER_UP";
+        plan.number = kPowerUp;
+        Action action;
+        if (program_.power_up) {
+            const ast::Step& written = *program_.power_up;
+            plan.span = written.name.span;
+            refuse_in_power_up(written);
+            ActionBuilder builder(scope_);
+            if (!written.choices.empty())
+                action = builder.build(written.choices.front().branches.front().statements);
+            if (const auto marked = builder.marked()) {
+                report_.add("W006", *marked, "POWER_UP happens once by itself", "leave EVERY_SCAN out");
+            }
+            if (!action.next || *action.next == kPowerUp) {
+                report_.add("E085", written.name.span, "POWER_UP does not say which step comes first",
+                            "end it with NEXT := Name;");
+                return plan;
+            }
+        } else {
+            action.next = scope_.number_of(0);
+        }
+        const std::vector<Send>& values = scope_.initial_values();
+        action.sends.insert(action.sends.begin(), values.begin(), values.end());
+        enter(action, *action.next);
+        plan.rules.push_back({no_error_cases(), action, {}});
+        if (fault_) plan.rules.push_back(fault_rule(values));
+        return plan;
+    }
+
+    void refuse_in_power_up(const ast::Step& written) {
+        const auto refuse = [&](Span span, const char* what) {
+            report_.add(
+                "E064", span, fmt::format("{} cannot stand in POWER_UP", what),
+                "POWER_UP happens once: commands, register values and NEXT; put the rest into a step");
+        };
+        if (!written.outputs.empty()) refuse(written.outputs.front().span, "OUT");
+        if (!written.conditional.empty()) refuse(written.conditional.front().span, "OUT");
+        if (!written.entry.empty()) refuse(written.entry.front().span, "ENTRY");
+        if (written.own_error) refuse(written.own_error_span, "OWN ERROR");
+        if (!written.terms.empty()) refuse(written.terms.front().span, "TERM");
+        for (std::size_t i = 0; i < written.choices.size(); ++i) {
+            const ast::Choice& choice = written.choices[i];
+            if (!choice.bare) refuse(choice.branches.front().span, "IF");
+        }
+    }
+
+    void refuse_power_up_beside(const ast::Step& zero) {
+        const auto refuse = [&](Span span, const char* what) {
+            report_
+                .add("E096", span, fmt::format("{} cannot stand beside a step with the number 0", what),
+                     fmt::format("'{}' is what power-up starts in: send it from there, or leave its AT out",
+                                 zero.name.text))
+                .notes.push_back({zero.name.span, "it has the number 0"});
+        };
+        if (program_.power_up) refuse(program_.power_up->name.span, "POWER_UP");
+        if (!scope_.initial_values().empty())
+            refuse(scope_.initial_values().front().span, "a value in VAR_MOTOR");
+    }
+
+    StepPlan step(const ast::Step& written, std::uint8_t number) {
+        StepPlan plan;
+        plan.name = written.name.text;
+        plan.span = written.name.span;
+        plan.number = number;
+        plan.own_error = written.own_error;
+        add_outputs(written, plan);
+        SeenBranches seen;
+        for (std::size_t i = 0; i < written.choices.size(); ++i)
+            add_choice(written.choices[i], i, plan, seen);
+        if (!written.own_error) {
+            if (fault_) {
+                plan.rules.push_back(fault_rule({}));
+            } else if (!program_.on_error) {
+                report_.add("E080", written.name.span,
+                            fmt::format("'{}' does not say what happens on ERROR", plan.name),
+                            "write ON ERROR NEXT := Fault; at the top, or OWN ERROR; in the step");
+            }
+        }
+        for (const ast::RawTerm& term : written.terms) {
+            plan.terms.push_back(raw_term(term, number));
+            const int step = sequencer::step_of(plan.terms.back().bytes);
+            if (step == number) continue;
+            Diagnostic& d = report_.add(
+                "E092", term.span,
+                fmt::format("this term is for step {}, and '{}' is step {}", step, plan.name, number),
+                term.symbols ? "leave its name out, or write the TERM outside of the step"
+                             : fmt::format("bits 5..0 of its first byte must be 16#{:02X}, or write the TERM "
+                                           "outside of the step",
+                                           number));
+            d.notes.push_back({plan.span, "steps are numbered in the order they stand, from 1, or by AT"});
+        }
+        return plan;
+    }
+
+    void add_outputs(const ast::Step& written, StepPlan& plan) {
+        std::array<Span, 4> places{};
+        for (const ast::Name& name : written.outputs) {
+            const auto bit = scope_.output(name);
+            if (!bit) continue;
+            plan.outputs |= static_cast<std::uint8_t>(1U << *bit);
+            places.at(*bit) = name.span;
+        }
+        for (const ast::ConditionalOutput& conditional : written.conditional) {
+            ConditionalOutput output;
+            output.when = scope_.truth_of(conditional.condition);
+            if (!names_error(conditional.condition)) output.when &= no_error_cases();
+            for (const ast::Name& name : conditional.outputs) {
+                const auto bit = scope_.output(name);
+                if (!bit) continue;
+                output.outputs |= static_cast<std::uint8_t>(1U << *bit);
+                if ((plan.outputs >> *bit) & 1) {
+                    report_
+                        .add("W008", name.span, fmt::format("'{}' is on in this step anyway", name.text),
+                             "take it out of one of the two OUT")
+                        .notes.push_back({places.at(*bit), "switched on here"});
+                }
+            }
+            plan.conditional.push_back(output);
+        }
+        // Nothing enters it at power-up, so a term of its own must write them.
+        if (plan.number == kPowerUp && plan.outputs != 0)
+            plan.conditional.push_back({plan.outputs, always()});
+    }
+
+    void add_choice(const ast::Choice& choice, std::size_t index, StepPlan& plan, SeenBranches& seen) {
+        Truth taken;
+        std::vector<Rule> before;
+        for (const ast::Branch& branch : choice.branches) {
+            const std::size_t errors_before = report_.error_count() + scope_.faulty_names_met();
+            Truth own = branch.condition ? scope_.truth_of(*branch.condition) : always();
+            if (!branch.condition || !names_error(*branch.condition)) own &= no_error_cases();
+            const bool condition_sound = report_.error_count() + scope_.faulty_names_met() == errors_before;
+            Rule rule{own & ~taken, branch_action(branch, plan.number), place_of(branch)};
+            taken |= own;
+            before.push_back({own, {}, rule.condition});
+            if (rule.when.none()) {
+                if (condition_sound) warn_never(branch, own, before);
+            } else if (!rule.action.is_empty()) {
+                check_error_covered(branch, rule, plan);
+                add_rule(std::move(rule), branch, index, plan, seen);
+            }
+        }
+    }
+
+    static Span place_of(const ast::Branch& branch) {
+        return branch.condition ? branch.condition->span : branch.span;
+    }
+
+    /// Notes which branches take its cases, each case once.
+    void warn_never(const ast::Branch& branch, const Truth& own, const std::vector<Rule>& up_to_it) {
+        if (own.none()) {
+            report_.add("W001", place_of(branch), "this branch is never taken",
+                        "its condition contradicts itself: mend it, or take the branch out");
+            return;
+        }
+        const bool is_dropped = report_.full();
+        Diagnostic& d = report_.add("W001", place_of(branch), "this branch is never taken",
+                                    "the branches before it take every case: put it before them, or "
+                                    "take it out");
+        Truth left = own;
+        for (std::size_t i = 0; left.any() && !is_dropped; ++i) {
+            if ((up_to_it[i].when & left).none()) continue;
+            d.notes.push_back({up_to_it[i].condition, "this one comes first"});
+            left &= ~up_to_it[i].when;
+        }
+    }
+
+    Action branch_action(const ast::Branch& branch, std::uint8_t number) {
+        ActionBuilder builder(scope_);
+        Action action = builder.build(branch.statements);
+        const bool leaves = action.next && *action.next != number;
+        if (action.next) enter(action, *action.next);
+        if (leaves) {
+            if (const auto marked = builder.marked()) {
+                report_
+                    .add("W006", *marked, "the branch leaves the step, so this happens once anyway",
+                         "leave EVERY_SCAN out")
+                    .notes.push_back({action.next_span, "it leaves the step here"});
+            }
+            return action;
+        }
+        const bool repeats_entry = action.next && !entries_[number].is_empty();
+        if (builder.unmarked()) {
+            Diagnostic& d = report_.add(
+                "E060", *builder.unmarked(),
+                action.next ? "the branch stays in its step, so this would happen again in every scan"
+                            : "without NEXT this would happen again in every scan",
+                "go on to another step with NEXT, or write EVERY_SCAN in front if that is what you want");
+            if (action.next) d.notes.push_back({action.next_span, "this names the step it is in already"});
+            if (repeats_entry)
+                d.notes.push_back({entries_[number].span, "the step's ENTRY would be repeated too"});
+        } else if (repeats_entry) {
+            report_
+                .add("E060", action.next_span,
+                     "this would enter the same step in every scan, and its ENTRY would happen again each "
+                     "time",
+                     "to stay in the step leave NEXT out, or go on to another one")
+                .notes.push_back({entries_[number].span, "the ENTRY is here"});
+        }
+        return action;
+    }
+
+    void check_error_covered(const ast::Branch& branch, const Rule& rule, const StepPlan& plan) {
+        if (plan.own_error || !program_.on_error || (rule.when & error_cases()).none()) return;
+        report_
+            .add("E082", place_of(branch), fmt::format("ON ERROR covers '{}' already", plan.name),
+                 "write OWN ERROR; in the step, and deal with ERROR in it")
+            .notes.push_back({program_.on_error->span, "ON ERROR is here"});
+    }
+
+    /// Branches with the same effect become one rule.
+    void add_rule(Rule rule, const ast::Branch& branch, std::size_t choice, StepPlan& plan,
+                  SeenBranches& seen) {
+        if (report_.full_of_errors()) return;
+        const auto same = std::find_if(plan.rules.begin(), plan.rules.end(), [&](const Rule& earlier) {
+            return earlier.action.same_effect(rule.action);
+        });
+        const auto number = static_cast<std::size_t>(same - plan.rules.begin());
+        if (seen.claim(rule.when, number)) report_contested(rule, branch, choice, number, seen);
+        seen.list.push_back({rule.when, rule.condition, choice, number});
+        if (same == plan.rules.end()) {
+            plan.rules.push_back(std::move(rule));
+            return;
+        }
+        if (!depends_on(same->when, kInPosBit) && depends_on(rule.when, kInPosBit))
+            same->condition = rule.condition;
+        same->when |= rule.when;
+    }
+
+    void report_contested(const Rule& rule, const ast::Branch& branch, std::size_t choice, std::size_t number,
+                          const SeenBranches& seen) {
+        for (const SeenBranches::Branch& earlier : seen.list) {
+            if (report_.full_of_errors()) return;
+            const Truth both = earlier.when & rule.when;
+            if (earlier.choice == choice || earlier.rule == number || both.none()) continue;
+            report_
+                .add("E070", branch.condition ? rule.condition : rule.action.span,
+                     fmt::format("this and an earlier IF can hold together: {}",
+                                 example_of(both, earlier.when, rule.when, symbols_)),
+                     "join them with ELSIF, or make the conditions exclude each other")
+                .notes.push_back({earlier.condition, "the earlier one is here, and does something else"});
+        }
+    }
+
+    /// `inside`: the step it stands in, if any.
+    RawTerm raw_term(const ast::RawTerm& term, std::optional<std::uint8_t> inside) {
+        RawTerm raw{{}, term.span};
+        if (term.symbols) {
+            raw.bytes = encode_term(*term.symbols, term.span, inside, scope_);
+        } else {
+            std::copy(term.bytes.begin(), term.bytes.end(), raw.bytes.begin());
+        }
+        return raw;
+    }
+
+    void check_raw_terms(const Plan& plan) {
+        for (const StepPlan& step : plan.steps) {
+            for (const RawTerm& raw : step.terms) check_raw_term(raw);
+        }
+        for (std::size_t i = 0; i < plan.terms.size(); ++i) {
+            const RawTerm& raw = plan.terms[i];
+            if (!sequencer::is_end(raw.bytes)) {
+                check_raw_term(raw);
+                continue;
+            }
+            if (i + 1 == plan.terms.size()) continue;
+            report_
+                .add("E091", plan.terms[i + 1].span, "no term may follow the one that ends the table",
+                     "let the TERM with STATE 63 be the last, or take it out: the compiler ends the table")
+                .notes.push_back({raw.span, "the table ends here"});
+            return;
+        }
+    }
+
+    void check_raw_term(const RawTerm& raw) {
+        const sequencer::Term term = sequencer::decode(raw.bytes);
+        if (!term.is_flex && term.fast.next_step == sequencer::kEndOfTable) {
+            report_.add("W009", raw.span, "NEXT_STATE is 63: a gateway refuses a table with this term",
+                        "write 16#3E as the fourth byte if the step is to stay");
+        } else if (term.is_flex && term.flex.reg == 0) {
+            report_.add("W009", raw.span, "register 0: a gateway refuses a table with this term",
+                        "bits 6..0 of the fourth byte name the register, 1..127");
+        } else if (const auto* drive = symbols_.drive) {
+            warn_if_not_for_drive(raw.span, term, *drive);
+        }
+    }
+
+    void warn_if_not_for_drive(Span span, const sequencer::Term& term, const registers::DriveModel& drive) {
+        const registers::Refusal why = refusal_of(drive, term);
+        if (why.empty()) return;
+        report_.add("W009", span,
+                    fmt::format("a gateway with a {} refuses a table with this term", drive.program_name),
+                    std::string(why));
+    }
+
+    using StepSet = std::bitset<sequencer::kEndOfTable + 1U>;
+
+    static void add_target(const RawTerm& raw, std::array<StepSet, 64>& targets) {
+        if (sequencer::is_flex(raw.bytes)) return;
+        targets[sequencer::step_of(raw.bytes)].set(raw.bytes[3] & 0x3F);
+    }
+
+    void warn_unreachable(const Plan& plan) {
+        if (plan.steps.empty() || report_.has_errors()) return;
+        std::array<StepSet, 64> targets;
+        for (const StepPlan& step : plan.steps) {
+            for (const Rule& rule : step.rules) {
+                if (rule.action.next) targets[step.number].set(*rule.action.next);
+            }
+            for (const RawTerm& raw : step.terms) add_target(raw, targets);
+        }
+        for (const RawTerm& raw : plan.terms) add_target(raw, targets);
+        StepSet reached;
+        std::vector<std::size_t> open = {kPowerUp};
+        while (!open.empty()) {
+            const std::size_t from = open.back();
+            open.pop_back();
+            if (reached.test(from)) continue;
+            reached.set(from);
+            for (std::size_t to = 0; to < targets.size(); ++to) {
+                if (targets[from].test(to)) open.push_back(to);
+            }
+        }
+        for (const StepPlan& step : plan.steps) {
+            if (reached.test(step.number)) continue;
+            report_.add("W005", step.span, fmt::format("no step leads to '{}'", step.name),
+                        "name it in a NEXT, or take it out");
+        }
+    }
+
+    const ast::Program& program_;
+    Scope& scope_;
+    Report& report_;
+    const Symbols& symbols_;
+    std::array<Action, 64> entries_;  ///< by step number
+    std::optional<std::uint8_t> fault_;
+};
+
+}  // namespace
+
+Plan check(const ast::Program& program, Scope& scope, Report& report) {
+    return Checker(program, scope, report, scope.symbols()).run();
+}
+
+}  // namespace nplc::seqc

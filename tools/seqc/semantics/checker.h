@@ -1,0 +1,29 @@
+#pragma once
+
+#include "diagnostics/report.h"
+#include "semantics/model.h"
+#include "semantics/scope.h"
+#include "syntax/ast.h"
+
+namespace nplc::seqc {
+
+/// From the program as written to rules that never hold together; reports what would surprise.
+Plan check(const ast::Program& program, Scope& scope, Report& report);
+
+/// Follows the motor's mode from step to step: what would start it towards an old target, or not at all, and
+/// what waits for an INPOS that never comes.
+void check_motor_state(const Plan& plan, registers::Model model, Report& report);
+
+/// What a drive that the gateway translates for makes of a program's moves: ramps, which depend on velocity
+/// and acceleration together and go into `roundings`, and orders that wait until it stands.
+void check_drive_motion(const Plan& plan, const registers::DriveModel& drive, Report& report,
+                        std::vector<Rounding>& roundings);
+
+/// Registers that a program for such a drive selects and never gives a value: a JVL motor has them in its
+/// flash, the gateway begins with 0 and with the drive's own.
+void check_drive_registers(const Plan& plan, const registers::DriveModel& drive, Report& report);
+
+/// Limits of the motor that a program sets, although reaching them does not show in ERROR (001 §5.2.1.6).
+void check_invisible_limits(const Plan& plan, registers::Model model, Report& report);
+
+}  // namespace nplc::seqc

@@ -1,0 +1,249 @@
+// Velocities, accelerations and motion of a drive that the gateway translates for, from step to step.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "semantics/checker.h"
+#include "semantics/commands.h"
+#include "semantics/drive.h"
+#include "semantics/motors.h"
+#include "semantics/step_walk.h"
+#include "semantics/units.h"
+
+namespace nplc::seqc {
+namespace {
+
+using protocol::fastmac::Group;
+using protocol::fastmac::Mode;
+using protocol::fastmac::Number;
+
+/// What may be true of the drive. Values that no statement gives are not among `v` and `a`.
+struct DriveState {
+    bool known = false;
+    bool positions = false;  ///< it may be on its way to a position
+    bool runs = false;       ///< it may turn at a velocity
+    Span motion;             ///< what made it move
+    std::set<std::int16_t> v;
+    std::set<std::uint16_t> a;
+
+    bool is_known() const { return known; }
+    bool moves() const { return positions || runs; }
+    void stand() { positions = runs = false; }
+    bool join(const DriveState& other) {
+        const auto sizes = [this] { return std::array{v.size(), a.size()}; };
+        const auto before = sizes();
+        const bool moved = moves();
+        const bool changed = !known || (other.positions && !positions) || (other.runs && !runs);
+        known = true;
+        if (!moved) motion = other.motion;
+        positions = positions || other.positions;
+        runs = runs || other.runs;
+        v.insert(other.v.begin(), other.v.end());
+        a.insert(other.a.begin(), other.a.end());
+        return changed || sizes() != before;
+    }
+};
+
+/// What goes to the motor, by its effect on the drive.
+struct Effect {
+    std::optional<std::uint8_t> v{};      ///< V_SOLL becomes what this register holds, 0: the value itself
+    std::optional<std::uint8_t> a{};      ///< A_SOLL likewise
+    bool sets_position = false;           ///< P_SOLL, however
+    std::optional<std::uint32_t> mode{};  ///< of MODE_REG
+    bool stops = false;                   ///< V_SOLL = 0
+};
+
+constexpr std::uint8_t register_of(Selection selection) {
+    return static_cast<std::uint8_t>((selection.group == Group::v ? registers::V1 : registers::A1) +
+                                     selection.index - 1);
+}
+
+Effect effect_of_number(std::uint8_t number) {
+    switch (static_cast<Number>(number)) {
+        case Number::clear_v_soll:
+            return {.stops = true};
+        case Number::clear_p_soll:
+        case Number::move_p7_by_p_soll:
+        case Number::move_p8_by_p_soll:
+            return {.sets_position = true};
+        case Number::use_set_1:
+        case Number::use_set_2:
+        case Number::use_set_3:
+        case Number::use_set_4: {
+            const auto index =
+                static_cast<std::uint8_t>(number - static_cast<std::uint8_t>(Number::use_set_1));
+            return {.v = static_cast<std::uint8_t>(registers::V1 + index),
+                    .a = static_cast<std::uint8_t>(registers::A1 + index),
+                    .sets_position = true};
+        }
+        default:
+            return {};
+    }
+}
+
+Effect effect_of_write(const Send& send) {
+    switch (send.reg->number) {
+        case registers::MODE_REG:
+            return {.mode = send.value};
+        case registers::V_SOLL:
+            return {.v = std::uint8_t{0}, .stops = send.value == 0};
+        case registers::A_SOLL:
+            return {.a = std::uint8_t{0}};
+        case registers::P_SOLL:
+            return {.sets_position = true};
+        default:
+            return {};
+    }
+}
+
+Effect effect_of(const Send& send) {
+    if (send.reg != nullptr) return effect_of_write(send);
+    const auto select = select_command(send.command);
+    if (!select) return effect_of_number(send.command & 0x1F);
+    Effect effect{.mode = select->mode == Mode::init ? 0U : select->mode == Mode::velocity ? 1U : 2U};
+    if (select->selection.group == Group::v) effect.v = register_of(select->selection);
+    if (select->selection.group == Group::a) effect.a = register_of(select->selection);
+    effect.sets_position = select->selection.group == Group::p;
+    return effect;
+}
+
+class DriveWalk {
+  public:
+    using State = DriveState;
+
+    DriveWalk(const Plan& plan, const registers::DriveModel& drive, Report& report,
+              std::vector<Rounding>& roundings)
+        : drive_(drive), report_(report), roundings_(roundings) {
+        for_each_send(plan, [this](const Send& send) {
+            if (send.reg != nullptr) given_[send.reg->number].insert(send.value);
+        });
+    }
+
+    static void enter(DriveState& state, const StepPlan&, const Rule& rule) {
+        if ((rule.when & ~truth_of_bit(kInPosBit)).none()) state.positions = false;
+    }
+
+    void apply(DriveState& state, const Send& send) const { apply(send, effect_of(send), state); }
+
+    void judge(const Rule& rule, DriveState state) {
+        for (const Send& send : rule.action.sends) {
+            const Effect effect = effect_of(send);
+            const bool goes_on = !effect.mode || *effect.mode != 0;
+            if (state.moves() && goes_on && !effect.stops) judge_wait(effect, send, state);
+            apply(send, effect, state);
+            const bool starts = effect.mode ? *effect.mode != 0 : effect.sets_position && state.moves();
+            if (starts) judge_ramps(send, state);
+        }
+    }
+
+  private:
+    template <typename Value>
+    std::set<Value> values_of(std::uint8_t number, const Send& send) const {
+        if (number == 0) return {static_cast<Value>(send.value)};
+        std::set<Value> values;
+        const auto found = given_.find(number);
+        if (found == given_.end()) return values;
+        for (const std::uint32_t value : found->second) values.insert(static_cast<Value>(value));
+        return values;
+    }
+
+    void apply(const Send& send, const Effect& effect, DriveState& state) const {
+        if (effect.v) state.v = values_of<std::int16_t>(*effect.v, send);
+        if (effect.a) state.a = values_of<std::uint16_t>(*effect.a, send);
+        if (effect.mode) {
+            state.stand();
+            state.runs = *effect.mode == 1;
+            state.positions = *effect.mode == 2;
+            state.motion = send.span;
+        } else if (effect.sets_position && state.moves()) {
+            state.motion = send.span;
+        }
+        if (effect.stops) state.stand();
+    }
+
+    /// What the drive refuses in motion, so that the gateway keeps it until the drive stands.
+    void judge_wait(const Effect& effect, const Send& send, const DriveState& state) {
+        const bool to_velocity = effect.mode ? *effect.mode == 1 : state.runs;
+        const char* what = effect.sets_position       ? "a position"
+                           : effect.a                 ? "an acceleration"
+                           : effect.v && !to_velocity ? "the velocity of moves to positions"
+                                                      : nullptr;
+        if (what == nullptr || !drive_.family->waits_for_standstill() ||
+            !waited_.insert(send.span.offset).second)
+            return;
+        report_
+            .add("W015", send.span,
+                 fmt::format("this waits until the motor stands: in motion a {} takes no {}",
+                             drive_.program_name,
+                             std::string_view(what).substr(std::string_view(what).find(' ') + 1)),
+                 "wait for INPOS before, or STOP first; leave it if waiting is what you want")
+            .notes.push_back({state.motion, "it may still move since this"});
+    }
+
+    void judge_ramps(const Send& send, const DriveState& state) {
+        std::vector<std::string> impossible;
+        registers::Refusal why;
+        for (const std::int16_t v : state.v) {
+            for (const std::uint16_t a : state.a) {
+                const registers::Refusal found = drive_.family->refuses_profile(drive_, v, a);
+                if (found.empty()) {
+                    note_ramp(send, v, a);
+                } else {
+                    why = found;
+                    impossible.push_back(fmt::format("{:.6g} rpm with {:.6g} rpm/s", rpm(v), rpm_per_s(a)));
+                }
+            }
+        }
+        if (impossible.empty() || !refused_.insert(send.span.offset).second) return;
+        const bool always = impossible.size() == state.v.size() * state.a.size();
+        const std::string message =
+            fmt::format("a {} cannot reach {}", drive_.program_name, impossible.front());
+        if (always)
+            report_.add("E044", send.span, message, std::string(why));
+        else
+            report_.add("W016", send.span, message + ", if they meet here", std::string(why));
+    }
+
+    /// Too small a difference to warn of.
+    void note_ramp(const Send& send, std::int16_t v, std::uint16_t a) {
+        const auto ramp = drive_.family->ramp_of(drive_, v, a);
+        if (!ramp || !noted_.insert({v, a}).second) return;
+        const double done = ramp->raw / raw_per_rpm_per_s();
+        const double error = (done - rpm_per_s(a)) / rpm_per_s(a);
+        roundings_.push_back(
+            {send.span,
+             fmt::format("{:.6g} rpm with {:.6g} rpm/s, on a {} {} ({:.6g} rpm/s, "
+                         "{:+.3f} %)",
+                         rpm(v), rpm_per_s(a), drive_.program_name, text_of(*ramp), done, error * 100)});
+    }
+
+    double rpm(std::int16_t v) const { return v / *raw_per_unit(*reg(registers::V_SOLL), kMap, {}, "rpm"); }
+    double rpm_per_s(std::uint16_t a) const { return a / raw_per_rpm_per_s(); }
+    double raw_per_rpm_per_s() const { return *raw_per_unit(*reg(registers::A_SOLL), kMap, {}, "rpm/s"); }
+    static const registers::Register* reg(std::uint8_t number) { return registers::find(kMap, number); }
+
+    static constexpr registers::Model kMap = registers::Model::mac140;
+
+    const registers::DriveModel& drive_;
+    Report& report_;
+    std::vector<Rounding>& roundings_;
+    std::map<std::uint8_t, std::set<std::uint32_t>> given_;  ///< every value that a register is given
+    std::set<std::uint32_t> waited_;
+    std::set<std::uint32_t> refused_;
+    std::set<std::pair<std::int16_t, std::uint16_t>> noted_;
+};
+
+}  // namespace
+
+void check_drive_motion(const Plan& plan, const registers::DriveModel& drive, Report& report,
+                        std::vector<Rounding>& roundings) {
+    DriveWalk walk(plan, drive, report, roundings);
+    DriveState at_power_up;
+    at_power_up.known = true;
+    walk_steps(plan, at_power_up, walk);
+}
+
+}  // namespace nplc::seqc

@@ -1,0 +1,281 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "semantics/checker.h"
+#include "semantics/commands.h"
+#include "semantics/step_walk.h"
+
+namespace nplc::seqc {
+namespace {
+
+using protocol::fastmac::Group;
+using protocol::fastmac::Mode;
+using protocol::fastmac::Number;
+
+/// The modes that selecting commands reach, and all others as one.
+enum ModeBit : std::uint8_t { kInit = 1, kVelocity = 2, kPosition = 4, kOther = 8, kAnyMode = 15 };
+
+/// What may be true of the motor, with the places that made it so (length 0 where there is none).
+struct MotorState {
+    std::uint8_t modes = 0;  ///< in which modes it may be; 0: nothing is known to lead here
+    Span init;               ///< what took it to INIT
+    bool stopped = false;    ///< V_SOLL may be 0 from a STOP
+    Span stop;
+    bool homing = false;  ///< it may be homing, or in STARTMODE after it (001 §4.4.13 - §4.4.15)
+    Span home;
+    bool ends_in_position = false;  ///< STARTMODE is surely one in which IN_POS is set
+    Span start_mode;                ///< what set STARTMODE to another one
+
+    bool is_known() const { return modes != 0; }
+    /// Takes in what may hold on another way to the same place; true if that was news.
+    bool join(const MotorState& other);
+    /// What holds once this was sent.
+    void apply(const Send& send);
+};
+
+/// Whether a mode sets IN_POS at all: velocity, position and gear modes (001 §4.4).
+bool sets_in_position(std::uint32_t mode) {
+    constexpr std::array<std::uint32_t, 9> kModes = {1, 2, 3, 17, 18, 19, 20, 21, 24};
+    return std::find(kModes.begin(), kModes.end(), mode) != kModes.end();
+}
+
+bool is_home_mode(std::uint32_t mode) {
+    return mode >= 12 && mode <= 14;
+}
+
+void apply_mode(std::uint32_t mode, Span span, MotorState& state) {
+    state.modes = mode == 0 ? kInit : mode == 1 ? kVelocity : mode == 2 ? kPosition : kOther;
+    if (mode == 0) state.init = span;
+    state.homing = is_home_mode(mode);
+    state.home = span;
+}
+
+void apply_write(const Send& send, MotorState& state) {
+    switch (send.reg->number) {
+        case registers::MODE_REG:
+            apply_mode(send.value, send.span, state);
+            break;
+        case registers::STARTMODE:
+            state.ends_in_position = sets_in_position(send.value);
+            state.start_mode = state.ends_in_position ? Span{} : send.span;
+            break;
+        case registers::V_SOLL:
+            state.stopped = send.value == 0;
+            state.stop = send.span;
+            break;
+        case registers::V_REG_P:
+            state.stopped = false;
+            break;
+        default:
+            break;
+    }
+}
+
+void apply_number(Number number, Span span, MotorState& state) {
+    switch (number) {
+        case Number::clear_v_soll:
+            state.stopped = true;
+            state.stop = span;
+            break;
+        case Number::use_set_1:
+        case Number::use_set_2:
+        case Number::use_set_3:
+        case Number::use_set_4:
+            state.stopped = false;
+            break;
+        case Number::home:
+            state.modes = kAnyMode;  // STARTMODE takes over when it is done
+            state.homing = true;
+            state.home = span;
+            break;
+        default:
+            break;
+    }
+}
+
+bool MotorState::join(const MotorState& other) {
+    if (modes == 0) {
+        *this = other;
+        return other.modes != 0;
+    }
+    const MotorState before = *this;
+    if ((modes & kInit) == 0) init = other.init;
+    if (!stopped) stop = other.stop;
+    if (!homing) home = other.home;
+    if (ends_in_position) start_mode = other.start_mode;
+    modes |= other.modes;
+    stopped = stopped || other.stopped;
+    homing = homing || other.homing;
+    ends_in_position = ends_in_position && other.ends_in_position;
+    return modes != before.modes || stopped != before.stopped || homing != before.homing ||
+           ends_in_position != before.ends_in_position;
+}
+
+void MotorState::apply(const Send& send) {
+    if (send.reg != nullptr) return apply_write(send, *this);
+    const auto select = select_command(send.command);
+    if (!select) return apply_number(static_cast<Number>(send.command & 0x1F), send.span, *this);
+    apply_mode(select->mode == Mode::init ? 0U : select->mode == Mode::velocity ? 1U : 2U, send.span, *this);
+    if (select->selection.group == Group::v) stopped = false;
+}
+
+/// Holds with INPOS where it does not hold without.
+bool waits_for_in_position(const Truth& when) {
+    const Truth with = when & truth_of_bit(kInPosBit);
+    return (with & ~(when << (std::size_t{1} << kInPosBit))).any();
+}
+
+bool ends_homing(const Send& send) {
+    if (send.reg != nullptr) return send.reg->number == registers::MODE_REG;
+    return select_command(send.command).has_value();
+}
+
+bool starts_homing(const Send& send) {
+    if (send.reg != nullptr) return send.reg->number == registers::MODE_REG && is_home_mode(send.value);
+    return !select_command(send.command) && static_cast<Number>(send.command & 0x1F) == Number::home;
+}
+
+bool is_move(std::uint8_t command) {
+    if (select_command(command)) return false;
+    const auto number = static_cast<Number>(command & 0x1F);
+    return number == Number::move_p7_by_p_fnc || number == Number::move_p8_by_p_fnc ||
+           number == Number::move_p7_by_p_soll || number == Number::move_p8_by_p_soll;
+}
+
+class MotorWalk {
+  public:
+    using State = MotorState;
+
+    MotorWalk(registers::Model model, Report& report)
+        : start_mode_(registers::find(model, registers::STARTMODE)->name), report_(report) {}
+
+    /// An error puts the motor in INIT (001 §3.2.35), so where ERROR is dealt with it may be there.
+    static void enter(MotorState& state, const StepPlan& step, const Rule& rule) {
+        if (step.own_error || (rule.when & truth_of_bit(kErrorBit)).any()) state.modes = kAnyMode;
+    }
+
+    static void apply(MotorState& state, const Send& send) { state.apply(send); }
+
+    void judge(const Rule& rule, MotorState state) {
+        if (state.homing && !state.ends_in_position && waits_for_in_position(rule.when))
+            warn_homing_wait(state, rule);
+        const Send* home = nullptr;
+        for (const Send& send : rule.action.sends) {
+            if (home != nullptr && ends_homing(send)) {
+                warn_homing_cut(send, *home, rule);
+                home = nullptr;
+            }
+            if (const auto select = select_command(send.command); send.reg == nullptr && select)
+                judge_selection(*select, send, rule, state);
+            if (send.reg != nullptr && send.reg->number == registers::MODE_REG) judge_mode(send, rule, state);
+            if (send.reg == nullptr && is_move(send.command) && state.stopped)
+                warn_stopped(send, rule, state);
+            state.apply(send);
+            if (starts_homing(send)) home = &send;
+        }
+    }
+
+  private:
+    void judge_mode(const Send& send, const Rule& rule, const MotorState& state) {
+        if (send.value == 0 || is_home_mode(send.value) || (state.modes & kInit) == 0) return;
+        const char* where = send.value == 1   ? " at an old V_SOLL"
+                            : send.value == 2 ? " towards an old P_SOLL"
+                                              : "";
+        Diagnostic* said =
+            complain("W011", send, rule,
+                     fmt::format("writing MODE_REG may start the motor{}: it may be in INIT here", where),
+                     send.value == 1   ? "VELOCITY(V..); sets the velocity and the mode"
+                     : send.value == 2 ? "POSITION(P..); sets the position and the mode"
+                                       : "make sure that the registers of this mode are set before");
+        note_init(said, state);
+    }
+
+    void judge_selection(const SelectCommand& select, const Send& send, const Rule& rule,
+                         const MotorState& state) {
+        const Group group = select.selection.group;
+        const bool may_start = (state.modes & kInit) != 0;
+        if (select.mode == Mode::position && group != Group::p && may_start) {
+            Diagnostic* said =
+                complain("E052", send, rule,
+                         fmt::format("{} may start the motor towards an old P_SOLL: it may be in INIT here",
+                                     describe_command(send.command)),
+                         "select it first: INIT(..); and then only the position: POSITION(P..);");
+            note_init(said, state);
+        } else if (select.mode == Mode::velocity && group != Group::v && may_start) {
+            Diagnostic* said =
+                complain("E052", send, rule,
+                         fmt::format("{} may start the motor at an old V_SOLL: it may be in INIT here",
+                                     describe_command(send.command)),
+                         "name the velocity too: VELOCITY(V.., A..);");
+            note_init(said, state);
+        } else if (select.mode == Mode::position && group == Group::p && state.stopped) {
+            warn_stopped(send, rule, state);
+        }
+    }
+
+    void warn_stopped(const Send& send, const Rule& rule, const MotorState& state) {
+        Diagnostic* said =
+            complain("W004", send, rule, "the motor may not move: V_SOLL may still be 0 from a STOP",
+                     "select a velocity first, with INIT(V..) or POSITION(V.., P..)");
+        if (said != nullptr) said->notes.push_back({state.stop, "V_SOLL becomes 0 here"});
+    }
+
+    static void note_init(Diagnostic* said, const MotorState& state) {
+        if (said != nullptr && state.init.length != 0)
+            said->notes.push_back({state.init, "it goes to INIT here"});
+    }
+
+    void warn_homing_wait(const MotorState& state, const Rule& rule) {
+        if (!is_news(rule.condition)) return;
+        Diagnostic& d = report_.add(
+            "W012", rule.condition,
+            "this may wait for ever: INPOS stays 0 while the motor homes, and then depends on " + start_mode_,
+            fmt::format(
+                "write {} := 2; before it begins: the motor then goes on to position 0, where INPOS comes; "
+                "or wait for an input or a time, and move with POSITION(P..)",
+                start_mode_));
+        d.notes.push_back({state.home, "homing begins here"});
+        if (state.start_mode.length != 0)
+            d.notes.push_back({state.start_mode, "the mode set here does not set INPOS"});
+    }
+
+    void warn_homing_cut(const Send& send, const Send& home, const Rule& rule) {
+        Diagnostic* said = complain("W014", send, rule, "this ends the homing before it has begun",
+                                    "let a step of its own wait until the motor has homed");
+        if (said != nullptr) said->notes.push_back({home.span, "homing begins here, in the same scan"});
+    }
+
+    /// One word for each place in the source: an ENTRY is copied into many branches.
+    Diagnostic* complain(Code code, const Send& send, const Rule& rule, std::string message,
+                         std::string help) {
+        if (!is_news(send.span)) return nullptr;
+        Diagnostic& d = report_.add(code, send.span, std::move(message), std::move(help));
+        const bool elsewhere = rule.action.span.offset > send.span.offset ||
+                               rule.action.span.offset + rule.action.span.length < send.span.offset;
+        if (elsewhere) d.notes.push_back({rule.action.span, "when the step is entered from here"});
+        return &d;
+    }
+
+    bool is_news(Span span) {
+        if (std::find(said_.begin(), said_.end(), span.offset) != said_.end()) return false;
+        said_.push_back(span.offset);
+        return true;
+    }
+
+    std::string start_mode_;
+    Report& report_;
+    std::vector<std::uint32_t> said_;
+};
+
+}  // namespace
+
+void check_motor_state(const Plan& plan, registers::Model model, Report& report) {
+    MotorWalk walk(model, report);
+    MotorState at_power_up;
+    at_power_up.modes = kAnyMode;
+    walk_steps(plan, at_power_up, walk);
+}
+
+}  // namespace nplc::seqc

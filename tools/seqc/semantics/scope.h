@@ -1,0 +1,127 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "diagnostics/report.h"
+#include "semantics/model.h"
+#include "semantics/units.h"
+#include "seqc/seqc.h"
+#include "syntax/ast.h"
+
+namespace nplc::seqc {
+
+/// The names of a program and the motor it is for.
+class Scope {
+  public:
+    Scope(const ast::Program& program, std::string_view source, Report& report, Compilation& result);
+
+    Report& report() { return report_; }
+    const Symbols& symbols() const { return result_.symbols; }
+    /// In order of declaration.
+    const std::vector<const ast::Step*>& steps() const { return steps_; }
+    /// The number of `steps()[index]`; 62, which is no step's, if there are too many.
+    std::uint8_t number_of(std::size_t index) const { return numbers_[index]; }
+    /// Null if no named step has this number.
+    const ast::Step* step_numbered(std::uint8_t number) const;
+
+    /// Number of a step by name; reports an unknown one.
+    std::optional<std::uint8_t> step(const ast::Name& name);
+    /// Bit number of an input 0..5 or an output 0..3, by its name or address.
+    std::optional<std::size_t> input(const ast::Name& name);
+    std::optional<std::size_t> output(const ast::Name& name);
+
+    /// A register by a variable's or the manual's name, or by number; reports what a table cannot reach.
+    const registers::Register* reg(const ast::Name& name);
+    const registers::Register* reg(const ast::Value& number);
+    /// The same without a word: for telling a register from a command.
+    const registers::Register* find_register(std::string_view name) const;
+    /// Adds where a register's name was declared, if it is one of VAR_MOTOR.
+    void note_declaration(Diagnostic& diagnostic, std::string_view name) const;
+    /// How often a name was met whose faulty declaration was reported: it is not reported again.
+    std::size_t faulty_names_met() const { return faulty_names_met_; }
+    bool is_input(std::string_view name) const { return find(inputs_, name) != nullptr; }
+    bool is_output(std::string_view name) const { return find(outputs_, name) != nullptr; }
+
+    /// The bits to write, after unit, range and rounding; reports what does not fit.
+    /// `shown` is what the program calls the register.
+    std::optional<std::uint32_t> value(const ast::Value& value, const registers::Register& reg,
+                                       std::string_view shown);
+
+    /// Reports what the drive cannot do; true if there is nothing to report.
+    bool is_for_drive(const Send& send);
+
+    /// Register values of VAR_MOTOR, in order.
+    const std::vector<Send>& initial_values() const { return initial_values_; }
+
+    Truth truth_of(const ast::Expression& expression);
+
+  private:
+    struct Variable {
+        std::string_view name;
+        Span span;
+        std::size_t bit = 0;
+        const registers::Register* reg = nullptr;
+    };
+
+    static const Variable* find(const std::vector<Variable>& variables, std::string_view name);
+    void declare_motor(const ast::Program& program);
+    void declare_scale(const ast::Program& program);
+    void declare_steps(const ast::Program& program);
+    void number_steps();
+    std::optional<std::uint8_t> written_number(const ast::Step& step);
+    void declare_io(const std::vector<ast::Variable>& declared, std::vector<Variable>& variables,
+                    char direction, std::size_t count);
+    void declare_motor_variables(const ast::Program& program);
+    bool is_new_name(const ast::Name& name);
+    bool is_faulty(std::string_view name);
+    void note_value(Diagnostic& diagnostic, const ast::Value& value, std::string_view shown) const;
+    std::string unit_help(const registers::Register& reg, std::string_view unit) const;
+    void report_no_register(const ast::Name& name);
+    std::optional<std::size_t> signal(const ast::Name& name, const std::vector<Variable>& variables,
+                                      char direction, std::size_t count);
+    static std::string how_to_declare(std::string_view name, const std::vector<Variable>& variables,
+                                      char direction, std::size_t count);
+    bool is_reachable(const registers::Register* reg, Span span, std::string_view shown);
+    void require_motor(Span span);
+    bool note_rounding(const ast::Value& value, std::string_view shown, double exact, double raw,
+                       double per_unit);
+    void note_drive_value(const ast::Value& value, const registers::Register& reg, std::string_view shown,
+                          double exact, double per_unit, std::uint32_t bits);
+    std::string motor_name() const;
+    void report_refusal(const Send& send, std::string message);
+    bool is_on_drive(const registers::Register& reg, Span span);
+    std::string_view text(Span span) const { return source_.substr(span.offset, span.length); }
+
+    std::string_view source_;
+    Report& report_;
+    Compilation& result_;
+    registers::Model model_ = registers::Model::mac140;
+    const registers::DriveModel* drive_ = nullptr;
+    bool motor_known_ = false;
+    Span motor_span_;
+    std::optional<LengthUnit> length_;
+    Span scale_span_;
+    std::vector<const ast::Step*> steps_;
+    std::unordered_map<std::string, std::size_t> step_places_;  ///< in `steps_`, by upper-case name
+    std::vector<std::uint8_t> numbers_;
+    bool steps_missing_ = false;
+    std::vector<Variable> inputs_;
+    std::vector<Variable> outputs_;
+    std::vector<Variable> motor_variables_;
+    std::unordered_set<std::string> faulty_;  ///< declared, but with a mistake; upper case
+    std::size_t faulty_names_met_ = 0;
+    std::vector<Send> initial_values_;
+};
+
+/// The number that raw bits stand for in a register.
+double number_of_bits(double bits, registers::Format format);
+
+/// Whether a condition names ERROR or ANY ERROR; otherwise it means NOT ERROR as well.
+bool names_error(const ast::Expression& expression);
+
+}  // namespace nplc::seqc

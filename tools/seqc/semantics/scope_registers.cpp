@@ -1,0 +1,265 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "semantics/commands.h"
+#include "semantics/drive.h"
+#include "semantics/motors.h"
+#include "semantics/scope.h"
+#include "syntax/names.h"
+
+namespace nplc::seqc {
+namespace {
+
+using registers::Format;
+using registers::Register;
+
+constexpr std::uint8_t kLastReachable = 127;
+constexpr double kWorthAWarning = 0.01;
+constexpr double kShownWhole = 100'000;
+
+/// Large numbers in whole ones, cut towards zero so that what it shows does fit.
+std::string limit_text(double value) {
+    if (std::fabs(value) >= kShownWhole || value == std::trunc(value))
+        return fmt::format("{:.0f}", std::trunc(value));
+    return fmt::format("{:.6g}", value);
+}
+
+/// P9 and the like: nothing that a misspelling could explain.
+bool is_set_register(std::string_view name) {
+    return name.size() == 2 && std::string_view("PVATLZpvatlz").find(name[0]) != std::string_view::npos &&
+           name[1] >= '0' && name[1] <= '9';
+}
+
+bool begins_with(std::string_view unit, std::string_view length) {
+    return unit.size() >= length.size() && same_name(unit.substr(0, length.size()), length);
+}
+
+}  // namespace
+
+double number_of_bits(double bits, Format format) {
+    if (registers::is_32_bit(format)) return static_cast<std::int32_t>(static_cast<std::uint32_t>(bits));
+    if (format == Format::word || bits > 0xFFFF) return bits;
+    return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits));
+}
+
+std::string Scope::motor_name() const {
+    return std::string(seqc::motor_name(result_.symbols));
+}
+
+bool Scope::is_for_drive(const Send& send) {
+    if (drive_ == nullptr || refusal_of(*drive_, send).empty()) return true;
+    report_refusal(
+        send, send.reg != nullptr
+                  ? fmt::format("a {} cannot take {} for {}", motor_name(), text(send.span), send.reg->name)
+                  : fmt::format("a {} cannot execute {}", motor_name(), describe_command(send.command)));
+    return false;
+}
+
+void Scope::report_refusal(const Send& send, std::string message) {
+    report_.add("E044", send.span, std::move(message), std::string(refusal_of(*drive_, send)))
+        .notes.push_back({motor_span_, "the drive is chosen here"});
+}
+
+/// Whether it is there at all, whatever the value.
+bool Scope::is_on_drive(const Register& reg, Span span) {
+    if (drive_ == nullptr) return true;
+    const Send zero{&reg, 0, 0, span};
+    const Send one{&reg, 0, 1, span};
+    const registers::Refusal why = refusal_of(*drive_, zero);
+    if (why.empty() || why != refusal_of(*drive_, one)) return true;
+    report_refusal(zero, fmt::format("a {} has no {}", motor_name(), reg.name));
+    return false;
+}
+
+/// What becomes of a value that the drive can take.
+void Scope::note_drive_value(const ast::Value& value, const Register& reg, std::string_view shown_name,
+                             double exact, double per_unit, std::uint32_t bits) {
+    const auto drive = drive_->family->value_of(*drive_, reg, bits);
+    if (!drive) return;
+    const double error = exact == 0 ? 0 : (drive->raw - exact) / std::fabs(exact);
+    const std::string_view unit = value.is_time ? std::string_view("ms") : value.unit.text;
+    const std::string what =
+        fmt::format("{} := {} is {}, on a {} {} ({:.6g}{}{}, {:+.3f} %)", shown_name, text(value.span),
+                    static_cast<std::int64_t>(number_of_bits(bits, reg.format)), motor_name(),
+                    text_of(*drive), drive->raw / per_unit, unit.empty() ? "" : " ", unit, error * 100);
+    result_.roundings.push_back({value.span, what});
+    if (std::fabs(error) <= kWorthAWarning) return;
+    Diagnostic& d =
+        report_.add("W002", value.span, fmt::format("the drive is too coarse for this value: {}", what),
+                    "write what it will be, or live with the difference");
+    note_value(d, value, shown_name);
+}
+
+void Scope::note_declaration(Diagnostic& diagnostic, std::string_view name) const {
+    const Variable* variable = find(motor_variables_, name);
+    if (variable == nullptr) return;
+    diagnostic.notes.push_back(
+        {variable->span, fmt::format("'{}' is {}, declared here", variable->name, variable->reg->name)});
+}
+
+/// What a value's limits rest on: the register behind a name, the length behind a unit.
+void Scope::note_value(Diagnostic& diagnostic, const ast::Value& value, std::string_view shown) const {
+    note_declaration(diagnostic, shown);
+    if (!length_ || !begins_with(value.unit.text, length_->name)) return;
+    diagnostic.notes.push_back({scale_span_, fmt::format("1 rev is {:.6g} {} by this SCALE",
+                                                         length_->per_revolution, length_->name)});
+}
+
+std::string Scope::unit_help(const Register& reg, std::string_view unit) const {
+    const std::vector<std::string> fitting = fitting_units(reg, length_);
+    const std::string near = suggestion(unit, {fitting.begin(), fitting.end()});
+    const std::string units = fmt::format("use {}", units_for(reg, length_));
+    if (!near.empty()) return fmt::format("{} ({})", near, units);
+    const bool could_scale = !length_ && !fitting.empty() && reg.unit != registers::Unit::torque &&
+                             reg.unit != registers::Unit::samples && !is_known_unit(unit);
+    return could_scale ? units + "; SCALE 1 rev = 5 mm; at the top adds a unit of your machine" : units;
+}
+
+void Scope::require_motor(Span span) {
+    if (motor_known_) return;
+    motor_known_ = true;
+    report_.add("E031", span, "which motor is this register's?", "name it at the top: MOTOR MAC140;");
+}
+
+bool Scope::is_reachable(const Register* reg, Span span, std::string_view shown) {
+    if (reg->number <= kLastReachable) return true;
+    report_.add(
+        "E041", span,
+        fmt::format("{} is register {}, and a table reaches 1..{}", shown, reg->number, kLastReachable),
+        "set it with a register tool and save it in the motor");
+    return false;
+}
+
+const Register* Scope::find_register(std::string_view name) const {
+    if (const Variable* variable = find(motor_variables_, name)) return variable->reg;
+    return registers::find(model_, name);
+}
+
+const Register* Scope::reg(const ast::Name& name) {
+    if (const Register* found = find_register(name.text)) {
+        require_motor(name.span);
+        return is_reachable(found, name.span, name.text) ? found : nullptr;
+    }
+    if (!is_faulty(name.text)) report_no_register(name);
+    return nullptr;
+}
+
+void Scope::report_no_register(const ast::Name& name) {
+    const std::string message = fmt::format("'{}' is no register of {}", name.text, motor_name());
+    for (registers::Model other : {registers::Model::mac140, registers::Model::mac800}) {
+        if (registers::find(other, name.text) == nullptr || !motor_known_) continue;
+        report_
+            .add("E040", name.span, message,
+                 fmt::format("it is one of {}; REG(number) writes a register by its number",
+                             registers::name_of(other)))
+            .notes.push_back({motor_span_, "the motor is chosen here"});
+        return;
+    }
+    std::vector<std::string_view> names = {"TIMER", "COUNTER"};
+    for (const Variable& variable : motor_variables_) names.push_back(variable.name);
+    for (const Register& r : registers::map_of(model_)) names.push_back(r.name);
+    std::string help = is_set_register(name.text)
+                           ? "there are P1..P8, V1..V8, A1..A4, T1..T4, L1..L4 and Z1..Z4"
+                           : suggestion(name.text, names);
+    if (help.empty()) help = "declare it under VAR_MOTOR, or use the manual's name or REG(number)";
+    report_.add("E040", name.span, message, help);
+}
+
+const Register* Scope::reg(const ast::Value& number) {
+    require_motor(number.span);
+    const bool whole =
+        number.unit.text.empty() && !number.is_time && std::floor(number.number) == number.number;
+    if (!whole || number.number < 1 || number.number > kLastReachable) {
+        report_.add("E041", number.span, fmt::format("a table reaches registers 1..{}", kLastReachable),
+                    "set others with a register tool and save them in the motor");
+        return nullptr;
+    }
+    const auto wanted = static_cast<std::uint8_t>(number.number);
+    if (const Register* found = registers::find(model_, wanted)) return found;
+    const Register* before = registers::find(model_, static_cast<std::uint8_t>(wanted - 1));
+    const bool second_word = before != nullptr && registers::is_32_bit(before->format);
+    report_.add("E040", number.span, fmt::format("{} has no register {}", motor_name(), wanted),
+                second_word
+                    ? fmt::format("it is the upper half of {}: write REG({})", before->name, before->number)
+                    : "the register map is in the motor's manual");
+    return nullptr;
+}
+
+std::optional<std::uint32_t> Scope::value(const ast::Value& value, const Register& reg,
+                                          std::string_view shown_name) {
+    if (!is_on_drive(reg, value.span)) return std::nullopt;
+    double number = value.number;
+    std::string_view unit = value.unit.text;
+    if (value.is_time) unit = "ms";
+    auto per_unit = raw_per_unit(reg, model_, length_, unit);
+    if (!per_unit) {
+        Diagnostic& d =
+            report_.add("E043", value.unit.text.empty() ? value.span : value.unit.span,
+                        fmt::format("{} cannot be given in '{}'", shown_name, unit), unit_help(reg, unit));
+        note_declaration(d, shown_name);
+        return std::nullopt;
+    }
+    if (value.is_raw) {
+        number = number_of_bits(number, reg.format);
+        per_unit = 1;
+    }
+    const double exact = number * *per_unit;
+    const double raw = std::round(exact);
+    if (!(raw >= static_cast<double>(reg.min) && raw <= static_cast<double>(reg.max))) {
+        const std::string_view shown = value.is_raw ? std::string_view() : unit;
+        const double one = value.is_raw ? 1 : *per_unit;
+        Diagnostic& d = report_.add(
+            "E042", value.span, fmt::format("{} does not fit {}", text(value.span), shown_name),
+            fmt::format("it takes {} .. {}{}{}", limit_text(static_cast<double>(reg.min) / one),
+                        limit_text(static_cast<double>(reg.max) / one), shown.empty() ? "" : " ", shown));
+        note_value(d, value, shown_name);
+        return std::nullopt;
+    }
+    if (reg.dangerous) {
+        report_.add("W003", value.span,
+                    fmt::format("a wrong value in {} can damage the motor ({})", shown_name, reg.section),
+                    "leave it alone unless its maker told you the value");
+    }
+    const auto all_bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(raw));
+    const std::uint32_t bits = registers::is_32_bit(reg.format) ? all_bits : all_bits & 0xFFFFU;
+    if (!is_for_drive({&reg, 0, bits, value.span})) return std::nullopt;
+    const bool by_drive =
+        drive_ != nullptr && raw != 0 && drive_->family->value_of(*drive_, reg, bits).has_value();
+    if (by_drive)
+        note_drive_value(value, reg, shown_name, exact, *per_unit, bits);
+    else if (!note_rounding(value, shown_name, exact, raw, *per_unit))
+        return std::nullopt;
+    return bits;
+}
+
+/// False if nothing is left of the value: a motor without acceleration, say, would never stop.
+bool Scope::note_rounding(const ast::Value& value, std::string_view shown_name, double exact, double raw,
+                          double per_unit) {
+    const double error = exact == 0 ? 0 : (raw - exact) / std::fabs(exact);
+    if (std::fabs(error) < 1e-9) return true;
+    const std::string_view unit = value.is_time ? std::string_view("ms") : value.unit.text;
+    const std::string what = fmt::format("{} := {} is {} ({:.6g}{}{}, {:+.3f} %)", shown_name,
+                                         text(value.span), static_cast<std::int64_t>(raw), raw / per_unit,
+                                         unit.empty() ? "" : " ", unit, error * 100);
+    const std::string step =
+        fmt::format("one step of {} is {:.4g}{}{}", shown_name, 1 / per_unit, unit.empty() ? "" : " ", unit);
+    if (raw == 0) {
+        Diagnostic& d = report_.add(
+            "E042", value.span,
+            fmt::format("{} is too small for {}: it would become 0", text(value.span), shown_name),
+            step + "; write at least that, or 0 if you mean 0");
+        note_value(d, value, shown_name);
+        return false;
+    }
+    result_.roundings.push_back({value.span, what});
+    if (std::fabs(error) > kWorthAWarning) {
+        Diagnostic& d = report_.add("W002", value.span,
+                                    fmt::format("the register is too coarse for this value: {}", what),
+                                    step + "; write a multiple of it, or live with the difference");
+        note_value(d, value, shown_name);
+    }
+    return true;
+}
+
+}  // namespace nplc::seqc

@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/crc32.h"
+#include "semantics/motors.h"
+#include "seqc/symbol_file.h"
+#include "sequencer/term.h"
+#include "symbols/symbol_file_format.h"
+
+namespace nplc::seqc {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Names of files need not be UTF-8, which JSON asks for.
+std::string dumped(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// A member a line, and of lists of objects an object a line.
+std::string laid_out(const Json& object) {
+    std::string text;
+    for (const auto& [key, value] : object.items()) {
+        text += fmt::format("{}  {}: ", text.empty() ? "{\n" : ",\n", dumped(key));
+        if (!value.is_array() || value.empty() || !value.front().is_object()) {
+            text += dumped(value);
+            continue;
+        }
+        std::string_view before = "[\n    ";
+        for (const Json& element : value) {
+            text += fmt::format("{}{}", before, dumped(element));
+            before = ",\n    ";
+        }
+        text += "\n  ]";
+    }
+    return text + "\n}\n";
+}
+
+Position place(Span span, const Positions& positions) {
+    return span.length == 0 ? Position{0, 0} : positions.of(span.offset);
+}
+
+Json registers_of(const Symbols& symbols) {
+    Json list = Json::array();
+    for (const MotorName& named : symbols.motor_names) {
+        Json entry = {{"name", named.name}, {"register", named.reg}, {"number", named.number}};
+        if (named.initial) entry["initial"] = *named.initial;
+        list.push_back(std::move(entry));
+    }
+    return list;
+}
+
+Json steps_of(const Compilation& compilation, const Positions& positions) {
+    Json list = Json::array();
+    for (const StepOrigin& step : compilation.steps) {
+        list.push_back({{"number", step.number},
+                        {"name", compilation.symbols.steps[step.number]},
+                        {"line", place(step.span, positions).line},
+                        {"outputs", step.outputs}});
+    }
+    return list;
+}
+
+Json terms_of(const Compilation& compilation, const Positions& positions) {
+    Json list = Json::array();
+    for (const TermOrigin& origin : compilation.origins) {
+        const Position at = place(origin.span, positions);
+        list.push_back({{"line", at.line}, {"column", at.column}});
+    }
+    return list;
+}
+
+}  // namespace
+
+std::string write_symbols(const Compilation& compilation, std::string_view source,
+                          std::string_view file_name) {
+    const Symbols& symbols = compilation.symbols;
+    const Positions positions(source);
+    Json file = {{"format", kSymbolsFormat},
+                 {"version", kSymbolsVersion},
+                 {"program", symbols.program},
+                 {"source", file_name},
+                 {"motor", motor_name(symbols)}};
+    if (symbols.scale) {
+        file["scale"] = {{"revolutions", symbols.scale->revolutions},
+                         {"length", symbols.scale->length},
+                         {"unit", symbols.scale->unit}};
+    }
+    file["table"] = {{"bytes", compilation.table.size()},
+                     {"terms", compilation.table.size() / sequencer::kTermBytes},
+                     {"crc32", fmt::format("{:08X}", base::crc32(compilation.table))}};
+    file["steps"] = steps_of(compilation, positions);
+    file["inputs"] = symbols.inputs;
+    file["outputs"] = symbols.outputs;
+    file["registers"] = registers_of(symbols);
+    file["terms"] = terms_of(compilation, positions);
+    return laid_out(file);
+}
+
+}  // namespace nplc::seqc

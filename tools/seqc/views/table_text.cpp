@@ -1,0 +1,252 @@
+#include "views/table_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "lowering/cover.h"
+#include "semantics/commands.h"
+#include "semantics/units.h"
+
+namespace nplc::seqc {
+namespace {
+
+/// The cases in which ERROR is `value`, taken for both values of it.
+Truth where_error(const Truth& truth, bool value) {
+    const Truth high = truth_of_bit(kErrorBit);
+    constexpr std::size_t kStep = std::size_t{1} << kErrorBit;
+    return value ? (truth & high) | ((truth & high) >> kStep) : (truth & ~high) | ((truth & ~high) << kStep);
+}
+
+std::string bit_name(std::size_t bit, const Symbols* symbols) {
+    switch (bit) {
+        case kInPosBit:
+            return "INPOS";
+        case kErrorBit:
+            return "ERROR";
+        case kTimerZero:
+            return "TIMER.Q";
+        case kCounterZero:
+            return "COUNTER.Q";
+        default:
+            return input_name(bit, symbols);
+    }
+}
+
+std::string product_text(Product product, const Symbols* symbols) {
+    std::string text;
+    for (std::size_t bit = 0; bit < kBits; ++bit) {
+        if (((product.care >> bit) & 1) == 0) continue;
+        const std::string name = bit_name(bit, symbols);
+        append(text, ((product.value >> bit) & 1) != 0 ? name : "NOT " + name, " AND ");
+    }
+    return text;
+}
+
+/// "" if it always holds.
+std::string sum_text(const Truth& need, const Truth& open, const Symbols* symbols, bool in_brackets) {
+    const std::vector<Product> products = shortest_products(need, need | open);
+    std::string text;
+    for (const Product& product : products) append(text, product_text(product, symbols), " OR ");
+    return in_brackets && products.size() > 1 ? "(" + text + ")" : text;
+}
+
+std::string after(std::string_view word, const std::string& rest) {
+    return rest.empty() ? std::string(word) : fmt::format("{} AND {}", word, rest);
+}
+
+}  // namespace
+
+std::string condition_text(const Truth& need, const Truth& open, const Symbols* symbols) {
+    const Truth good = where_error(need, false);
+    const Truth bad = where_error(need, true);
+    if (need.none()) return "never";
+    if (bad.none()) {
+        const std::string text = sum_text(good, where_error(open, false), symbols, false);
+        return text.empty() ? "always" : text;
+    }
+    if (good.none()) return after("ERROR", sum_text(bad, where_error(open, true), symbols, true));
+    const Truth either = good | bad;
+    const Truth allowed = where_error(need | open, false) & where_error(need | open, true);
+    if ((either & ~allowed).none()) return after("ANY ERROR", sum_text(either, allowed, symbols, true));
+    return sum_text(need, open, symbols, false);
+}
+
+namespace {
+
+constexpr std::uint8_t kLastCommonRegister = 88;  // the same on all motors up to here
+
+}  // namespace
+
+void append(std::string& text, std::string_view part, std::string_view separator) {
+    if (!text.empty() && !part.empty()) text += separator;
+    text += part;
+}
+
+std::string step_name(std::uint8_t number, const Symbols* symbols) {
+    if (symbols != nullptr && number < symbols->steps.size() && !symbols->steps[number].empty())
+        return symbols->steps[number];
+    return fmt::format("step {}", number);
+}
+
+std::string input_name(std::size_t bit, const Symbols* symbols) {
+    return symbols != nullptr ? symbols->inputs[bit] : fmt::format("IN{}", bit);
+}
+
+std::string output_name(std::size_t bit, const Symbols* symbols) {
+    return symbols != nullptr ? symbols->outputs[bit] : fmt::format("OUT{}", bit);
+}
+
+std::string outputs_list(std::uint8_t outputs, const Symbols* symbols) {
+    std::string text;
+    for (std::size_t bit = 0; bit < 4; ++bit) {
+        if (((outputs >> bit) & 1) != 0) append(text, output_name(bit, symbols), ", ");
+    }
+    return text;
+}
+
+const registers::Register* find_register(std::uint8_t number, const Symbols* symbols) {
+    if (symbols == nullptr && number > kLastCommonRegister) return nullptr;
+    return registers::find(symbols != nullptr ? symbols->motor : registers::Model::mac140, number);
+}
+
+std::string register_name(std::uint8_t number, const Symbols* symbols) {
+    const registers::Register* reg = find_register(number, symbols);
+    return reg != nullptr ? std::string(reg->name) : fmt::format("REG({})", number);
+}
+
+std::int64_t value_of(const sequencer::MotorOrder& write, const Symbols* symbols) {
+    if (write.longword) return static_cast<std::int32_t>(write.value);
+    const registers::Register* reg = find_register(write.reg, symbols);
+    const bool is_signed = reg != nullptr && reg->format != registers::Format::word;
+    return is_signed ? static_cast<std::int16_t>(write.value) : static_cast<std::int64_t>(write.value);
+}
+
+std::string order_text(const sequencer::MotorOrder& order, const Symbols* symbols) {
+    if (!order.is_flex) return describe_command(order.command);
+    return fmt::format("{} := {}", register_name(order.reg, symbols), value_of(order, symbols));
+}
+
+std::vector<std::string> action_texts(const ScanResult& outcome, const Symbols* symbols) {
+    std::vector<std::string> texts;
+    for (const auto& order : outcome.orders) texts.push_back(order_text(order, symbols));
+    if (outcome.timer != 0) texts.push_back(fmt::format("TIMER := T#{}ms", outcome.timer));
+    switch (outcome.counter) {
+        case CounterChange::none:
+            break;
+        case CounterChange::clear:
+            texts.emplace_back("CLEAR_COUNTER");
+            break;
+        case CounterChange::preset:
+            texts.push_back(fmt::format("COUNTER := {}", outcome.counter_preset));
+            break;
+        case CounterChange::count_down:
+            texts.emplace_back("COUNT_DOWN");
+            break;
+    }
+    return texts;
+}
+
+namespace {
+
+std::optional<LengthUnit> length_of(const Symbols& symbols) {
+    if (!symbols.scale) return std::nullopt;
+    return LengthUnit{symbols.scale->unit, symbols.scale->length / symbols.scale->revolutions};
+}
+
+/// The one in which people speak of it; "" for a plain number.
+std::string unit_for(const registers::Register& reg, const std::optional<LengthUnit>& length) {
+    const std::vector<std::string> units = fitting_units(reg, length);
+    if (units.empty()) return "";
+    if (units.front() == "counts") return units.back();
+    return units.front() == "samples" ? "ms" : units.front();
+}
+
+}  // namespace
+
+std::optional<std::string> with_unit(std::int64_t value, std::uint8_t number, const Symbols* symbols) {
+    constexpr int kMostPlaces = 6;
+    if (symbols == nullptr) return std::nullopt;
+    const registers::Register* reg = registers::find(symbols->motor, number);
+    if (reg == nullptr) return std::nullopt;
+    const std::optional<LengthUnit> length = length_of(*symbols);
+    const std::string unit = unit_for(*reg, length);
+    const auto raw = raw_per_unit(*reg, symbols->motor, length, unit);
+    if (!raw || *raw == 1) return std::nullopt;
+    const double exact = static_cast<double>(value) / *raw;
+    std::string text;
+    for (int places = 0; places <= kMostPlaces; ++places) {
+        text = fmt::format("{:.{}f}", exact, places);
+        if (std::llround(std::strtod(text.c_str(), nullptr) * *raw) == value) break;
+    }
+    return unit.empty() ? text : fmt::format("{} {}", text, unit);
+}
+
+namespace {
+
+std::string counter_text(const StepAction& deed) {
+    switch (deed.counter) {
+        case CounterChange::none:
+            break;
+        case CounterChange::clear:
+            return "clears the counter";
+        case CounterChange::preset:
+            return fmt::format("sets COUNTER := {}", deed.counter_preset);
+        case CounterChange::count_down:
+            return "counts down";
+    }
+    return {};
+}
+
+std::string outputs_text(const KnownOutputs& outputs, const Symbols* symbols) {
+    std::string text;
+    for (std::uint8_t bit = 0; bit < 4; ++bit) {
+        if (((outputs.known >> bit) & 1) == 0) continue;
+        append(
+            text,
+            fmt::format("{} {}", output_name(bit, symbols), ((outputs.value >> bit) & 1) != 0 ? "on" : "off"),
+            ", ");
+    }
+    return text.empty() ? text : "has " + text;
+}
+
+}  // namespace
+
+bool StepAction::operator==(const StepAction& other) const {
+    return next_id == other.next_id && orders == other.orders && timer == other.timer &&
+           counter == other.counter && counter_preset == other.counter_preset && outputs == other.outputs;
+}
+
+StepAction step_action_of(const ScanResult& outcome, std::size_t c) {
+    StepAction deed;
+    deed.orders = outcome.orders;
+    deed.timer = outcome.timer;
+    deed.counter = outcome.counter;
+    deed.counter_preset = outcome.counter_preset;
+    const bool counter_zero = ((c >> kCounterZero) & 1) != 0;
+    if (counter_zero && deed.counter != CounterChange::preset) deed.counter = CounterChange::none;
+    return deed;
+}
+
+std::string text_of(const StepAction& deed, const Symbols* symbols) {
+    std::vector<std::string> parts;
+    const auto add = [&](std::string part) {
+        if (!part.empty()) parts.push_back(std::move(part));
+    };
+    std::string orders;
+    for (const auto& order : deed.orders) append(orders, order_text(order, symbols), ", ");
+    add(orders.empty() ? "" : "sends " + orders);
+    add(deed.timer == 0 ? "" : fmt::format("sets TIMER := T#{}ms", deed.timer));
+    add(counter_text(deed));
+    add(outputs_text(deed.outputs, symbols));
+    add(deed.kept_outputs == 0 ? "" : "keeps " + outputs_list(deed.kept_outputs, symbols));
+    add(deed.next.empty() ? "" : "goes to " + deed.next);
+    std::string text;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        append(text, parts[i], i + 1 == parts.size() ? " and " : ", ");
+    return text.empty() ? "nothing" : text;
+}
+
+}  // namespace nplc::seqc

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lowering/scan.h"
+#include "seqc/seqc.h"
+#include "views/machine.h"
+
+namespace nplc::seqc {
+
+/// `part` at the end of `text`, after `separator` if there is something before it.
+void append(std::string& text, std::string_view part, std::string_view separator);
+
+/// "Travel", "POWER_UP", or "step 5".
+std::string step_name(std::uint8_t number, const Symbols* symbols);
+std::string input_name(std::size_t bit, const Symbols* symbols);
+std::string output_name(std::size_t bit, const Symbols* symbols);
+
+/// "Grip, Lamp"; empty for none.
+std::string outputs_list(std::uint8_t outputs, const Symbols* symbols);
+
+/// The register's entry, where the motor is known or all motors have the same there.
+const registers::Register* find_register(std::uint8_t number, const Symbols* symbols);
+/// "V1", or "REG(123)".
+std::string register_name(std::uint8_t number, const Symbols* symbols);
+/// What is written, as a number with the register's sign.
+std::int64_t value_of(const sequencer::MotorOrder& write, const Symbols* symbols);
+
+/// "POSITION(P2)", "V1 := 3146".
+std::string order_text(const sequencer::MotorOrder& order, const Symbols* symbols);
+
+/// "POSITION(P2)", "TIMER := T#500ms", "COUNT_DOWN" and so on: all but the next step and the outputs.
+std::vector<std::string> action_texts(const ScanResult& outcome, const Symbols* symbols);
+
+/// A condition that holds in all cases of `need` and in none outside of `need` and `open`: "Start AND NOT
+/// Guard". As in the language it means NOT ERROR unless it names ERROR. "always" for no condition at all.
+std::string condition_text(const Truth& need, const Truth& open, const Symbols* symbols);
+
+/// "1500 rpm" for 3146 in V1: the shortest number that the compiler rounds to this value. Nothing for a
+/// register without unit, and where the motor is not known.
+std::optional<std::string> with_unit(std::int64_t value, std::uint8_t reg, const Symbols* symbols);
+
+/// What a step does in one case, in a form in which two tables can be compared.
+struct StepAction {
+    int next_id = -1;  ///< of the step that follows, the same for both tables; -1 while it stays
+    std::string next;  ///< its name
+    std::vector<sequencer::MotorOrder> orders;
+    std::uint16_t timer = 0;
+    CounterChange counter = CounterChange::none;
+    std::uint16_t counter_preset = 0;
+    KnownOutputs outputs;           ///< where two tables differ and the steps themselves do not settle it
+    std::uint8_t kept_outputs = 0;  ///< those of them that have no certain value
+    bool operator==(const StepAction& other) const;
+};
+
+/// The action of a scan in case `c`, without the step that follows. What changes nothing when the counter
+/// is zero is left out.
+StepAction step_action_of(const ScanResult& outcome, std::size_t c);
+
+/// "sends STOP and goes to Fault"; "nothing".
+std::string text_of(const StepAction& deed, const Symbols* symbols);
+
+}  // namespace nplc::seqc
