@@ -9,8 +9,6 @@ namespace nplc::gateway {
 
 using namespace registers::gateway;
 
-static_assert(static_cast<int>(registers::gateway::RunState::held) == static_cast<int>(RunState::held));
-
 namespace {
 
 constexpr std::size_t kRegisterBytes = 4;
@@ -52,7 +50,7 @@ std::uint32_t OwnRegisters::value(std::uint8_t reg, base::Instant now) const {
     if (reg >= LINE_FAULTS && reg < LINE_FAULTS + kLines) return line_faults(lines_[reg - LINE_FAULTS]);
     if (reg >= SETTINGS) {
         const auto id = static_cast<std::uint8_t>(reg - SETTINGS);
-        return store::is_setting(id) ? settings_.get(store::Setting{id}) : 0;
+        return registers::gateway::is_setting(id) ? settings_.get(store::Setting{id}) : 0;
     }
     return table_value(reg);
 }

@@ -8,12 +8,12 @@ namespace {
 
 std::optional<std::uint8_t> pin(const store::SettingValues& values, Setting setting) {
     const std::uint32_t value = values.get(setting);
-    if (value == store::kNone) return std::nullopt;
+    if (value == registers::gateway::kNone) return std::nullopt;
     return static_cast<std::uint8_t>(value);
 }
 
 std::uint32_t number(std::optional<std::uint8_t> pin) {
-    return pin ? *pin : store::kNone;
+    return pin ? *pin : registers::gateway::kNone;
 }
 
 base::Milliseconds milliseconds(const store::SettingValues& values, Setting setting) {
@@ -86,7 +86,7 @@ void SettingsKeeper::attach(Gateway& gateway) {
 }
 
 Result SettingsKeeper::set(std::uint8_t id, std::uint32_t value) {
-    if (!store::is_setting(id)) return Result::no_register;
+    if (!registers::gateway::is_setting(id)) return Result::no_register;
     if (gateway_->run_state() != RunState::stopped) return Result::not_stopped;
     store::SettingValues values = values_;
     if (!values.set(store::Setting{id}, value)) return Result::bad_value;

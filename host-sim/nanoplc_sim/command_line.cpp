@@ -65,7 +65,7 @@ void add_line_options(arguments::App& app, RunOptions& options) {
              "a standard rate, 1200 to 921600",
              into(options.baud, [](const std::string& text) -> std::optional<std::uint32_t> {
                  const auto baud = whole<std::uint32_t>(text, 0, UINT32_MAX);
-                 if (!baud || !store::is_standard_rate(*baud)) return std::nullopt;
+                 if (!baud || !registers::gateway::is_standard_rate(*baud)) return std::nullopt;
                  return baud;
              }));
     add_read(app, "--seed", "N", "seed of the line's faults (1)", "a whole number 0 to 4294967295",

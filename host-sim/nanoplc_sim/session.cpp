@@ -129,7 +129,8 @@ std::string Session::doubts() const {
     for (const Pair& pair : pairs) {
         const std::uint32_t stored = world_.setting(pair.setting);
         if (stored == pair.motor) continue;
-        const std::string_view name = store::find_setting(static_cast<std::uint8_t>(pair.setting))->name;
+        const std::string_view name =
+            registers::gateway::find_setting(static_cast<std::uint8_t>(pair.setting))->name;
         text += fmt::format(
             "the gateway's stored setting {} is {} and the motor wants {}: they will not understand each "
             "other; nanoctl settings set {}={} --keep, then nanoctl reset\n",

@@ -36,7 +36,7 @@ MODULES = [
     Module("firmware/protocol", "protocol", ("base",), core=True),
     Module("firmware/registers", "registers", ("base",), core=True),
     Module("firmware/motor", "motor", ("base", "ports", "protocol", "registers"), core=True),
-    Module("firmware/store", "store", ("base", "ports", "sequencer"), core=True),
+    Module("firmware/store", "store", ("base", "ports", "registers", "sequencer"), core=True),
     Module(
         "firmware/gateway",
         "gateway",

@@ -42,6 +42,38 @@ TEST(GatewayMap, TheDocumentHasEachResult) {
     }
 }
 
+TEST(GatewayMap, TheDocumentHasEachReasonAndCommand) {
+    const std::string text = document();
+    for (int code = 0; code < 14; ++code) {
+        const std::string_view word = name_of_log_code(static_cast<std::uint8_t>(code));
+        EXPECT_NE(word, "unknown") << code;
+        EXPECT_NE(text.find(" " + std::to_string(code) + " "), std::string::npos) << code;
+    }
+    EXPECT_EQ(name_of_log_code(14), "unknown");
+    EXPECT_EQ(name_of_log_code(32), "the drive's fault");
+    for (int code = 0; code < 256; ++code) {
+        const std::string_view word = name_of(static_cast<Command>(code));
+        if (word == "unknown command") continue;
+        EXPECT_NE(text.find("| " + std::to_string(code) + " | " + std::string(word) + " |"),
+                  std::string::npos);
+    }
+}
+
+TEST(GatewayMap, EachWordIsSaidOnce) {
+    const auto all_differ = [](auto first, int count) {
+        using Value = decltype(first);
+        for (int i = 0; i < count; ++i) {
+            for (int j = 0; j < i; ++j)
+                EXPECT_NE(name_of(static_cast<Value>(i)), name_of(static_cast<Value>(j))) << i << ", " << j;
+        }
+    };
+    all_differ(RunState::stopped, 5);
+    all_differ(Link::down, 4);
+    all_differ(SafeReason::none, 14);
+    all_differ(DriveFault::none, 12);
+    EXPECT_EQ(name_of(static_cast<Link>(4)), "unknown");
+}
+
 TEST(GatewayMap, RowsAscendAndDoNotOverlap) {
     unsigned next = 1;
     for (const Row& row : map()) {

@@ -27,9 +27,7 @@ struct PortSafety : testing::Test, PortBench {
         board.sent.clear();
         board.stops = 0;
     }
-    bool set(store::Setting setting, std::uint32_t value) {
-        return write(static_cast<std::uint8_t>(reg::SETTINGS + static_cast<int>(setting)), value);
-    }
+    bool set(store::Setting setting, std::uint32_t value) { return write(reg::register_of(setting), value); }
 };
 
 TEST_F(PortSafety, ATableBecomesActiveOnlyWhileStopped) {
@@ -165,7 +163,7 @@ TEST_F(PortSafety, WhileItWaitsForTheMotorOrIsAboutToHoldTheMotorIsNotWritten) {
     ASSERT_TRUE(upload_and_activate(kTable));
     board.is_settled = false;
     ASSERT_TRUE(command(Command::run));
-    expect_refused(reg::RunState::waiting);
+    expect_refused(reg::RunState::waiting_for_motor);
     board.is_settled = true;
     run(10ms);
     ASSERT_TRUE(command(Command::hold));

@@ -22,7 +22,7 @@ struct StoredState : testing::Test, PortBench {
     StoredState() : PortBench(kConfigured) {}
 
     void keep(Setting setting, std::uint32_t value) {
-        ASSERT_TRUE(write(static_cast<std::uint8_t>(reg::SETTINGS + static_cast<int>(setting)), value));
+        ASSERT_TRUE(write(reg::register_of(setting), value));
         ASSERT_TRUE(command(Command::keep_settings));
     }
 

@@ -248,23 +248,21 @@ TEST(SettingsKeeper, TheMotorsSilenceIsTheDrivers) {
 }
 
 TEST_F(UserPortTest, SettingsAreWrittenWhileStoppedAndKept) {
-    const auto number = [](store::Setting setting) {
-        return static_cast<std::uint8_t>(reg::SETTINGS + static_cast<int>(setting));
-    };
-    for (const store::SettingInfo& info : store::all_settings()) {
+    const auto number = [](store::Setting setting) { return reg::register_of(setting); };
+    for (const registers::gateway::SettingInfo& info : registers::gateway::all_settings()) {
         EXPECT_EQ(read(number(info.id)), keeper->get(info.id)) << info.name;
         if (info.id == store::Setting::gateway_address) continue;
         EXPECT_TRUE(write(number(info.id), info.lowest)) << info.name;
         EXPECT_TRUE(write(number(info.id), info.highest)) << info.name;
-        const bool is_none = info.has_none && info.highest + 1 == store::kNone;
+        const bool is_none = info.has_none && info.highest + 1 == registers::gateway::kNone;
         EXPECT_EQ(write(number(info.id), info.highest + 1), is_none) << info.name;
     }
     EXPECT_FALSE(write(number(store::Setting::motor_address), reg::kDefaultAddress)) << "the gateway's own";
     EXPECT_NE(status() & reg::kSettingsDiffer, 0U);
     ASSERT_TRUE(write(number(store::Setting::safe_outputs), 9));
     EXPECT_EQ(board.out, 9) << "in force at once";
-    ASSERT_TRUE(write(number(store::Setting::enable_input), store::kNone));
-    ASSERT_TRUE(write(number(store::Setting::status_output), store::kNone));
+    ASSERT_TRUE(write(number(store::Setting::enable_input), registers::gateway::kNone));
+    ASSERT_TRUE(write(number(store::Setting::status_output), registers::gateway::kNone));
     ASSERT_TRUE(write(number(store::Setting::motor_address), kMotor));
     ASSERT_TRUE(command(Command::keep_settings));
     EXPECT_EQ(status() & reg::kSettingsDiffer, 0U);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "bench.h"
-#include "store/settings.h"
 
 namespace nplc::macreg {
 namespace {
@@ -181,7 +180,7 @@ TEST_F(ChangeTest, WhatMovesByItselfIsTaken) {
 }
 
 TEST(Gateway, ItsSettingHasTheNumberThatIsStored) {
-    EXPECT_EQ(kMotorWrites, registers::gateway::SETTINGS + static_cast<int>(store::Setting::motor_writes));
+    EXPECT_EQ(registers::gateway::register_of(registers::gateway::Setting::motor_writes), 210);
 }
 
 TEST_F(ChangeTest, AMotorThatDoesNotAnswerIsALineError) {

@@ -202,7 +202,7 @@ TEST(Client, AMotorThatCannotBeToldIsNotTakenForStopped) {
 
 TEST(Client, SettingsOutliveAResetIfKept) {
     Bench bench;
-    const auto reg = static_cast<std::uint8_t>(gw::SETTINGS + static_cast<int>(store::Setting::safe_outputs));
+    const auto reg = gw::register_of(store::Setting::safe_outputs);
     bench.gateway.write(reg, 5);
     bench.gateway.reset();
     EXPECT_EQ(bench.gateway.read(reg), 0U);

@@ -163,9 +163,7 @@ TEST_F(UserPortRun, NoTableBecomesActiveWhileTheMotorMoves) {
 }
 
 TEST_F(UserPortRun, KeptSpeedsTakeHoldAtAReset) {
-    const auto setting = [](store::Setting which) {
-        return static_cast<std::uint8_t>(reg::SETTINGS + static_cast<unsigned>(which));
-    };
+    const auto setting = [](store::Setting which) { return reg::register_of(which); };
     const auto time_of_a_read = [&] {
         const Time begun = world.now();
         EXPECT_TRUE(read(reg::kDefaultAddress, reg::IDENTITY));

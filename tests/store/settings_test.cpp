@@ -12,6 +12,12 @@
 namespace nplc::store {
 namespace {
 
+using registers::gateway::all_settings;
+using registers::gateway::find_setting;
+using registers::gateway::is_allowed;
+using registers::gateway::kNone;
+using registers::gateway::SettingInfo;
+
 Phase save(SettingsStore& settings, const SettingValues& values) {
     if (!settings.save(values)) return Phase::failed;
     for (int i = 0; i < 100'000 && settings.phase() != Phase::done && settings.phase() != Phase::failed; ++i)

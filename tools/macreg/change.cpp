@@ -276,8 +276,8 @@ std::string gateway_refusal(Motor& motor, Asked asked) {
         return "the gateway's link to the motor does not work; `nanoctl status` tells more";
     const bool service = asked == Asked::service;
     const unsigned needed = service ? 2 : 1;
-    const bool runs = static_cast<gw::RunState>(status & gw::kRunState) != gw::RunState::stopped;
-    if (runs && motor.master().read(gw::kDefaultAddress, kMotorWrites) < needed)
+    const bool runs = gw::run_state_of(status) != gw::RunState::stopped;
+    if (runs && motor.master().read(gw::kDefaultAddress, gw::register_of(gw::Setting::motor_writes)) < needed)
         return fmt::format(
             "the gateway refuses it while its sequence runs or is held: `nanoctl stop` first, then this "
             "again. To allow it while it runs, after the stop `nanoctl settings set motor_writes={}`, then "

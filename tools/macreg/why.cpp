@@ -47,7 +47,7 @@ std::vector<const registers::Register*> judged(registers::Model model) {
 void judge_gateway(const Facts& facts, Findings& findings) {
     if (!facts.gateway()) return;
     const auto& [status, reason] = *facts.gateway();
-    const auto state = static_cast<gw::RunState>(status & gw::kRunState);
+    const auto state = gw::run_state_of(status);
     if ((status & gw::kLinkDelivers) == 0)
         findings.stops(
             "gateway_link_down",
@@ -418,8 +418,7 @@ void begin_safely(const Facts& facts, Findings& findings) {
 
 void pass_gateway(const Facts& facts, Findings& findings) {
     if (!facts.gateway()) return;
-    const bool stopped =
-        static_cast<gw::RunState>(facts.gateway()->status & gw::kRunState) == gw::RunState::stopped;
+    const bool stopped = gw::run_state_of(facts.gateway()->status) == gw::RunState::stopped;
     for (Finding& one : findings.all) {
         if (!stopped && names(one, {"`macreg set"}))
             one.remedy.insert(0,

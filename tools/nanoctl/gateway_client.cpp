@@ -143,7 +143,7 @@ void GatewayClient::reset() {
     if ((read(gw::STATUS) & gw::kStoredDiffers) != 0) activate();
     const std::uint32_t bytes = read(gw::UPLOAD_BYTES);
     const std::uint8_t before = address_;
-    const auto after = static_cast<std::uint8_t>(read(setting_register(store::Setting::gateway_address)));
+    const auto after = static_cast<std::uint8_t>(read(gw::register_of(gw::Setting::gateway_address)));
     for (unsigned i = 0; i < kAttempts; ++i) {
         write(gw::UPLOAD_BYTES, bytes);
         static_cast<void>(master_.try_write(address_, gw::COMMAND,

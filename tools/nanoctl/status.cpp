@@ -40,8 +40,8 @@ std::optional<unsigned> find(const std::string& text, const std::string& prefix,
 
 Status::Status(const Block& block)
     : bits(block[gw::STATUS - gw::STATUS]),
-      run_state(static_cast<gw::RunState>(bits & gw::kRunState)),
-      safe_reason(byte_of(block[gw::SAFE_REASON - gw::STATUS], 0)),
+      run_state(gw::run_state_of(bits)),
+      safe_reason(static_cast<gw::SafeReason>(block[gw::SAFE_REASON - gw::STATUS])),
       safe_since(block[gw::SAFE_SINCE - gw::STATUS]),
       uptime(block[gw::UPTIME - gw::STATUS]),
       step(byte_of(block[gw::STEP - gw::STATUS], 0)),
@@ -55,7 +55,7 @@ Status::Status(const Block& block)
       scans(block[gw::SCANS - gw::STATUS]),
       scan_time(block[gw::SCAN_TIME - gw::STATUS]),
       scan_worst(block[gw::SCAN_WORST - gw::STATUS]),
-      link(block[gw::LINK - gw::STATUS]),
+      link(static_cast<gw::Link>(block[gw::LINK - gw::STATUS])),
       force_left(block[gw::FORCE_LEFT - gw::STATUS]),
       log_count(block[gw::LOG_COUNT - gw::STATUS]) {}
 

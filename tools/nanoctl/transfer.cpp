@@ -10,11 +10,11 @@
 #include "registers/family.h"
 #include "sequencer/state.h"
 #include "sequencer/table.h"
-#include "store/settings.h"
 
 namespace nplc::nanoctl {
 namespace {
 
+using gw::StorePhase;
 using mactalk_client::LineError;
 
 constexpr std::size_t kLargestPiece = protocol::mactalk::kMaxLongWrite;
@@ -26,10 +26,8 @@ constexpr base::Milliseconds kRoomWait{1'000};
 constexpr base::Milliseconds kPollPause{20};
 constexpr unsigned kMostPolls = 1'500;
 
-enum UploadState : std::uint8_t { kNone, kErasing, kReceiving, kClosing, kStored, kFailed };
-
 struct UploadStatus {
-    std::uint8_t state;
+    StorePhase phase;
     gw::Result result;
     std::uint16_t detail;
     std::uint32_t received;
@@ -37,7 +35,7 @@ struct UploadStatus {
 
 UploadStatus upload_status(GatewayClient& gateway) {
     const std::uint32_t state = gateway.read(gw::UPLOAD_STATE);
-    return {static_cast<std::uint8_t>(state), static_cast<gw::Result>((state >> 8) & 0xFF),
+    return {static_cast<StorePhase>(state & 0xFF), static_cast<gw::Result>((state >> 8) & 0xFF),
             static_cast<std::uint16_t>(state >> 16), gateway.read(gw::UPLOAD_RECEIVED)};
 }
 
@@ -51,12 +49,12 @@ UploadStatus upload_status(GatewayClient& gateway) {
                   "the table was not stored: " + what + "; upload it again");
 }
 
-/// Waits while the upload is in `state`.
-UploadStatus wait_while(GatewayClient& gateway, UploadState state) {
+/// Waits while the upload is in `phase`.
+UploadStatus wait_while(GatewayClient& gateway, StorePhase phase) {
     for (unsigned i = 0; i < kMostPolls; ++i) {
         const UploadStatus status = upload_status(gateway);
-        if (status.state == kFailed) upload_failed(status.result, status.detail);
-        if (status.state != state) return status;
+        if (status.phase == StorePhase::failed) upload_failed(status.result, status.detail);
+        if (status.phase != phase) return status;
         gateway.look_for_interruption();
         gateway.master().pause(kPollPause);
     }
@@ -95,8 +93,9 @@ class Upload {
         good_ = 0;
         piece_ = std::max(piece_ / 2, kSmallestPiece);
         const UploadStatus status = upload_status(gateway_);
-        if (status.state == kFailed) upload_failed(status.result, status.detail);
-        if (status.state != kReceiving && status.state != kErasing) upload_failed(gw::Result::no_upload, 0);
+        if (status.phase == StorePhase::failed) upload_failed(status.result, status.detail);
+        if (status.phase != StorePhase::receiving && status.phase != StorePhase::erasing)
+            upload_failed(gw::Result::no_upload, 0);
         const std::size_t before = sent_;
         sent_ = std::min<std::size_t>(status.received, table_.size());
         lost_in_a_row_ = sent_ > before ? 0 : lost_in_a_row_ + 1;
@@ -135,7 +134,7 @@ void part(const char* stored, const std::function<void()>& what) {
 void upload_whole(GatewayClient& gateway, std::span<const std::uint8_t> table, const Progress& progress) {
     part("the upload was not finished, the stored table is as it was and so is the active one", [&] {
         gateway.command(gw::Command::upload_begin);
-        wait_while(gateway, kErasing);
+        wait_while(gateway, StorePhase::erasing);
         Upload(gateway, table).send(progress);
         gateway.write(gw::UPLOAD_CRC, base::crc32(table));
         gateway.write(gw::UPLOAD_BYTES, static_cast<std::uint32_t>(table.size()));
@@ -146,18 +145,17 @@ void upload_whole(GatewayClient& gateway, std::span<const std::uint8_t> table, c
         "which is stored",
         [&] {
             commit(gateway);
-            const UploadStatus end = wait_while(gateway, kClosing);
-            if (end.state != kStored) upload_failed(gw::Result::no_upload, 0);
+            const UploadStatus end = wait_while(gateway, StorePhase::closing);
+            if (end.phase != StorePhase::done) upload_failed(gw::Result::no_upload, 0);
         });
 }
 
 /// Why the gateway's drive cannot do what a term orders; empty where that is not known.
 std::string_view why_not(GatewayClient& gateway, std::span<const std::uint8_t> table, std::uint16_t term) {
-    constexpr auto kMotorKind =
-        static_cast<std::uint8_t>(gw::SETTINGS + static_cast<int>(store::Setting::motor_kind));
     const auto loaded = sequencer::Table::load(table);
     if (!loaded.ok || term >= loaded.table.size()) return {};
-    const registers::DriveModel* drive = registers::drive_of_kind(gateway.read(kMotorKind));
+    const registers::DriveModel* drive =
+        registers::drive_of_kind(gateway.read(gw::register_of(gw::Setting::motor_kind)));
     if (drive == nullptr) return {};
     const auto order = sequencer::order_of(loaded.table.term(term));
     return order.is_flex ? drive->family->refuses_write(*drive, order.reg, order.longword, order.value)

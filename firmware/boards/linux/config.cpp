@@ -179,7 +179,7 @@ class Reader {
         Section section(axis_section.table("settings"), axis_section.path() + ".settings", findings_);
         set(axis, Setting::motor_kind, axis.motor.model->motor_kind);
         set(axis, Setting::midi_address, axis.motor.drive_address);
-        for (const store::SettingInfo& info : store::all_settings()) {
+        for (const registers::gateway::SettingInfo& info : registers::gateway::all_settings()) {
             if (std::find(kOfTheMotor.begin(), kOfTheMotor.end(), info.id) != kOfTheMotor.end()) continue;
             const std::string key(info.name);
             if (!support_of(axis.motor).has_setting(info.id) && section.any(key) != nullptr) {
@@ -194,7 +194,7 @@ class Reader {
             }
             const TomlValue* value = section.any(key);
             if (value != nullptr && info.has_none && value->kind == Kind::text && value->text == "none") {
-                set(axis, info.id, store::kNone);
+                set(axis, info.id, registers::gateway::kNone);
                 continue;
             }
             const auto number = section.number(key, info.lowest, info.highest);

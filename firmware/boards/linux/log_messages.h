@@ -3,7 +3,7 @@
 #include <string>
 
 #include "gateway/event_log.h"
-#include "gateway/run_state.h"
+#include "gateway/vocabulary.h"
 #include "journal.h"
 
 namespace nplc::boards {

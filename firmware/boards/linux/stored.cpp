@@ -123,7 +123,7 @@ void impose_motor(gateway::SettingsKeeper& settings, const AxisConfig& config) {
 std::vector<StoredSetting> stored_settings(const gateway::SettingsKeeper& settings,
                                            const AxisConfig& config) {
     std::vector<StoredSetting> differing;
-    for (const store::SettingInfo& info : store::all_settings()) {
+    for (const registers::gateway::SettingInfo& info : registers::gateway::all_settings()) {
         const std::uint32_t stored = settings.get(info.id);
         const std::uint32_t configured = config.settings.get(info.id);
         if (stored != configured) differing.push_back({info.name, stored, configured});

@@ -70,9 +70,11 @@ std::string of_axis(const AxisConfig& axis) {
                     is_serial ? fmt::format("{} baud, 8N1", axis.settings.get(Setting::user_baud)) : "",
                     "MacTalk port"});
     std::string text = fmt::format("Axis {}\n\n{}", axis.name, table_of(rows));
-    if (const std::uint32_t enable = axis.settings.get(Setting::enable_input); enable != store::kNone)
+    if (const std::uint32_t enable = axis.settings.get(Setting::enable_input);
+        enable != registers::gateway::kNone)
         text += fmt::format("\n  IN{} is the enable input: without it nothing runs.\n", enable);
-    if (const std::uint32_t lamp = axis.settings.get(Setting::status_output); lamp != store::kNone)
+    if (const std::uint32_t lamp = axis.settings.get(Setting::status_output);
+        lamp != registers::gateway::kNone)
         text += fmt::format("\n  OUT{} shows the gateway's state and is not the sequence's.\n", lamp);
     return text + support_of(axis.motor).notes(axis.motor);
 }

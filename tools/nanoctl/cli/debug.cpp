@@ -148,7 +148,7 @@ std::string detail_text(const LogEntry& entry) {
         case gw::Event::upload_failed:
             return fmt::format(", {}", gw::describe(static_cast<gw::Result>(entry.detail & 0xFF)));
         case gw::Event::motor_fault:
-            return fmt::format(", {}", name_of_motor_fault(entry.detail));
+            return fmt::format(", {}", name_of(static_cast<gw::DriveFault>(entry.detail)));
         default:
             return entry.detail == 0 ? "" : fmt::format(", {}", entry.detail);
     }
@@ -159,11 +159,12 @@ void log(Session& session, bool clear) {
     std::string text;
     Json list = Json::array();
     for (const LogEntry& entry : entries) {
-        text += fmt::format("{:>14}  step {}  {}{}\n", time_text(entry.uptime),
-                            session.names().step(entry.step), name_of_event(entry.event), detail_text(entry));
+        text +=
+            fmt::format("{:>14}  step {}  {}{}\n", time_text(entry.uptime), session.names().step(entry.step),
+                        gw::name_of_log_code(entry.event), detail_text(entry));
         list.push_back({{"number", entry.number},
                         {"uptime_ms", entry.uptime},
-                        {"event", name_of_event(entry.event)},
+                        {"event", gw::name_of_log_code(entry.event)},
                         {"step", entry.step},
                         {"detail", entry.detail}});
     }

@@ -1,5 +1,3 @@
-#include "store/settings.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,28 +11,25 @@
 namespace nplc::nanoctl::cli {
 namespace {
 
-using store::SettingInfo;
-
-std::uint8_t reg_of(const SettingInfo& info) {
-    return setting_register(info.id);
-}
+using gw::Setting;
+using gw::SettingInfo;
 
 const SettingInfo& find(const std::string& name) {
-    for (const SettingInfo& info : store::all_settings()) {
+    for (const SettingInfo& info : gw::all_settings()) {
         if (info.name == name) return info;
     }
     throw UserError(fmt::format("'{}' is no setting; `nanoctl settings list` shows them all", name));
 }
 
 std::string value_text(const SettingInfo& info, std::uint32_t value) {
-    if (info.has_none && value == store::kNone) return "none";
+    if (info.has_none && value == gw::kNone) return "none";
     return fmt::format("{}{}{}", value, info.unit.empty() ? "" : " ", info.unit);
 }
 
 std::string range_text(const SettingInfo& info) {
     return fmt::format("{} to {}{}{}", info.lowest, value_text(info, info.highest),
                        info.has_none ? ", or none" : "",
-                       info.id == store::Setting::user_baud || info.id == store::Setting::motor_baud
+                       info.id == Setting::user_baud || info.id == Setting::motor_baud
                            ? ", of 1200 2400 4800 9600 19200 38400 57600 115200 230400 460800 921600"
                            : "");
 }
@@ -42,8 +37,8 @@ std::string range_text(const SettingInfo& info) {
 void list(Session& session) {
     std::string text;
     Json all = Json::object();
-    for (const SettingInfo& info : store::all_settings()) {
-        const std::uint32_t value = session.gateway().read(reg_of(info));
+    for (const SettingInfo& info : gw::all_settings()) {
+        const std::uint32_t value = session.gateway().read(gw::register_of(info.id));
         text += fmt::format("{}{:<18} {:<12} {} ({})", text.empty() ? "" : "\n", info.name,
                             value_text(info, value), info.help, range_text(info));
         all[std::string(info.name)] = value;
@@ -56,7 +51,7 @@ void get(Session& session, const std::vector<std::string>& names) {
     Json some = Json::object();
     for (const std::string& name : names) {
         const SettingInfo& info = find(name);
-        const std::uint32_t value = session.gateway().read(reg_of(info));
+        const std::uint32_t value = session.gateway().read(gw::register_of(info.id));
         text += fmt::format("{}{} = {}", text.empty() ? "" : "\n", name, value_text(info, value));
         some[name] = value;
     }
@@ -73,27 +68,25 @@ Assignment parse(const std::string& text) {
     if (equals == std::string::npos) throw UserError(fmt::format("'{}': write NAME=VALUE", text));
     const SettingInfo& info = find(text.substr(0, equals));
     const std::string digits = text.substr(equals + 1);
-    std::uint32_t value = store::kNone;
+    std::uint32_t value = gw::kNone;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     const bool is_number = error == std::errc() && end == digits.data() + digits.size() && !digits.empty();
     const bool is_none = info.has_none && digits == "none";
-    if (!(is_none || is_number) || !store::is_allowed(info.id, is_none ? store::kNone : value))
+    if (!(is_none || is_number) || !gw::is_allowed(info.id, is_none ? gw::kNone : value))
         throw UserError(fmt::format("'{}': {} is {}", text, info.name, range_text(info)));
-    return {&info, is_none ? store::kNone : value};
+    return {&info, is_none ? gw::kNone : value};
 }
 
 bool is_taken(Session& session, const Assignment& one) {
-    const auto other = one.info->id == store::Setting::gateway_address ? store::Setting::motor_address
-                                                                       : store::Setting::gateway_address;
-    if (one.info->id != store::Setting::gateway_address && one.info->id != store::Setting::motor_address)
-        return false;
-    return session.gateway().read(reg_of(*store::find_setting(static_cast<std::uint8_t>(other)))) ==
-           one.value;
+    const auto other =
+        one.info->id == Setting::gateway_address ? Setting::motor_address : Setting::gateway_address;
+    if (one.info->id != Setting::gateway_address && one.info->id != Setting::motor_address) return false;
+    return session.gateway().read(gw::register_of(other)) == one.value;
 }
 
 void write_one(Session& session, const Assignment& one) {
     try {
-        session.gateway().write(reg_of(*one.info), one.value);
+        session.gateway().write(gw::register_of(one.info->id), one.value);
     } catch (const Refused& refused) {
         const std::string why = refused.result() == gw::Result::bad_value && is_taken(session, one)
                                     ? "the address is taken: gateway and motor need one each"

@@ -24,10 +24,10 @@ Json document_of(const Status& status, const Names& names) {
             {"force_left_ms", status.force_left},
             {"in_position", status.has(gw::kInPosition)},
             {"error", status.has(gw::kMotorError)},
-            {"safe_reason", status.safe_reason == 0 ? "" : std::string(name_of_event(status.safe_reason))},
+            {"safe_reason", status.safe_reason == gw::SafeReason::none ? "" : name_of(status.safe_reason)},
             {"safe_since_ms", status.safe_since},
             {"uptime_ms", status.uptime},
-            {"link", name_of_link(status.link)},
+            {"link", name_of(status.link)},
             {"scans", status.scans},
             {"scan_time_us", status.scan_time},
             {"scan_worst_us", status.scan_worst},
@@ -54,7 +54,7 @@ std::string line_of(const Status& status, const Names& names) {
     text += held_remark(status);
     if (status.has(gw::kForcedInputs) || status.has(gw::kForcedOutputs))
         text += fmt::format(", FORCED for {} ms", status.force_left);
-    if (status.has(gw::kSafe)) text += fmt::format(", SAFE: {}", name_of_event(status.safe_reason));
+    if (status.has(gw::kSafe)) text += fmt::format(", SAFE: {}", name_of(status.safe_reason));
     if (status.has(gw::kUpload)) text += ", an upload is under way";
     return text;
 }
@@ -86,8 +86,8 @@ void show_status(Session& session) {
     if ((flags & 2) != 0)
         text += "\nDAMAGED: the stored settings; older or initial ones are in use, set and keep them";
     text += fmt::format("\nmotor link {}, lost {} times, {} messages repeated, {} orders done, {} discarded",
-                        name_of_link(status.link), count(gw::LINK_LOSSES), count(gw::RESENT),
-                        count(gw::ORDERS), count(gw::DISCARDED));
+                        name_of(status.link), count(gw::LINK_LOSSES), count(gw::RESENT), count(gw::ORDERS),
+                        count(gw::DISCARDED));
     text += fmt::format("\n{} scans, the last {} us, the longest {} us", status.scans, status.scan_time,
                         status.scan_worst);
     if (status.has(gw::kSettingsDiffer)) text += "\nsettings differ from the stored ones";

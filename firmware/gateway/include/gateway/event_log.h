@@ -3,11 +3,10 @@
 #include <array>
 #include <cstdint>
 
+#include "gateway/vocabulary.h"
 #include "registers/gateway.h"
 
 namespace nplc::gateway {
-
-using registers::gateway::Event;
 
 /// What happened lately. Entry number n, counted from 0, stands in slot n modulo the number of slots.
 class EventLog {

@@ -4,12 +4,10 @@
 #include <optional>
 
 #include "base/error.h"
+#include "gateway/vocabulary.h"
 #include "protocol/mactalk.h"
-#include "registers/gateway.h"
 
 namespace nplc::gateway {
-
-using registers::gateway::Result;
 
 /// How a deed ended, as register RESULT has it, in one word.
 class Outcome {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "gateway/run_state.h"
+#include "gateway/vocabulary.h"
 
 namespace nplc::gateway {
 

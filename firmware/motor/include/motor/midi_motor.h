@@ -9,25 +9,13 @@
 #include "motor/midi_registers.h"
 #include "motor/motor.h"
 #include "registers/midi_motor.h"
+#include "registers/vocabulary.h"
 
 namespace nplc::motor {
 
 /// Why a MidiMotor shows ERROR, for a person. A trip, and why no drive could do an order, are told by
 /// MidiMotor::drive_status() and lack().
-enum class MidiFault : std::uint8_t {
-    none,
-    link_lost,    ///< no answer, or none that could be read
-    restarted,    ///< the module started anew by itself
-    tripped,      ///< the drive's own fault: its power is off until "reset error"
-    end_stop,     ///< stopped by an end-stop on its way
-    not_arrived,  ///< stands, and not where it was sent; or stopped running by itself
-    refused,      ///< the drive did not take a command
-    unclear,      ///< nobody knows whether the drive took a command; it was told to stop
-    bad_value,    ///< an order that only showed at run time that the drive cannot do it: see lack()
-    unreadable,   ///< answers came, and each was damaged
-    several,      ///< more than one drive answers to the address
-    jumped,       ///< the position changed in motion as that does not explain
-};
+using MidiFault = registers::gateway::DriveFault;
 
 /// What it is and what to do. Without a full stop.
 std::string_view text_of(MidiFault fault);

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "base/time.h"
+#include "registers/vocabulary.h"
 
 namespace nplc::motor {
 
@@ -49,13 +50,7 @@ struct Counters {
     std::uint32_t access_fails = 0;
 };
 
-enum class Link : std::uint8_t {
-    down,            ///< no answer; orders are discarded
-    starting,        ///< the drive answers and is being brought in step; orders are discarded
-    unacknowledged,  ///< works again after it was down; error() stays until "reset error" (01h) has been
-                     ///< executed
-    up,
-};
+using registers::gateway::Link;
 
 constexpr bool delivers(Link link) {
     return link == Link::unacknowledged || link == Link::up;

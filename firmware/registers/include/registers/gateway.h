@@ -6,6 +6,8 @@
 #include <string_view>
 
 #include "registers/midi.h"
+#include "registers/settings.h"
+#include "registers/vocabulary.h"
 
 /// The gateway's own registers on the user's port, reached by MacTalk (001 §5.1). No manual describes them:
 /// the map is ours. One register is a longword in one number; numbers without a row read 0. What each means
@@ -81,7 +83,12 @@ enum Number : std::uint8_t {
 inline constexpr std::uint8_t kLines = 3;          ///< LINE_FAULTS and the two after it
 inline constexpr std::uint8_t kFiredWords = 32;    ///< FIRED and the 31 after it: a bit a term
 inline constexpr std::uint8_t kLogEntries = 16;    ///< two registers each, from LOG on
-inline constexpr std::uint8_t kMostSettings = 31;  ///< SETTINGS + number of the setting
+inline constexpr std::uint8_t kMostSettings = 31;  ///< registers of settings, from SETTINGS + 1 on
+
+/// The register of a setting.
+constexpr std::uint8_t register_of(Setting setting) {
+    return static_cast<std::uint8_t>(SETTINGS + static_cast<unsigned>(setting));
+}
 
 /// Setting motor_kind: 0 is a JVL motor, then come the models of registers/midi.h.
 constexpr std::uint32_t motor_kind_of(std::optional<midi::Model> model) {
@@ -91,95 +98,6 @@ constexpr std::optional<midi::Model> model_of_kind(std::uint32_t motor_kind) {
     if (motor_kind == 0) return std::nullopt;
     return static_cast<midi::Model>(motor_kind - 1);
 }
-
-/// What COMMAND takes.
-enum class Command : std::uint8_t {
-    run = 1,
-    stop = 2,
-    safe = 3,
-    scan = 4,
-    step = 5,
-    hold = 6,
-    reset = 7,
-    keep_settings = 8,
-    clear_log = 9,
-    upload_begin = 16,
-    upload_commit = 17,
-    upload_abort = 18,
-    activate = 19,
-};
-
-/// Bits 7..0 of RESULT.
-enum class Result : std::uint8_t {
-    done = 0,
-    no_register = 1,
-    read_only = 2,
-    bad_length = 3,
-    bad_value = 4,
-    not_stopped = 5,
-    no_table = 6,
-    moving = 7,
-    not_allowed = 8,
-    link_down = 9,
-    busy = 10,
-    no_upload = 11,
-    bad_offset = 12,
-    no_space = 13,
-    wrong_check = 14,
-    storage_failed = 15,
-    nothing_stored = 16,
-    not_running = 17,
-    not_enabled = 18,
-    too_late = 19,
-    cannot_go_on = 20,
-    table_no_end = 32,
-    table_ragged = 33,
-    bad_next_step = 34,
-    bad_register = 35,
-    not_for_motor = 36,
-};
-
-/// Bits of STATUS.
-enum StatusBit : std::uint32_t {
-    kRunState = 7U << 0,  ///< a RunState
-    kLinkDelivers = 1U << 3,
-    kMotorError = 1U << 4,
-    kInPosition = 1U << 5,
-    kSafe = 1U << 6,
-    kForcedInputs = 1U << 7,
-    kForcedOutputs = 1U << 8,
-    kBreakpoints = 1U << 9,
-    kAtBreakpoint = 1U << 10,
-    kTable = 1U << 11,
-    kUpload = 1U << 12,
-    kStoredDiffers = 1U << 13,
-    kSettingsDiffer = 1U << 14,
-    kEnabled = 1U << 15,
-    kVirtualMotor = 1U << 16,
-    kSingle = 1U << 17,
-    kCannotGoOn = 1U << 18,
-};
-
-enum class RunState : std::uint8_t { stopped = 0, waiting = 1, running = 2, holding = 3, held = 4 };
-
-/// Bits 7..0 of a log entry's second register; below 16 they are SAFE_REASON's.
-enum class Event : std::uint8_t {
-    started = 16,
-    held = 17,
-    breakpoint = 18,
-    forced = 19,
-    forces_ended = 20,
-    link_up = 21,
-    table_activated = 22,
-    table_stored = 23,
-    upload_failed = 24,
-    settings_kept = 25,
-    store_damaged = 26,
-    upload_given_up = 27,
-    gave_up = 28,
-    gave_up_at = 29,
-    motor_fault = 32,
-};
 
 enum class Access : std::uint8_t { read, read_write, write };
 
@@ -196,8 +114,5 @@ std::span<const Row> map();
 /// The row that a number belongs to; nullptr if none.
 const Row* find(std::uint8_t number);
 const Row* find(std::string_view name);
-
-/// One line for a person, "is not stopped; stop it first".
-std::string_view describe(Result result);
 
 }  // namespace nplc::registers::gateway

@@ -10,6 +10,7 @@
 #include "base/result.h"
 #include "base/time.h"
 #include "ports/storage.h"
+#include "registers/vocabulary.h"
 #include "store/content.h"
 #include "store/layout.h"
 
@@ -22,15 +23,8 @@ enum class SlotState : std::uint8_t {
     damaged,  ///< it was finished once, or may have been, and its bytes are not what was written
 };
 
-/// Where a writing stands.
-enum class Phase : std::uint8_t {
-    idle,
-    erasing,    ///< begun; pieces can come soon
-    receiving,  ///< takes pieces
-    closing,    ///< programs the rest, reads everything back, checks it, makes it the current one
-    done,       ///< what was written is the current content
-    failed,     ///< nothing has changed; error() says why
-};
+/// Where a writing stands; error() says why it failed.
+using Phase = registers::gateway::StorePhase;
 
 /// Two slots of which one is current. New content goes to the other one, is read back and checked there, and
 /// becomes the current one by a last programming of a mark. If power fails at any moment, the old or the new

@@ -46,9 +46,6 @@ std::string resynchronise_command(registers::Model model, std::int64_t control_b
 /// ERR_STAT's bits that keep the motor in INIT_MODE (001 §3.2.35, §4.4.1; R: 004's by their kind).
 std::uint32_t error_bits(registers::Model model);
 
-/// Of the gateway's setting motor_writes: 1 allows writes while the sequence runs, 2 the rest too.
-inline constexpr std::uint8_t kMotorWrites = registers::gateway::SETTINGS + 10;
-
 /// What a gateway did not let through.
 enum class Asked : std::uint8_t {
     write,    ///< of a register

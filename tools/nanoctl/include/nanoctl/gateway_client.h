@@ -10,7 +10,6 @@
 
 #include "mactalk_client/master.h"
 #include "registers/gateway.h"
-#include "store/settings.h"
 
 namespace nplc::nanoctl {
 
@@ -38,10 +37,6 @@ class WrongDevice : public std::runtime_error {
 };
 
 using mactalk_client::Interrupted;
-
-constexpr std::uint8_t setting_register(store::Setting setting) {
-    return static_cast<std::uint8_t>(gw::SETTINGS + static_cast<unsigned>(setting));
-}
 
 /// Sixteen registers taken at one instant.
 using Block = std::array<std::uint32_t, 16>;

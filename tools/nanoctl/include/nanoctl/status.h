@@ -18,7 +18,7 @@ struct Status {
 
     std::uint32_t bits;
     gw::RunState run_state;
-    std::uint8_t safe_reason;
+    gw::SafeReason safe_reason;
     std::uint32_t safe_since;  ///< ms, as uptime
     std::uint32_t uptime;      ///< ms
     std::uint8_t step;
@@ -32,7 +32,7 @@ struct Status {
     std::uint32_t scans;
     std::uint32_t scan_time;   ///< us
     std::uint32_t scan_worst;  ///< us
-    std::uint32_t link;
+    gw::Link link;
     std::uint32_t force_left;  ///< ms
     std::uint32_t log_count;
 };

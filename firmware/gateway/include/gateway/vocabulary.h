@@ -1,0 +1,12 @@
+#pragma once
+
+#include "registers/vocabulary.h"
+
+namespace nplc::gateway {
+
+using registers::gateway::Event;
+using registers::gateway::Result;
+using registers::gateway::RunState;
+using registers::gateway::SafeReason;
+
+}  // namespace nplc::gateway

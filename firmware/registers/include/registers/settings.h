@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+/// The gateway's settings as numbers, as they are stored, and read and written over the user's port.
+namespace nplc::registers::gateway {
+
+/// The numbers are stored and must stay what they are.
+enum class Setting : std::uint8_t {
+    gateway_address = 1,
+    user_baud = 2,
+    motor_baud = 3,
+    autostart = 4,
+    on_start = 5,
+    safe_outputs = 6,
+    debounce = 7,
+    longest_wait = 8,
+    enable_input = 9,
+    motor_writes = 10,
+    virtual_motor = 11,
+    force_timeout = 12,
+    status_output = 13,
+    motor_address = 14,
+    motor_is_mac800 = 15,
+    safe_communication = 16,
+    old_register_codes = 17,
+    read_pause = 18,
+    motor_silence = 19,
+    motor_kind = 20,
+    midi_address = 21,
+};
+
+/// `none` in enable_input and status_output.
+inline constexpr std::uint32_t kNone = 255;
+
+struct SettingInfo {
+    Setting id;
+    std::string_view name;
+    std::string_view unit;  ///< empty: a number, or a choice that `help` explains
+    std::uint32_t initial;
+    std::uint32_t lowest;
+    std::uint32_t highest;
+    bool has_none;  ///< kNone is a value too
+    bool at_reset;  ///< takes hold at the next reset, if kept
+    std::string_view help;
+};
+
+inline constexpr std::size_t kSettings = 21;
+const std::array<SettingInfo, kSettings>& all_settings();
+/// nullptr if there is none.
+const SettingInfo* find_setting(std::uint8_t id);
+/// Of a speed: 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800 or 921600 baud.
+bool is_standard_rate(std::uint32_t baud);
+bool is_setting(std::uint8_t id);
+std::uint32_t initial_value(Setting setting);
+/// False too for what is no setting.
+bool is_allowed(Setting setting, std::uint32_t value);
+
+}  // namespace nplc::registers::gateway

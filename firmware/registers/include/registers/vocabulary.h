@@ -1,0 +1,332 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <string_view>
+
+/// What the values in the gateway's registers mean, each with the word that programs print for it. Firmware,
+/// tools and simulator use these declarations; firmware/gateway/REGISTERS.md describes them.
+namespace nplc::registers::gateway {
+
+template <class Value>
+struct Word {
+    Value value;
+    std::string_view text;
+};
+
+/// The value's word, or `otherwise` for a number that is none of them.
+template <class Value>
+constexpr std::string_view word_of(Value value, std::initializer_list<Word<Value>> words,
+                                   std::string_view otherwise = "unknown") {
+    for (const Word<Value>& word : words) {
+        if (word.value == value) return word.text;
+    }
+    return otherwise;
+}
+
+/// Bits 2..0 of STATUS.
+enum class RunState : std::uint8_t {
+    stopped = 0,            ///< no table, not started, or in the safe state after a reason that needs a start
+    waiting_for_motor = 1,  ///< started; the link is not up yet, or the stop order is not executed yet
+    running = 2,
+    holding = 3,  ///< its last orders are being executed, then the motor is being stopped, to be held
+    held = 4,     ///< between two scans, until it is told to go on
+};
+
+constexpr std::string_view name_of(RunState state) {
+    using enum RunState;
+    return word_of<RunState>(state, {{stopped, "stopped"},
+                                     {waiting_for_motor, "waiting for the motor"},
+                                     {running, "running"},
+                                     {holding, "stopping the motor to hold"},
+                                     {held, "held"}});
+}
+
+/// SAFE_REASON: why the outputs have their safe values (and, where the line works, the motor was told to
+/// stop). In the log's entries too, below the codes of Event.
+enum class SafeReason : std::uint8_t {
+    none = 0,
+    not_started = 1,
+    stop_command = 2,
+    link_down = 3,    ///< ends when the link is up again and the sequence has sent "reset error"
+    motor_stuck = 4,  ///< a scan waited longer than setting longest_wait
+    bad_table = 5,
+    watchdog = 6,
+    enable_lost = 7,
+    safe_command = 8,
+    bad_settings = 9,   ///< the stored ones are damaged: nothing runs until settings are kept
+    bad_run_mark = 10,  ///< what says that the sequence runs is damaged, missing, or cannot be written
+    no_lines = 11,      ///< 11 to 13: the board lacks what the axis needs and tries to have it again
+    no_store = 12,
+    no_port = 13,  ///< the user's
+};
+
+constexpr std::string_view name_of(SafeReason reason) {
+    using enum SafeReason;
+    return word_of<SafeReason>(reason, {{none, "none"},
+                                        {not_started, "not started"},
+                                        {stop_command, "stop command"},
+                                        {link_down, "link down"},
+                                        {motor_stuck, "motor stuck"},
+                                        {bad_table, "bad table"},
+                                        {watchdog, "watchdog"},
+                                        {enable_lost, "enable lost"},
+                                        {safe_command, "safe command"},
+                                        {bad_settings, "bad settings"},
+                                        {bad_run_mark, "bad run mark"},
+                                        {no_lines, "GPIO lines missing"},
+                                        {no_store, "no store"},
+                                        {no_port, "user's port missing"}});
+}
+
+/// Bits 7..0 of a log entry's second register; below 16 they are a SafeReason.
+enum class Event : std::uint8_t {
+    started = 16,
+    held = 17,
+    breakpoint = 18,
+    forced = 19,
+    forces_ended = 20,
+    link_up = 21,
+    table_activated = 22,
+    table_stored = 23,
+    upload_failed = 24,
+    settings_kept = 25,
+    store_damaged = 26,
+    upload_given_up = 27,
+    gave_up = 28,
+    gave_up_at = 29,
+    motor_fault = 32,
+};
+
+constexpr std::string_view name_of(Event event) {
+    using enum Event;
+    return word_of<Event>(event, {{started, "started"},
+                                  {held, "held"},
+                                  {breakpoint, "breakpoint"},
+                                  {forced, "forced"},
+                                  {forces_ended, "forces ended"},
+                                  {link_up, "link up"},
+                                  {table_activated, "table activated"},
+                                  {table_stored, "table stored"},
+                                  {upload_failed, "upload failed"},
+                                  {settings_kept, "settings kept"},
+                                  {store_damaged, "stored table or settings damaged"},
+                                  {upload_given_up, "upload given up"},
+                                  {gave_up, "the firmware gave up before this start"},
+                                  {gave_up_at, "it was at this code address"},
+                                  {motor_fault, "the drive's fault"}});
+}
+
+/// Of bits 7..0 of a log entry's second register.
+constexpr std::string_view name_of_log_code(std::uint8_t code) {
+    constexpr std::uint8_t kFirstEvent = 16;
+    return code < kFirstEvent ? name_of(static_cast<SafeReason>(code)) : name_of(static_cast<Event>(code));
+}
+
+/// LINK: the line between gateway and motor.
+enum class Link : std::uint8_t {
+    down = 0,            ///< no answer; orders are discarded
+    starting = 1,        ///< the drive answers and is being brought in step; orders are discarded
+    unacknowledged = 2,  ///< works again after it was down; ERROR stays until "reset error" (01h) has been
+                         ///< executed
+    up = 3,
+};
+
+constexpr std::string_view name_of(Link link) {
+    using enum Link;
+    return word_of<Link>(
+        link, {{down, "down"}, {starting, "starting"}, {unacknowledged, "not acknowledged"}, {up, "up"}});
+}
+
+/// Bits 7..0 of UPLOAD_STATE: where a writing into the store stands.
+enum class StorePhase : std::uint8_t {
+    idle = 0,
+    erasing = 1,    ///< begun; pieces can come soon
+    receiving = 2,  ///< takes pieces
+    closing = 3,    ///< programs the rest, reads everything back, checks it, makes it the current one
+    done = 4,       ///< what was written is the current content
+    failed = 5,     ///< nothing has changed
+};
+
+/// The detail of Event::motor_fault: why the driver of a MIDI drive reports ERROR.
+enum class DriveFault : std::uint8_t {
+    none = 0,
+    link_lost = 1,    ///< no answer, or none that could be read
+    restarted = 2,    ///< the drive started anew by itself
+    tripped = 3,      ///< the drive's own fault: its power is off until "reset error"
+    end_stop = 4,     ///< stopped by an end-stop on its way
+    not_arrived = 5,  ///< stands, and not where it was sent; or stopped running by itself
+    refused = 6,      ///< the drive did not take a command
+    unclear = 7,      ///< it is not known whether the drive took a command; it was told to stop
+    bad_value = 8,    ///< an order that only showed at run time that the drive cannot do it
+    unreadable = 9,   ///< answers came, and each was damaged
+    several = 10,     ///< more than one drive answers to the address
+    jumped = 11,      ///< the position changed in motion as that does not explain
+};
+
+constexpr std::string_view name_of(DriveFault fault) {
+    using enum DriveFault;
+    return word_of<DriveFault>(
+        fault,
+        {{none, "none"},
+         {link_lost, "it does not answer"},
+         {restarted, "it started anew by itself"},
+         {tripped, "tripped: its power is off until \"reset error\""},
+         {end_stop, "an end-stop ended its motion"},
+         {not_arrived, "it stands, and not where it was sent"},
+         {refused, "it refused a command"},
+         {unclear, "nobody knows whether it took a command"},
+         {bad_value, "an order that it cannot do"},
+         {unreadable, "its answers cannot be read"},
+         {several, "several drives answer to its address"},
+         {jumped, "its position jumped in mid-motion: another master, or a hand; find the origin again"}});
+}
+
+/// What COMMAND takes.
+enum class Command : std::uint8_t {
+    run = 1,
+    stop = 2,
+    safe = 3,
+    scan = 4,
+    step = 5,
+    hold = 6,
+    reset = 7,
+    keep_settings = 8,
+    clear_log = 9,
+    upload_begin = 16,
+    upload_commit = 17,
+    upload_abort = 18,
+    activate = 19,
+};
+
+constexpr std::string_view name_of(Command command) {
+    using enum Command;
+    return word_of<Command>(command,
+                            {{run, "run"},
+                             {stop, "stop"},
+                             {safe, "safe"},
+                             {scan, "scan"},
+                             {step, "step"},
+                             {hold, "hold"},
+                             {reset, "reset"},
+                             {keep_settings, "keep_settings"},
+                             {clear_log, "clear_log"},
+                             {upload_begin, "upload_begin"},
+                             {upload_commit, "upload_commit"},
+                             {upload_abort, "upload_abort"},
+                             {activate, "activate"}},
+                            "unknown command");
+}
+
+/// Bits 7..0 of RESULT.
+enum class Result : std::uint8_t {
+    done = 0,
+    no_register = 1,
+    read_only = 2,
+    bad_length = 3,
+    bad_value = 4,
+    not_stopped = 5,
+    no_table = 6,
+    moving = 7,
+    not_allowed = 8,
+    link_down = 9,
+    busy = 10,
+    no_upload = 11,
+    bad_offset = 12,
+    no_space = 13,
+    wrong_check = 14,
+    storage_failed = 15,
+    nothing_stored = 16,
+    not_running = 17,
+    not_enabled = 18,
+    too_late = 19,
+    cannot_go_on = 20,
+    table_no_end = 32,
+    table_ragged = 33,
+    bad_next_step = 34,
+    bad_register = 35,
+    not_for_motor = 36,
+};
+
+/// One line for the user, "the sequence is not stopped; stop it first".
+constexpr std::string_view describe(Result result) {
+    using enum Result;
+    return word_of<Result>(
+        result,
+        {{done, "done"},
+         {no_register, "the gateway has no such register"},
+         {read_only, "the register can only be read"},
+         {bad_length, "a register takes 2 or 4 bytes, the table window 4 to 128"},
+         {bad_value, "the value is not one of the register's"},
+         {not_stopped, "the sequence is not stopped; stop it first"},
+         {no_table, "there is no table; upload and activate one"},
+         {moving, "the motor does not stand still; stop it first"},
+         {not_allowed, "a setting does not allow this while the sequence runs"},
+         {link_down, "the link to the motor is down; nobody knows whether it stands still"},
+         {busy, "not now; try again"},
+         {no_upload, "no upload was begun"},
+         {bad_offset, "the piece does not follow what came before; look at UPLOAD_RECEIVED"},
+         {no_space, "the table is too long"},
+         {wrong_check, "length or check sum of the upload are not as announced"},
+         {storage_failed, "the storage failed; what was stored before is unchanged"},
+         {nothing_stored, "no table is stored, or it is damaged"},
+         {not_running, "the sequence does not run"},
+         {not_enabled,
+          "the enable input is off (switch it on, then run), or the board was started for service, lacks "
+          "something or has something damaged stored (see SAFE_REASON)"},
+         {too_late,
+          "it waited longer than 1 s to be read, or a stop came before it, and was not carried out"},
+         {cannot_go_on,
+          "the motor cannot take up again what it did before it was held (homing, gear, or what somebody "
+          "else told it); stop, then run from the start"},
+         {table_no_end, "the table has no end term"},
+         {table_ragged, "the table ends inside a term"},
+         {bad_next_step, "NEXT_STATE 3Fh in a term"},
+         {bad_register, "register 0 in a term"},
+         {not_for_motor, "the motor does not have an order of the table"}},
+        "unknown result");
+}
+
+/// Bits of STATUS.
+enum StatusBit : std::uint32_t {
+    kRunState = 7U << 0,  ///< a RunState
+    kLinkDelivers = 1U << 3,
+    kMotorError = 1U << 4,
+    kInPosition = 1U << 5,
+    kSafe = 1U << 6,
+    kForcedInputs = 1U << 7,
+    kForcedOutputs = 1U << 8,
+    kBreakpoints = 1U << 9,
+    kAtBreakpoint = 1U << 10,
+    kTable = 1U << 11,
+    kUpload = 1U << 12,
+    kStoredDiffers = 1U << 13,
+    kSettingsDiffer = 1U << 14,
+    kEnabled = 1U << 15,
+    kVirtualMotor = 1U << 16,
+    kSingle = 1U << 17,
+    kCannotGoOn = 1U << 18,
+};
+
+constexpr RunState run_state_of(std::uint32_t status) {
+    return static_cast<RunState>(status & kRunState);
+}
+
+/// FORCE_IN and FORCE_OUT: levels in bits 7..0, which signals are forced in bits 15..8.
+struct Force {
+    std::uint8_t mask = 0;
+    std::uint8_t levels = 0;
+
+    static constexpr Force of_register(std::uint32_t value) {
+        return {.mask = static_cast<std::uint8_t>(value >> 8), .levels = static_cast<std::uint8_t>(value)};
+    }
+    constexpr std::uint32_t in_register() const { return std::uint32_t{mask} << 8 | levels; }
+
+    /// `real` with the forced levels in their place.
+    constexpr std::uint8_t over(std::uint8_t real) const {
+        return static_cast<std::uint8_t>((real & ~unsigned{mask}) | (unsigned{levels} & mask));
+    }
+    bool operator==(const Force&) const = default;
+};
+
+}  // namespace nplc::registers::gateway
