@@ -63,9 +63,8 @@ MidiOutcome MidiCanLink::receive() {
     ports::CanFrame frame;
     for (int i = 0; i < kReadsPerPoll && port_.read(frame); ++i) {
         if (frame.extended || frame.remote) continue;
-        const can::Frame heard{static_cast<std::uint16_t>(frame.id), frame.length, frame.data};
-        const can::Answer answer = can::decode_answer(heard);
-        count(heard, answer);
+        const can::Answer answer = can::decode_answer(frame);
+        count(frame, answer);
         if (answer.kind == can::Answer::Kind::booted) booted_ = booted_ || answer.address == address_;
         if (!busy_ || !written_ || outcome.kind != Kind::none || !can::answers(answer, request_)) continue;
         switch (answer.kind) {
@@ -84,7 +83,7 @@ MidiOutcome MidiCanLink::receive() {
 }
 
 /// Another master's requests are answered too.
-void MidiCanLink::count(const can::Frame& frame, const can::Answer& answer) {
+void MidiCanLink::count(const ports::CanFrame& frame, const can::Answer& answer) {
     using Said = can::Answer::Kind;
     const bool answers =
         answer.kind == Said::accepted || answer.kind == Said::value || answer.kind == Said::refused;
@@ -98,10 +97,9 @@ void MidiCanLink::count(const can::Frame& frame, const can::Answer& answer) {
 
 /// Who has booted is to be told of first.
 void MidiCanLink::transmit(base::Instant now) {
-    const can::Frame frame = can::encode(request_);
     if (booted_ || cut_) {
         deadline_ = now;
-    } else if (port_.write({.id = frame.id, .length = frame.size, .data = frame.data})) {
+    } else if (port_.write(can::encode(request_))) {
         written_ = true;
         answers_.asked();
         deadline_ = now + kLongestAnswer;

@@ -20,15 +20,15 @@ struct Sdo {
     std::uint32_t data;
 };
 
-Frame sdo_frame(unsigned id, std::uint8_t order, const Sdo& sdo) {
+base::CanFrame sdo_frame(unsigned id, std::uint8_t order, const Sdo& sdo) {
     const auto byte = [&sdo](int shift) { return static_cast<std::uint8_t>(sdo.data >> shift); };
-    return {.id = static_cast<std::uint16_t>(id),
-            .size = kWhole,
+    return {.id = id,
+            .length = kWhole,
             .data = {order, static_cast<std::uint8_t>(sdo.index), static_cast<std::uint8_t>(sdo.index >> 8),
                      sdo.sub_index, byte(24), byte(16), byte(8), byte(0)}};
 }
 
-Sdo sdo_of(const Frame& frame) {
+Sdo sdo_of(const base::CanFrame& frame) {
     const auto& d = frame.data;
     return {.index = static_cast<std::uint16_t>(d[1] | d[2] << 8),
             .sub_index = d[3],
@@ -36,8 +36,8 @@ Sdo sdo_of(const Frame& frame) {
                     static_cast<std::uint32_t>(d[6]) << 8 | d[7]};
 }
 
-Frame lmt_frame(std::uint16_t id, std::uint8_t order, std::uint8_t parameter) {
-    return {.id = id, .size = kWhole, .data = {order, parameter}};
+base::CanFrame lmt_frame(std::uint16_t id, std::uint8_t order, std::uint8_t parameter) {
+    return {.id = id, .length = kWhole, .data = {order, parameter}};
 }
 
 Request::Kind request_kind(std::uint8_t order) {
@@ -59,8 +59,8 @@ Answer::Kind answer_kind(std::uint8_t order) {
     }
 }
 
-Request decode_lmt(const Frame& frame) {
-    if (frame.size < 2) return {};
+Request decode_lmt(const base::CanFrame& frame) {
+    if (frame.length < 2) return {};
     if (frame.data[0] == kSetAddress) return {.kind = Request::Kind::set_address, .data = frame.data[1]};
     if (frame.data[0] != kSwitchMode || frame.data[1] > 1) return {};
     return {.kind = frame.data[1] == 1 ? Request::Kind::configure : Request::Kind::operate};
@@ -68,7 +68,7 @@ Request decode_lmt(const Frame& frame) {
 
 }  // namespace
 
-Frame encode(const Request& request) {
+base::CanFrame encode(const Request& request) {
     const unsigned id = kToModule + (request.address & kMaxAddress);
     const Sdo sdo{request.index, request.sub_index, request.data};
     switch (request.kind) {
@@ -91,10 +91,10 @@ Frame encode(const Request& request) {
     return {};
 }
 
-Request decode_request(const Frame& frame) {
-    if (frame.id == kSync && frame.size == 0) return {.kind = Request::Kind::sync};
+Request decode_request(const base::CanFrame& frame) {
+    if (frame.id == kSync && frame.length == 0) return {.kind = Request::Kind::sync};
     if (frame.id == kLmt) return decode_lmt(frame);
-    if (frame.id < kToModule || frame.id > kToModule + kMaxAddress || frame.size != kWhole) return {};
+    if (frame.id < kToModule || frame.id > kToModule + kMaxAddress || frame.length != kWhole) return {};
     // An answer to a general message as 003 prints it (601h) is no request.
     if (answer_kind(frame.data[0]) != Answer::Kind::none) return {};
     const Sdo sdo = sdo_of(frame);
@@ -105,7 +105,7 @@ Request decode_request(const Frame& frame) {
             .data = sdo.data};
 }
 
-Frame encode_answer(const Answer& answer) {
+base::CanFrame encode_answer(const Answer& answer) {
     const unsigned id = kFromModule + (answer.address & kMaxAddress);
     const Sdo sdo{answer.index, answer.sub_index, answer.data};
     switch (answer.kind) {
@@ -120,15 +120,17 @@ Frame encode_answer(const Answer& answer) {
         case Answer::Kind::address_refused:
             return lmt_frame(kLmtAnswer, kSetAddress, 1);
         case Answer::Kind::booted:
-            return {.id = static_cast<std::uint16_t>(kBootUp + (answer.address & kMaxAddress)), .size = 1};
+            return {.id = kBootUp + (answer.address & unsigned{kMaxAddress}), .length = 1};
         case Answer::Kind::none:
             break;
     }
     return {};
 }
 
-Answer decode_answer(const Frame& frame) {
-    const auto [id, size, data] = frame;
+Answer decode_answer(const base::CanFrame& frame) {
+    const std::uint32_t id = frame.id;
+    const std::uint8_t size = frame.length;
+    const auto& data = frame.data;
     if (id == kLmtAnswer) {
         if (size < 2 || data[0] != kSetAddress) return {};
         return {.kind = data[1] == 0 ? Answer::Kind::address_taken : Answer::Kind::address_refused};

@@ -244,7 +244,7 @@ std::string SocketCan::reopen() {
 
 bool SocketCan::write(const CanFrame& frame) {
     Inside& own = *inside_;
-    if (!ports::is_valid(frame) || !own.raw || own.state == CanState::down || own.state == CanState::bus_off)
+    if (!base::is_valid(frame) || !own.raw || own.state == CanState::down || own.state == CanState::bus_off)
         return false;
     const can_frame out = kernels(frame);
     return ::send(own.raw.get(), &out, sizeof out, MSG_DONTWAIT) == static_cast<ssize_t>(sizeof out);

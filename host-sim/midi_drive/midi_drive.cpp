@@ -27,7 +27,7 @@ MidiOptions module_options(const MidiDriveOptions& options) {
 
 bool VirtualCanPort::write(const ports::CanFrame& frame) {
     if (state_ == ports::CanState::down || state_ == ports::CanState::bus_off) return false;
-    if (!loses()) bus_.send({static_cast<std::uint16_t>(frame.id), frame.length, frame.data}, kGateway);
+    if (!loses()) bus_.send(frame, kGateway);
     return true;
 }
 
@@ -49,11 +49,11 @@ bool VirtualCanPort::restart() {
     return true;
 }
 
-void VirtualCanPort::receive(const protocol::midi_can::Frame& frame) {
+void VirtualCanPort::receive(const base::CanFrame& frame) {
     const auto lets_in = [&](const ports::CanFilter& f) { return ((frame.id ^ f.id) & f.mask) == 0; };
     if (filters_ && std::none_of(filters_->begin(), filters_->end(), lets_in)) return;
     if (state_ == ports::CanState::down || state_ == ports::CanState::bus_off || loses()) return;
-    received_.push_back({.id = frame.id, .length = frame.size, .data = frame.data});
+    received_.push_back(frame);
 }
 
 MidiDrive::MidiDrive(const MidiDriveOptions& options)

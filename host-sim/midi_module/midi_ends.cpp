@@ -66,7 +66,7 @@ namespace can = protocol::midi_can;
 using Ask = can::Request::Kind;
 using Say = can::Answer::Kind;
 
-void MidiCanEnd::receive(const can::Frame& frame) {
+void MidiCanEnd::receive(const base::CanFrame& frame) {
     if (module_.deaf()) return;
     const can::Request request = can::decode_request(frame);
     switch (request.kind) {
@@ -123,11 +123,11 @@ void MidiCanEnd::serve(const can::Request& request) {
           .data = value.value_or(0)});
 }
 
-std::optional<can::Frame> MidiCanEnd::transmit() {
+std::optional<base::CanFrame> MidiCanEnd::transmit() {
     if (out_.empty() && module_.wants_restart()) module_.restart();
     if (out_.empty() && module_.take_boot()) send({.kind = Say::booted, .address = module_.memory().address});
     if (out_.empty()) return std::nullopt;
-    const can::Frame frame = out_.front();
+    const base::CanFrame frame = out_.front();
     out_.pop_front();
     return frame;
 }
@@ -146,7 +146,7 @@ void CanBus::start(Time now) {
     }
     under_way_ = *best;
     waiting_.erase(best);
-    const std::int64_t bits = kBitsAround + 8 * std::int64_t{under_way_->frame.size};
+    const std::int64_t bits = kBitsAround + 8 * std::int64_t{under_way_->frame.length};
     ends_ = std::max(ends_, now) + Time{bits * 1'000'000'000 / bit_rate_};
 }
 

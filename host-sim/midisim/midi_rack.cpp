@@ -12,15 +12,7 @@ constexpr std::size_t kMostWaiting = 256;
 constexpr Time kRestartEvery = std::chrono::seconds{1};
 
 bool is_ours(const ports::CanFrame& frame) {
-    return ports::is_valid(frame) && !frame.extended && !frame.remote;
-}
-
-protocol::midi_can::Frame message_in(const ports::CanFrame& frame) {
-    return {.id = static_cast<std::uint16_t>(frame.id), .size = frame.length, .data = frame.data};
-}
-
-ports::CanFrame frame_of(const protocol::midi_can::Frame& message) {
-    return {.id = message.id, .length = message.size, .data = message.data};
+    return base::is_valid(frame) && !frame.extended && !frame.remote;
 }
 
 }  // namespace
@@ -75,7 +67,7 @@ void MidiCanRack::receive() {
     ports::CanFrame frame;
     while (port_.read(frame)) {
         if (!is_ours(frame)) continue;
-        for (MidiCanEnd& end : ends_) end.receive(message_in(frame));
+        for (MidiCanEnd& end : ends_) end.receive(frame);
     }
 }
 
@@ -83,7 +75,7 @@ void MidiCanRack::transmit() {
     const ports::CanState state = port_.state();
     for (MidiCanEnd& end : ends_) {
         while (const auto message = end.transmit()) {
-            if (waiting_.size() < kMostWaiting) waiting_.push_back(frame_of(*message));
+            if (waiting_.size() < kMostWaiting) waiting_.push_back(*message);
         }
     }
     if (state == ports::CanState::bus_off && now_ >= next_restart_) {

@@ -70,7 +70,7 @@ void check_can(Bytes bytes) {
     sim::MidiCanEnd end(one.module);
     for (; bytes.size() >= 6; bytes = bytes.subspan(6)) {
         const std::uint16_t ids[] = {0x601, 0x600, 0x7E5, 0x080};
-        can::Frame frame{.id = ids[bytes[0] % 4], .size = static_cast<std::uint8_t>(bytes[0] / 4 % 9)};
+        base::CanFrame frame{.id = ids[bytes[0] % 4], .length = static_cast<std::uint8_t>(bytes[0] / 4 % 9)};
         frame.data = {bytes[0] % 2 == 0 ? std::uint8_t{0x23} : bytes[2],
                       bytes[1],
                       0x20,

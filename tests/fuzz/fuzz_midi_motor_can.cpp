@@ -76,10 +76,7 @@ class Bus final : public ports::CanPort {
         return frame;
     }
 
-    static ports::CanFrame framed(const can::Answer& answer) {
-        const can::Frame frame = can::encode_answer(answer);
-        return {.id = frame.id, .length = frame.size, .data = frame.data};
-    }
+    static ports::CanFrame framed(const can::Answer& answer) { return can::encode_answer(answer); }
     void say(const can::Answer& answer) { say(framed(answer)); }
     void say(const ports::CanFrame& frame) { arrivals.say(frame); }
 

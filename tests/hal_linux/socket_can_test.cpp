@@ -19,7 +19,7 @@ TEST(SocketCan, SaysWhatIsWrong) {
 }
 
 TEST(CanFrame, KnowsWhatTheBusCanCarry) {
-    using ports::is_valid;
+    using base::is_valid;
     EXPECT_TRUE(is_valid({.id = 0x7FF, .length = 8}));
     EXPECT_FALSE(is_valid({.id = 0x800}));
     EXPECT_TRUE(is_valid({.id = 0x1FFF'FFFF, .extended = true}));

@@ -15,7 +15,7 @@ namespace nplc::midi_client {
 /// Virtual modules on a CAN bus of 125 kbit/s in virtual time, from a master's end.
 class BusCan final : public host::CanClient {
   public:
-    using Frame = protocol::midi_can::Frame;
+    using Frame = base::CanFrame;
 
     explicit BusCan(const std::vector<std::uint8_t>& addresses,
                     registers::midi::Model model = registers::midi::Model::mac34_1)
@@ -28,8 +28,7 @@ class BusCan final : public host::CanClient {
     const std::string& name() const override { return name_; }
     bool write(const ports::CanFrame& frame) override {
         sent.push_back(frame);
-        bus_.send({.id = static_cast<std::uint16_t>(frame.id), .size = frame.length, .data = frame.data},
-                  kMaster);
+        bus_.send(frame, kMaster);
         return takes;
     }
     std::optional<ports::CanFrame> read(base::Microseconds wait) override {
@@ -42,7 +41,7 @@ class BusCan final : public host::CanClient {
         if (received_.empty()) return std::nullopt;
         const Frame frame = received_.front();
         received_.pop_front();
-        return ports::CanFrame{.id = frame.id, .length = frame.size, .data = frame.data};
+        return frame;
     }
     ports::CanState state() override { return state_now; }
     bool gone() const override { return false; }

@@ -79,19 +79,20 @@ TEST_F(CanTest, ABootUpMayTakeItsTime) {
     };
     one.on_step = [&] {
         if (booted == base::Instant{} || one.now() < booted + base::Milliseconds{2'000}) return;
-        one.tell({.id = 0x709, .size = 1});
+        one.tell({.id = 0x709, .length = 1});
         one.on_step = {};
     };
     EXPECT_EQ(own.program_address(9), CanLink::Programmed::done);
 }
 
 TEST_F(CanTest, WhatIsNoAnswerIsReadOver) {
-    for (const BusCan::Frame& other : {BusCan::Frame{0x582, 8, {0x42, 0, 0x20, 0, 0, 0, 0, 7}},
-                                       BusCan::Frame{0x581, 8, {0x42, 1, 0x20, 0, 0, 0, 0, 7}},
-                                       BusCan::Frame{0x581, 8, {0x42, 0, 0x20, 1, 0, 0, 0, 7}},
-                                       BusCan::Frame{0x581, 8, {0x60, 0, 0x20, 0, 0, 0, 0, 7}},
-                                       BusCan::Frame{0x581, 7, {0x42, 0, 0x20, 0, 0, 0, 7}},
-                                       BusCan::Frame{0x601, 8, {0x40, 0, 0x20, 0, 0, 0, 0, 0}}}) {
+    for (const BusCan::Frame& other :
+         {BusCan::Frame{.id = 0x582, .length = 8, .data = {0x42, 0, 0x20, 0, 0, 0, 0, 7}},
+          BusCan::Frame{.id = 0x581, .length = 8, .data = {0x42, 1, 0x20, 0, 0, 0, 0, 7}},
+          BusCan::Frame{.id = 0x581, .length = 8, .data = {0x42, 0, 0x20, 1, 0, 0, 0, 7}},
+          BusCan::Frame{.id = 0x581, .length = 8, .data = {0x60, 0, 0x20, 0, 0, 0, 0, 7}},
+          BusCan::Frame{.id = 0x581, .length = 7, .data = {0x42, 0, 0x20, 0, 0, 0, 7}},
+          BusCan::Frame{.id = 0x601, .length = 8, .data = {0x40, 0, 0x20, 0, 0, 0, 0, 0}}}) {
         can.loses = [&](std::size_t, const BusCan::Frame& frame) {
             if (frame.id == 0x601) can.tell(other);
             return false;
@@ -105,7 +106,7 @@ TEST_F(CanTest, BootUpsAreKeptByAddress) {
     EXPECT_EQ(master.position(1), 0);
     EXPECT_TRUE(link.take_boot(1));
     EXPECT_FALSE(link.take_boot(1));
-    can.tell({.id = 0x702, .size = 1});
+    can.tell({.id = 0x702, .length = 1});
     EXPECT_FALSE(link.take_boot(1));
     EXPECT_TRUE(link.take_boot(2));
 }

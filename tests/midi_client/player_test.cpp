@@ -159,7 +159,7 @@ class OnABus : public testing::Test {
 
     /// As a module that is back before anybody misses it.
     void boots(std::uint8_t address) {
-        can.tell({.id = static_cast<std::uint16_t>(0x700 + address), .size = 1});
+        can.tell({.id = static_cast<std::uint16_t>(0x700 + address), .length = 1});
     }
     void sync_every(int milliseconds) {
         can.on_step = [this, period = base::Milliseconds{milliseconds}, next = can.now()]() mutable {

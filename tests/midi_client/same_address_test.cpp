@@ -81,8 +81,8 @@ TEST_F(TwoAtOneAddress, LateAnswersAreNoSecondModule) {
 TEST_F(TwoAtOneAddress, AnswersToAnotherMasterAreNoSecondModule) {
     can.modules[1].power_off();
     for (int i = 0; i < 20; ++i) {
-        can.tell({0x601, 8, {0x40, 0x01, 0x20}});
-        can.tell({0x581, 8, {0x42, 0x01, 0x20}});
+        can.tell({.id = 0x601, .length = 8, .data = {0x40, 0x01, 0x20}});
+        can.tell({.id = 0x581, .length = 8, .data = {0x42, 0x01, 0x20}});
         EXPECT_EQ(master.position(1), 0);
     }
     EXPECT_NO_THROW(master.expect_alone(1));

@@ -414,7 +414,7 @@ TEST(MidiMotorCan, ABootInMidMoveIsNoticedAtOnce) {
     bench.start();
     bench.order(longword(registers::P1, 49'152));
     bench.order_and_settle(fast(kPositionP1));
-    bench.drive.can().receive({.id = 0x701, .size = 1});
+    bench.drive.can().receive({.id = 0x701, .length = 1});
     bench.driver.poll(bench.instant());
     EXPECT_TRUE(bench.driver.error());
     EXPECT_EQ(bench.driver.fault(), MidiFault::restarted);

@@ -12,13 +12,13 @@ using Ask = Request::Kind;
 using Say = Answer::Kind;
 
 /// "601 23 13 20 00 00 00 03 E8": identifier and bytes.
-Frame frame(const std::string& line) {
-    Frame frame;
+base::CanFrame frame(const std::string& line) {
+    base::CanFrame frame;
     std::size_t at = 0;
     frame.id = static_cast<std::uint16_t>(std::stoul(line, &at, 16));
     for (; at + 2 < line.size() + 1 && at < line.size(); at += 3) {
-        frame.data[frame.size] = static_cast<std::uint8_t>(std::stoul(line.substr(at + 1, 2), nullptr, 16));
-        ++frame.size;
+        frame.data[frame.length] = static_cast<std::uint8_t>(std::stoul(line.substr(at + 1, 2), nullptr, 16));
+        ++frame.length;
     }
     return frame;
 }
@@ -171,9 +171,9 @@ TEST(MidiCan, AnAnswerFitsItsRequest) {
 }
 
 TEST(MidiCan, WhatNobodySendsIsEmpty) {
-    EXPECT_EQ(encode({}), Frame{});
-    EXPECT_EQ(encode({.kind = Ask::other, .address = 1}), Frame{});
-    EXPECT_EQ(encode_answer({}), Frame{});
+    EXPECT_EQ(encode({}), base::CanFrame{});
+    EXPECT_EQ(encode({.kind = Ask::other, .address = 1}), base::CanFrame{});
+    EXPECT_EQ(encode_answer({}), base::CanFrame{});
 }
 
 TEST(MidiCanRandom, EveryRequestAndAnswerComesBack) {

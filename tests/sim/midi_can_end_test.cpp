@@ -36,7 +36,7 @@ class BusBench {
             }
         }
     }
-    std::vector<can::Frame> ask(const can::Request& request, Time time = milliseconds{10}) {
+    std::vector<base::CanFrame> ask(const can::Request& request, Time time = milliseconds{10}) {
         heard.clear();
         bus.send(can::encode(request), kMaster);
         pass(time);
@@ -47,18 +47,18 @@ class BusBench {
     std::deque<MidiModule> modules;
     std::deque<MidiCanEnd> ends;
     CanBus bus{125'000};
-    std::vector<can::Frame> heard;
+    std::vector<base::CanFrame> heard;
     Time now{0};
 };
 
 using Ask = can::Request::Kind;
 
 /// "601 23 13 20 00 00 00 03 E8": identifier and bytes.
-can::Frame frame_of(const std::string& text) {
-    can::Frame frame;
+base::CanFrame frame_of(const std::string& text) {
+    base::CanFrame frame;
     frame.id = static_cast<std::uint16_t>(std::stoul(text, nullptr, 16));
     for (std::size_t at = 4; at < text.size(); at += 3)
-        frame.data[frame.size++] = static_cast<std::uint8_t>(std::stoul(text.substr(at, 2), nullptr, 16));
+        frame.data[frame.length++] = static_cast<std::uint8_t>(std::stoul(text.substr(at, 2), nullptr, 16));
     return frame;
 }
 
@@ -222,23 +222,27 @@ TEST(MidiCanEnd, BootUpCommandsAndQueries) {
     BusBench bench({1, 2});
     bench.pass(milliseconds{10});
     ASSERT_EQ(bench.heard.size(), 2u);
-    EXPECT_EQ(bench.heard[0], (can::Frame{0x701, 1, {0}}));
-    EXPECT_EQ(bench.heard[1], (can::Frame{0x702, 1, {0}}));
+    EXPECT_EQ(bench.heard[0], (base::CanFrame{.id = 0x701, .length = 1, .data = {0}}));
+    EXPECT_EQ(bench.heard[1], (base::CanFrame{.id = 0x702, .length = 1, .data = {0}}));
     auto heard = bench.ask({Ask::command, 2, 0x2013, 0, 1'000});
     ASSERT_EQ(heard.size(), 1u);
-    EXPECT_EQ(heard[0], (can::Frame{0x582, 8, {0x60, 0x13, 0x20, 0, 0, 0, 0, 0}}));
+    EXPECT_EQ(heard[0],
+              (base::CanFrame{.id = 0x582, .length = 8, .data = {0x60, 0x13, 0x20, 0, 0, 0, 0, 0}}));
     EXPECT_TRUE(bench.modules[1].moving());
     EXPECT_FALSE(bench.modules[0].moving());
     heard = bench.ask({Ask::command, 2, 0x2013, 0, 1'000});
     ASSERT_EQ(heard.size(), 1u);
-    EXPECT_EQ(heard[0], (can::Frame{0x582, 8, {0x80, 0x13, 0x20, 0, 0, 0, 0, 0}}));
+    EXPECT_EQ(heard[0],
+              (base::CanFrame{.id = 0x582, .length = 8, .data = {0x80, 0x13, 0x20, 0, 0, 0, 0, 0}}));
     bench.pass(seconds{1});
     heard = bench.ask({Ask::query, 2, 0x2000, 0, 0});
     ASSERT_EQ(heard.size(), 1u);
-    EXPECT_EQ(heard[0], (can::Frame{0x582, 8, {0x42, 0, 0x20, 0, 0, 0, 0x03, 0xE8}}));
+    EXPECT_EQ(heard[0],
+              (base::CanFrame{.id = 0x582, .length = 8, .data = {0x42, 0, 0x20, 0, 0, 0, 0x03, 0xE8}}));
     heard = bench.ask({Ask::query, 1, 0x2008, 0xAF, 0});  // Imax
     ASSERT_EQ(heard.size(), 1u);
-    EXPECT_EQ(heard[0], (can::Frame{0x581, 8, {0x42, 8, 0x20, 0xAF, 0x80, 0, 0, 0}}));
+    EXPECT_EQ(heard[0],
+              (base::CanFrame{.id = 0x581, .length = 8, .data = {0x42, 8, 0x20, 0xAF, 0x80, 0, 0, 0}}));
     for (const can::Request& bad :
          {can::Request{Ask::command, 1, 0x2008, 0, 5}, can::Request{Ask::query, 1, 0x2009, 0, 0},
           can::Request{Ask::command, 1, 0x1013, 0, 0}}) {
@@ -295,11 +299,11 @@ TEST(MidiCanEnd, TheAddressByLmt) {
     EXPECT_EQ(heard[0].data[1], 1);
     heard = bench.ask({.kind = Ask::set_address, .data = 5});
     ASSERT_EQ(heard.size(), 1u);
-    EXPECT_EQ(heard[0], (can::Frame{0x7E4, 8, {0x11, 0, 0, 0, 0, 0, 0, 0}}));
+    EXPECT_EQ(heard[0], (base::CanFrame{.id = 0x7E4, .length = 8, .data = {0x11, 0, 0, 0, 0, 0, 0, 0}}));
     EXPECT_EQ(bench.modules[0].memory().address, 1);
     heard = bench.ask({.kind = Ask::operate});
     ASSERT_EQ(heard.size(), 1u);
-    EXPECT_EQ(heard[0], (can::Frame{0x705, 1, {0}}));
+    EXPECT_EQ(heard[0], (base::CanFrame{.id = 0x705, .length = 1, .data = {0}}));
     EXPECT_EQ(bench.modules[0].memory().address, 5);
     EXPECT_EQ(bench.ask({Ask::query, 5, 0x2000, 0, 0}).size(), 1u);
 }
@@ -353,10 +357,10 @@ TEST(MidiCanEnd, TwoAxesDrawACircle) {
 // 47 bits and the data: 111 at 125 kbit/s are 888 us; the lowest identifier goes first.
 TEST(CanBus, TimeAndPriority) {
     CanBus bus(125'000);
-    bus.send({.id = 0x700, .size = 8}, 0);
+    bus.send({.id = 0x700, .length = 8}, 0);
     EXPECT_FALSE(bus.take(Time{0}));
-    bus.send({.id = 0x602, .size = 8}, 0);
-    bus.send({.id = 0x601, .size = 8}, 1);
+    bus.send({.id = 0x602, .length = 8}, 0);
+    bus.send({.id = 0x601, .length = 8}, 1);
     bus.send({.id = 0x080}, 1);  // behind its sender's first
     Time end{0};
     for (const int id : {0x700, 0x601, 0x080, 0x602}) {

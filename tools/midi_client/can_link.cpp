@@ -102,8 +102,7 @@ bool CanLink::take_foreign_sync() {
 }
 
 void CanLink::send(const can::Request& request) {
-    const can::Frame message = can::encode(request);
-    const ports::CanFrame frame{.id = message.id, .length = message.size, .data = message.data};
+    const ports::CanFrame frame = can::encode(request);
     sent_ = words_of(frame);
     heard_.clear();
     if (can_.write(frame)) return;
@@ -140,13 +139,12 @@ void CanLink::drain() {
 /// Other masters' requests are answered too; what is for all by the module at address 1 (003 §V.8).
 can::Answer CanLink::take(const ports::CanFrame& frame) {
     if (frame.extended || frame.remote) return {};
-    const can::Frame message{static_cast<std::uint16_t>(frame.id), frame.length, frame.data};
-    const can::Request request = can::decode_request(message);
+    const can::Request request = can::decode_request(frame);
     using Ask = can::Request::Kind;
     foreign_sync_ = foreign_sync_ || request.kind == Ask::sync;
     if (request.kind == Ask::command || request.kind == Ask::query || request.kind == Ask::other)
         counter(answerer_of(request.address)).asked_by_other();
-    const can::Answer answer = can::decode_answer(message);
+    const can::Answer answer = can::decode_answer(frame);
     using Say = can::Answer::Kind;
     if (answer.kind == Say::booted) boots_.set(answer.address);
     if (answer.kind == Say::accepted || answer.kind == Say::value || answer.kind == Say::refused)

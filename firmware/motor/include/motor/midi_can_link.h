@@ -30,7 +30,7 @@ class MidiCanLink final : public MidiLink {
 
   private:
     MidiOutcome receive();
-    void count(const protocol::midi_can::Frame& frame, const protocol::midi_can::Answer& answer);
+    void count(const ports::CanFrame& frame, const protocol::midi_can::Answer& answer);
     void transmit(base::Instant now);
     void watch_bus(base::Instant now);
 

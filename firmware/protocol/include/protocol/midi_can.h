@@ -1,18 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
+
+#include "base/can_frame.h"
 
 /// The CAN bus of MIDI Ingenierie's MAC34 (003 §V): expedited SDOs in the manner of CiA 301 with the data's
 /// high byte first, LMT messages for the address, boot-up and SYNC. Standard identifiers of 11 bits only.
 namespace nplc::protocol::midi_can {
-
-struct Frame {
-    std::uint16_t id = 0;
-    std::uint8_t size = 0;
-    std::array<std::uint8_t, 8> data{};
-    bool operator==(const Frame&) const = default;
-};
 
 inline constexpr std::uint16_t kSync = 0x080;
 inline constexpr std::uint16_t kFromModule = 0x580;  ///< + address
@@ -46,9 +40,9 @@ struct Request {
 };
 
 /// A frame without bytes and identifier 0 for `none` and `other`, which nobody sends.
-Frame encode(const Request& request);
+base::CanFrame encode(const Request& request);
 /// SDOs have all 8 bytes, LMT messages at least those that mean something, SYNC none (R).
-Request decode_request(const Frame& frame);
+Request decode_request(const base::CanFrame& frame);
 
 /// What a module can send.
 struct Answer {
@@ -69,9 +63,9 @@ struct Answer {
     bool operator==(const Answer&) const = default;
 };
 
-Frame encode_answer(const Answer& answer);
+base::CanFrame encode_answer(const Answer& answer);
 /// Takes the answer to a general message from 601h too, as 003 §V.8 prints it.
-Answer decode_answer(const Frame& frame);
+Answer decode_answer(const base::CanFrame& frame);
 
 /// `accepted`, `value` or `refused` of just this command or query. The sub-index of a RAM reading (2008h) is
 /// not looked at: 003 §VII leaves it open.

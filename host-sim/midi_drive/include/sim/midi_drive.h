@@ -24,7 +24,7 @@ class VirtualCanPort final : public ports::CanPort {
     bool restart() override;
 
     /// A frame that has arrived.
-    void receive(const protocol::midi_can::Frame& frame);
+    void receive(const base::CanFrame& frame);
     void set_state(ports::CanState state) { state_ = state; }
     /// Share of the frames that nobody gets, in either direction.
     void lose(double share) { loss_ = share; }

@@ -37,9 +37,9 @@ class MidiCanEnd {
   public:
     explicit MidiCanEnd(MidiModule& module) : module_(module) {}
     /// To be called after module.advance() to the same time.
-    void receive(const protocol::midi_can::Frame& frame);
+    void receive(const base::CanFrame& frame);
     /// The next frame that it has to send; asked for often, for it also boots by itself.
-    std::optional<protocol::midi_can::Frame> transmit();
+    std::optional<base::CanFrame> transmit();
 
   private:
     void serve(const protocol::midi_can::Request& request);
@@ -49,7 +49,7 @@ class MidiCanEnd {
     }
 
     MidiModule& module_;
-    std::deque<protocol::midi_can::Frame> out_;
+    std::deque<base::CanFrame> out_;
     bool configuring_ = false;
     std::optional<std::uint8_t> new_address_;
 };
@@ -58,7 +58,7 @@ class MidiCanEnd {
 /// the stuffed bits, whose number depends on the data.
 class CanBus {
   public:
-    using Frame = protocol::midi_can::Frame;
+    using Frame = base::CanFrame;
     struct Heard {
         Frame frame;
         int sender;  ///< who gave it to send()
