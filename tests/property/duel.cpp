@@ -6,8 +6,8 @@
 
 #include "naive_sequencer.h"
 #include "sequencer/engine.h"
-#include "sequencer/explain.h"
 #include "sequencer/prepared.h"
+#include "sequencer/state.h"
 
 namespace nplc::property {
 namespace {
@@ -52,8 +52,8 @@ bool same(const State& state, const naive::Sequencer& naive) {
 }
 
 bool same(const MotorOrder& order, const naive::Order& naive) {
-    if (order.is_flex != naive.flex) return false;
-    if (!order.is_flex) return order.command == naive.number && order.value == 0;
+    if (order.is_register_write != naive.flex) return false;
+    if (!order.is_register_write) return order.command == naive.number && order.value == 0;
     return order.reg == naive.number && order.longword == naive.longword && order.value == naive.value;
 }
 
@@ -127,7 +127,7 @@ class Duel {
         ++seen_.scans;
         const std::vector<naive::Order> expected = naive_.scan(image_);
         note(expected);
-        if (std::string difference = check_explain(); !difference.empty()) return difference;
+        if (std::string difference = check_conditions(); !difference.empty()) return difference;
 
         std::uint32_t halted_ms = 0;
         Orders orders;
@@ -167,11 +167,13 @@ class Duel {
         seen_.orders += expected.size();
     }
 
-    std::string check_explain() const {
+    std::string check_conditions() const {
         for (unsigned i = 0; i < size(); ++i) {
-            const bool fires = sequencer::explain(table_.term(i), before_, image_).fires();
+            const sequencer::TermView term = table_.term(i);
+            const bool fires = sequencer::step_of(term) == before_.step &&
+                               sequencer::is_true(term, sequencer::key_of(image_, before_));
             const bool fired = std::ranges::count(naive_.true_terms, static_cast<int>(i)) == 1;
-            if (fires != fired) return "explain() of term " + std::to_string(i);
+            if (fires != fired) return "the condition of term " + std::to_string(i);
         }
         return {};
     }

@@ -1,4 +1,4 @@
-// Engine, PreparedEngine and explain() against the naive sequencer. The build gives the number of tables, so
+// Engine, PreparedEngine and is_true() against the naive sequencer. The build gives the number of tables, so
 // that the same file makes the quick and the full tier.
 #include <gtest/gtest.h>
 
