@@ -78,11 +78,9 @@ std::uint32_t OwnRegisters::table_value(std::uint8_t reg) const {
         case COMMAND:
             return last_command_;
         case FORCE_IN:
-            return gateway_.forces().inputs().levels |
-                   (static_cast<std::uint32_t>(gateway_.forces().inputs().mask) << 8);
+            return gateway_.forces().inputs().in_register();
         case FORCE_OUT:
-            return gateway_.forces().outputs().levels |
-                   (static_cast<std::uint32_t>(gateway_.forces().outputs().mask) << 8);
+            return gateway_.forces().outputs().in_register();
         case BREAK_LOW:
             return static_cast<std::uint32_t>(gateway_.breakpoints());
         case BREAK_HIGH:

@@ -138,8 +138,7 @@ Progress OwnRegisters::write_value(std::uint8_t reg, std::uint32_t value, base::
 Result OwnRegisters::force(std::uint8_t reg, std::uint32_t value, base::Instant now) {
     const std::uint32_t pins = reg == FORCE_IN ? 0x3F : 0x0F;
     if ((value & ~(pins | (pins << 8))) != 0) return Result::bad_value;
-    const Forced forced{.mask = static_cast<std::uint8_t>(value >> 8),
-                        .levels = static_cast<std::uint8_t>(value & pins)};
+    const Force forced = Force::of_register(value);
     if (reg == FORCE_IN) {
         gateway_.force_inputs(forced, now);
     } else {

@@ -128,8 +128,9 @@ std::string_view World::why_not() const {
     if (!loaded.ok) return {};
     const auto order = sequencer::order_of(loaded.table.term(load_result_.fault.term));
     const registers::DriveModel& model = *options_.drive->model;
-    return order.is_flex ? model.family->refuses_write(model, order.reg, order.longword, order.value)
-                         : model.family->refuses_command(model, order.command);
+    return order.is_register_write
+               ? model.family->refuses_write(model, order.reg, order.longword, order.value)
+               : model.family->refuses_command(model, order.command);
 }
 
 Time World::next_of_motor() const {
@@ -264,7 +265,7 @@ Snapshot World::take_snapshot() {
 
 void World::ordered(base::Instant now, const sequencer::MotorOrder& order) {
     if (options_.observer != nullptr) options_.observer->ordered(now, order);
-    orders_.push_back({order.is_flex, order.command, order.reg, order.value});
+    orders_.push_back({order.is_register_write, order.command, order.reg, order.value});
     on_their_way_.push_back(orders_given_++);
 }
 

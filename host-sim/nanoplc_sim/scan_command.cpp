@@ -116,7 +116,7 @@ std::string scan_csv(std::span<const std::uint8_t> bytes, const std::vector<Stim
         std::string fast;
         std::string flex;
         engine.scan(row.image, [&](const sequencer::MotorOrder& order) {
-            if (order.is_flex) {
+            if (order.is_register_write) {
                 append_word(flex, fmt::format("{}={}", order.reg, order.value));
             } else {
                 append_word(fast, fmt::format("{:02X}", order.command));

@@ -146,8 +146,8 @@ void print_counter_and_timer(const Rule& r) {
 
 void print_commands(const Rule& r, bool bools) {
     if (r.flex) {
-        std::printf("                sink(MotorOrder{.is_flex = true, .reg = %u, .value = %u});\n", r.number,
-                    r.value);
+        std::printf("                sink(MotorOrder{.is_register_write = true, .reg = %u, .value = %u});\n",
+                    r.number, r.value);
         return;
     }
     if (r.sends) std::printf("                sink(MotorOrder{.command = %u});\n", r.number);

@@ -17,7 +17,7 @@ namespace nplc::bench {
 struct Sink {
     std::uint64_t hash = 0;
     void operator()(const MotorOrder& order) {
-        hash = hash * 31 + (order.is_flex ? 65536U * order.reg + order.value : order.command);
+        hash = hash * 31 + (order.is_register_write ? 65536U * order.reg + order.value : order.command);
     }
 };
 

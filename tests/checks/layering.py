@@ -35,7 +35,7 @@ MODULES = [
     Module("sequencer", "sequencer", ("base",), core=True),
     Module("firmware/protocol", "protocol", ("base",), core=True),
     Module("firmware/registers", "registers", ("base",), core=True),
-    Module("firmware/motor", "motor", ("base", "ports", "protocol", "registers"), core=True),
+    Module("firmware/motor", "motor", ("base", "ports", "protocol", "registers", "sequencer"), core=True),
     Module("firmware/store", "store", ("base", "ports", "registers", "sequencer"), core=True),
     Module(
         "firmware/gateway",

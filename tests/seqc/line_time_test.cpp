@@ -19,8 +19,8 @@ using sequencer::Term;
 using sim::Time;
 
 constexpr MotorOrder kStop{.command = 0x65};
-constexpr MotorOrder kWord{.is_flex = true, .reg = 65, .value = 3146};
-constexpr MotorOrder kLong{.is_flex = true, .reg = 49, .longword = true, .value = 5120};
+constexpr MotorOrder kWord{.is_register_write = true, .reg = 65, .value = 3146};
+constexpr MotorOrder kLong{.is_register_write = true, .reg = 49, .longword = true, .value = 5120};
 
 LineUse use(std::vector<MotorOrder> orders, bool safe = true) {
     return line_use(orders, safe);
@@ -87,7 +87,7 @@ std::vector<std::uint8_t> table_that_sends(const std::vector<MotorOrder>& orders
     for (const MotorOrder& order : orders) {
         Term term;
         term.condition = {.step = 1, .input = 1, .care = 1};
-        term.is_flex = order.is_flex;
+        term.is_flex = order.is_register_write;
         term.fast = {.sends = true, .command = order.command};
         term.flex = {.reg = order.reg,
                      .longword = order.longword,

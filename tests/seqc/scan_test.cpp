@@ -23,7 +23,7 @@ std::vector<sequencer::TermView> terms_of(const std::vector<std::uint8_t>& table
 
 std::string in_short(const MotorOrder& order) {
     char text[40];
-    if (!order.is_flex) {
+    if (!order.is_register_write) {
         std::snprintf(text, sizeof text, "%02X", order.command);
     } else {
         std::snprintf(text, sizeof text, "%d=%u%s", order.reg, order.value, order.longword ? "L" : "");

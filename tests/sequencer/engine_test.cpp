@@ -265,8 +265,8 @@ TEST(Engine, OrdersGoOutInTableOrder) {
                  {0xC0, 0, 0x80, 0x83, 0x34, 0x12, 0x78, 0x56},  // longword to register 3
                  {0xC0, 0, 0x00, 0x3E, 0x11, 0, 0, 0}});
     bench.scan();
-    const MotorOrder word{.is_flex = true, .reg = 5, .longword = false, .value = 0x1234};
-    const MotorOrder longword{.is_flex = true, .reg = 3, .longword = true, .value = 0x56781234};
+    const MotorOrder word{.is_register_write = true, .reg = 5, .longword = false, .value = 0x1234};
+    const MotorOrder longword{.is_register_write = true, .reg = 3, .longword = true, .value = 0x56781234};
     EXPECT_EQ(bench.orders, (std::vector{fast(0x10), word, longword, fast(0x11)}));
 }
 

@@ -158,8 +158,9 @@ std::string_view why_not(GatewayClient& gateway, std::span<const std::uint8_t> t
         registers::drive_of_kind(gateway.read(gw::register_of(gw::Setting::motor_kind)));
     if (drive == nullptr) return {};
     const auto order = sequencer::order_of(loaded.table.term(term));
-    return order.is_flex ? drive->family->refuses_write(*drive, order.reg, order.longword, order.value)
-                         : drive->family->refuses_command(*drive, order.command);
+    return order.is_register_write
+               ? drive->family->refuses_write(*drive, order.reg, order.longword, order.value)
+               : drive->family->refuses_command(*drive, order.command);
 }
 
 void give_up(GatewayClient& gateway) {

@@ -34,7 +34,7 @@ struct OutcomeHash {
 bool may_reset_error(const MotorOrder& order) {
     constexpr std::uint8_t kResetError = 0x61;
     constexpr std::uint8_t kErrStat = 35;
-    if (!order.is_flex) return order.command == kResetError;
+    if (!order.is_register_write) return order.command == kResetError;
     return order.reg == kErrStat || (order.longword && order.reg == kErrStat - 1);
 }
 

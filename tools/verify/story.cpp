@@ -36,8 +36,8 @@ std::string outputs_text(std::uint8_t outputs, const Names& names) {
 std::string orders_text(const std::vector<sequencer::MotorOrder>& orders) {
     std::string text;
     for (const auto& order : orders) {
-        text += order.is_flex ? fmt::format(" {}={}", order.reg, order.value)
-                              : fmt::format(" {:02X}h", order.command);
+        text += order.is_register_write ? fmt::format(" {}={}", order.reg, order.value)
+                                        : fmt::format(" {:02X}h", order.command);
     }
     return text;
 }

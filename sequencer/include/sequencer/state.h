@@ -15,11 +15,12 @@ struct State {
     bool operator==(const State&) const = default;
 };
 
-/// A command or register write of a true term; sent at once, in table order (001 §6.1.9).
+/// A command or register write of a true term; sent at once, in table order (001 §6.1.9). What a drive is
+/// ordered, too: those that speak another language translate.
 struct MotorOrder {
-    bool is_flex = false;
-    std::uint8_t command = 0;  ///< FastMAC, bits 6..0
-    std::uint8_t reg = 0;      ///< FlexMAC
+    bool is_register_write = false;  ///< FlexMAC, else a FastMAC command
+    std::uint8_t command = 0;        ///< bits 6..0
+    std::uint8_t reg = 0;
     bool longword = false;
     std::uint32_t value = 0;
     bool operator==(const MotorOrder&) const = default;

@@ -53,7 +53,7 @@ std::string flex_text(const FlexStatement& flex, const Symbols* symbols) {
     const std::string name =
         reg != nullptr ? fmt::format("REG({}) {}", flex.reg, reg->name) : fmt::format("REG({})", flex.reg);
     const sequencer::MotorOrder write{
-        .is_flex = true,
+        .is_register_write = true,
         .reg = flex.reg,
         .longword = flex.longword,
         .value = flex.longword ? (std::uint32_t{flex.high_word} << 16) | flex.low_word : flex.low_word};

@@ -22,9 +22,9 @@ class Line {
     explicit Line(bool safe) : safe_(safe) {}
 
     void send(const sequencer::MotorOrder& order) {
-        if (in_flexmac_ && !order.is_flex) leave_flexmac();
-        if (!in_flexmac_ && order.is_flex) command(fastmac::command_byte(Number::use_flexmac));
-        if (order.is_flex) {
+        if (in_flexmac_ && !order.is_register_write) leave_flexmac();
+        if (!in_flexmac_ && order.is_register_write) command(fastmac::command_byte(Number::use_flexmac));
+        if (order.is_register_write) {
             flexmac_message({.longword = order.longword,
                              .level = flexmac::Level::reg,
                              .target = order.reg,

@@ -21,7 +21,7 @@ PowerUpValues::Writes PowerUpValues::writes_of(const Machine& machine) {
     Writes writes;
     std::set<std::uint8_t> twice;
     for (const MotorOrder& order : power_up_orders(machine)) {
-        if (order.is_flex && !writes.emplace(order.reg, order).second) twice.insert(order.reg);
+        if (order.is_register_write && !writes.emplace(order.reg, order).second) twice.insert(order.reg);
     }
     for (const std::uint8_t reg : twice) writes.erase(reg);
     return writes;
@@ -65,7 +65,7 @@ std::vector<TableDiff::Value> PowerUpValues::changes(const Symbols* names_before
 void PowerUpValues::level(std::vector<MotorOrder>& before, std::vector<MotorOrder>& now) const {
     const auto is_told = [](const MotorOrder& order, const Writes& own) {
         const auto found = own.find(order.reg);
-        return order.is_flex && found != own.end() && found->second == order;
+        return order.is_register_write && found != own.end() && found->second == order;
     };
     for (MotorOrder& order : before) {
         const auto other = now_.find(order.reg);

@@ -125,7 +125,7 @@ std::int64_t value_of(const sequencer::MotorOrder& write, const Symbols* symbols
 }
 
 std::string order_text(const sequencer::MotorOrder& order, const Symbols* symbols) {
-    if (!order.is_flex) return describe_command(order.command);
+    if (!order.is_register_write) return describe_command(order.command);
     return fmt::format("{} := {}", register_name(order.reg, symbols), value_of(order, symbols));
 }
 

@@ -3,12 +3,14 @@
 #include <array>
 #include <cstdint>
 
+#include "gateway/uptime.h"
 #include "gateway/vocabulary.h"
 #include "registers/gateway.h"
 
 namespace nplc::gateway {
 
-/// What happened lately. Entry number n, counted from 0, stands in slot n modulo the number of slots.
+/// The time since the start, and what happened lately. Entry number n, counted from 0, stands in slot n
+/// modulo the number of slots.
 class EventLog {
   public:
     static constexpr std::size_t kSlots = registers::gateway::kLogEntries;
@@ -20,8 +22,13 @@ class EventLog {
         std::uint16_t detail = 0;
     };
 
-    void add(const Entry& entry) {
-        entries_[count_ % kSlots] = entry;
+    void advance(base::Instant now) { uptime_.advance(now); }
+    std::uint32_t uptime() const { return uptime_.milliseconds(); }
+    /// When uptime() will be `more` than now.
+    base::Instant uptime_in(std::uint32_t more) const { return uptime_.in(more); }
+
+    void add(std::uint8_t event, std::uint8_t step, std::uint16_t detail) {
+        entries_[count_ % kSlots] = {uptime(), event, step, detail};
         ++count_;
     }
     std::uint32_t count() const { return count_; }
@@ -34,6 +41,7 @@ class EventLog {
   private:
     std::array<Entry, kSlots> entries_{};
     std::uint32_t count_ = 0;
+    Uptime uptime_;
 };
 
 }  // namespace nplc::gateway

@@ -3,32 +3,25 @@
 #include <cstdint>
 
 #include "base/time.h"
+#include "registers/vocabulary.h"
 
 namespace nplc::gateway {
 
-/// Levels that a person puts in the place of others.
-struct Forced {
-    std::uint8_t mask = 0;
-    std::uint8_t levels = 0;
-
-    constexpr std::uint8_t over(std::uint8_t real) const {
-        return static_cast<std::uint8_t>((real & ~unsigned{mask}) | (unsigned{levels} & mask));
-    }
-};
+using registers::gateway::Force;
 
 /// Forced inputs and outputs, and how long they still hold.
 class Forces {
   public:
-    const Forced& inputs() const { return inputs_; }
-    const Forced& outputs() const { return outputs_; }
+    const Force& inputs() const { return inputs_; }
+    const Force& outputs() const { return outputs_; }
     bool any() const { return inputs_.mask != 0 || outputs_.mask != 0; }
 
-    void set_inputs(const Forced& forced, base::Instant now) {
-        inputs_ = forced;
+    void set_inputs(const Force& force, base::Instant now) {
+        inputs_ = force;
         renewed_ = now;
     }
-    void set_outputs(const Forced& forced, base::Instant now) {
-        outputs_ = forced;
+    void set_outputs(const Force& force, base::Instant now) {
+        outputs_ = force;
         renewed_ = now;
     }
     void renew(base::Instant now) { renewed_ = now; }
@@ -43,8 +36,8 @@ class Forces {
     base::Instant end(base::Microseconds time) const { return any() ? renewed_ + time : base::kNever; }
 
   private:
-    Forced inputs_;
-    Forced outputs_;
+    Force inputs_;
+    Force outputs_;
     base::Instant renewed_{};
 };
 

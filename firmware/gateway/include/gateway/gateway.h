@@ -6,16 +6,14 @@
 
 #include "base/result.h"
 #include "base/time.h"
-#include "gateway/debouncer.h"
 #include "gateway/event_log.h"
-#include "gateway/forces.h"
-#include "gateway/observer.h"
-#include "gateway/uptime.h"
-#include "gateway/vocabulary.h"
+#include "gateway/hold_control.h"
+#include "gateway/safe_state.h"
+#include "gateway/sequence_scan.h"
+#include "gateway/signals.h"
 #include "motor/motor.h"
 #include "ports/digital_io.h"
 #include "ports/watchdog.h"
-#include "sequencer/engine.h"
 
 namespace nplc::gateway {
 
@@ -37,12 +35,6 @@ struct Settings {
     bool virtual_motor = false;                   ///< holding the sequence does not stop the motor
     base::Microseconds force_time{5'000'000};     ///< forced signals end when nobody renews them for so long
     std::optional<std::uint8_t> status_output{};  ///< output 0..3 that shows status_light()
-};
-
-enum class StartCause : std::uint8_t {
-    power_up,
-    watchdog,
-    service,  ///< for a person: not enabled, whatever the settings say, until the next start
 };
 
 /// The loop of the NanoPLC (001 §6.1.9) on ports: debounced inputs, scan, orders, outputs, timer. `poll`
@@ -75,7 +67,7 @@ class Gateway {
     LoadResult load(std::span<const std::uint8_t> bytes, base::Instant now);
 
     /// The start-up is over: no table starts by itself any more.
-    void end_start_up() { starting_up_ = false; }
+    void end_start_up() { permission_.end_start_up(); }
     /// In the start-up: nothing starts by itself, and `reason` is shown until run().
     void block_start(SafeReason reason);
     /// The same, and until unlock() run() is refused with not_enabled and no other reason is shown.
@@ -86,7 +78,7 @@ class Gateway {
     void withdraw(SafeReason reason, base::Instant now);
 
     /// Has the motor the order of this term, if it has one?
-    bool motor_takes(sequencer::TermView term) const;
+    bool motor_takes(sequencer::TermView term) const { return scan_.motor_takes(term); }
 
     /// From the beginning, or on from where it is held, the motor in the mode that it was stopped in; without
     /// hold if has_single(). Errors: no_table; not_stopped when it runs already; not_enabled: from the
@@ -96,33 +88,33 @@ class Gateway {
     /// One scan, or scans until the step changes, from where it is held or from the beginning; then it is
     /// held. Errors as run().
     /// Until then has_single(); run() and hold() give it up.
-    base::Status scan_once() { return run_until(HoldAfter::scan); }
-    base::Status step_once() { return run_until(HoldAfter::step); }
+    base::Status scan_once() { return run_until(HoldControl::After::scan); }
+    base::Status step_once() { return run_until(HoldControl::After::step); }
     /// Holds it at the end of the scan: its orders are executed and the motor is told to stop first, unless
     /// Settings::virtual_motor says otherwise. The timer stands meanwhile, the outputs stay. Error: no_table
     /// if it is stopped.
     base::Status hold();
     /// A scan_once() or step_once() is not done yet.
-    bool has_single() const { return hold_after_ == HoldAfter::scan || hold_after_ == HoldAfter::step; }
+    bool has_single() const { return hold_.has_single(); }
     void stop(base::Instant now) { enter_safe_state(SafeReason::stop_command, now); }
     /// Ends forces and breakpoints too.
     void make_safe(base::Instant now);
 
     /// Bit n: it is held when it enters step n, before the first scan there.
-    void set_breakpoints(std::uint64_t steps) { breakpoints_ = steps; }
-    std::uint64_t breakpoints() const { return breakpoints_; }
-    bool at_breakpoint() const { return run_state_ == RunState::held && broke_; }
+    void set_breakpoints(std::uint64_t steps) { hold_.set_breakpoints(steps); }
+    std::uint64_t breakpoints() const { return hold_.breakpoints(); }
+    bool at_breakpoint() const { return run_state_ == RunState::held && hold_.at_breakpoint(); }
     /// What the motor did before it was held can be taken up again: a move to P_SOLL, the speed V_SOLL, or
     /// nothing. Else run() and the like answer cannot_go_on.
-    bool can_go_on() const { return settings_.virtual_motor || mode_ != kUnknownMode; }
+    bool can_go_on() const { return settings_.virtual_motor || scan_.mode().is_known(); }
     /// Somebody else has told the motor something.
-    void forget_mode() { mode_ = kUnknownMode; }
+    void forget_mode() { scan_.mode().forget(); }
 
-    void force_inputs(const Forced& forced, base::Instant now);
-    void force_outputs(const Forced& forced, base::Instant now);
-    void renew_forces(base::Instant now) { forces_.renew(now); }
+    void force_inputs(const Force& force, base::Instant now);
+    void force_outputs(const Force& force, base::Instant now);
+    void renew_forces(base::Instant now) { signals_.forces().renew(now); }
     void end_forces();
-    const Forces& forces() const { return forces_; }
+    const Forces& forces() const { return signals_.forces(); }
 
     /// Error: not_stopped.
     base::Status change(const Settings& settings);
@@ -137,117 +129,70 @@ class Gateway {
     base::Instant next_poll(base::Instant now, base::Instant motors);
     /// Least time between a scan that did something and the next one; 0, as often as it is polled. For who
     /// goes by next_poll(): a table may do something in every scan.
-    void pace(base::Microseconds least) { pace_ = least; }
+    void pace(base::Microseconds least) { scan_.pace(least); }
 
-    void observe(Observer* observer) { observer_ = observer; }
+    void observe(Observer* observer) { scan_.observe(observer); }
 
     RunState run_state() const { return run_state_; }
-    SafeReason safe_reason() const { return safe_reason_; }
-    base::Instant safe_since() const { return safe_since_; }  ///< when safe_reason() took hold
-    const sequencer::State& state() const { return engine_.state(); }
-    sequencer::InputImage image() const { return image_; }  ///< HW_INP of the last scan
-    std::uint32_t scans() const {
-        return scans_;
-    }  ///< finished, those skipped because nothing could change included
-    const sequencer::Table& table() const { return table_; }
+    SafeReason safe_reason() const { return safe_.reason(); }
+    base::Instant safe_since() const { return safe_.since(); }  ///< when safe_reason() took hold
+    const sequencer::State& state() const { return scan_.state(); }
+    sequencer::InputImage image() const { return scan_.image(); }  ///< HW_INP of the last scan
+    /// Finished, those skipped because nothing could change included.
+    std::uint32_t scans() const { return scan_.times().scans(); }
+    const sequencer::Table& table() const { return scan_.table(); }
     /// Of the last scan: its step, and what its conditions saw.
-    std::uint8_t scanned_step() const { return before_.step; }
-    sequencer::Key scanned_key() const { return sequencer::key_of(image_, before_); }
-    base::Microseconds scan_time() const { return scan_time_; }  ///< between the last two scans' ends
-    base::Microseconds worst_scan_time() const { return worst_scan_time_; }  ///< since run()
-    void clear_worst_scan_time() { worst_scan_time_ = {}; }
-    std::uint8_t terminals() const { return debouncer_.levels(); }
-    std::uint8_t inputs() const { return forces_.inputs().over(debouncer_.levels()); }
-    std::uint8_t outputs() const { return written_.value_or(0); }
+    std::uint8_t scanned_step() const { return scan_.scanned_step(); }
+    sequencer::Key scanned_key() const { return scan_.scanned_key(); }
+    base::Microseconds scan_time() const {
+        return scan_.times().last();
+    }  ///< between the last two scans' ends
+    base::Microseconds worst_scan_time() const { return scan_.times().worst(); }  ///< since run()
+    void clear_worst_scan_time() { scan_.times().clear_worst(); }
+    std::uint8_t terminals() const { return signals_.terminals(); }
+    std::uint8_t inputs() const { return signals_.inputs(); }
+    std::uint8_t outputs() const { return signals_.outputs(); }
     bool enabled() const;
-    const motor::Motor& motor() const { return ports_.motor; }
+    const motor::Motor& motor() const { return motor_; }
 
-    std::uint32_t uptime() const { return uptime_.milliseconds(); }
-    std::uint32_t safe_since_uptime() const { return safe_since_uptime_; }
+    std::uint32_t uptime() const { return log_.uptime(); }
+    std::uint32_t safe_since_uptime() const { return safe_.since_uptime(); }
     const EventLog& log() const { return log_; }
     void clear_log() { log_.clear(); }
     void note(Event event, std::uint16_t detail = 0);
 
   private:
-    static constexpr std::uint8_t kUnknownMode = 0xFF;
-
-    enum class HoldAfter : std::uint8_t { never, scan, step, at_once };
-
     bool input_enables() const;
-    base::Status run_until(HoldAfter hold_after);
-    void begin_hold(bool breakpoint, base::Instant now);
-    void hold_when_settled(base::Instant now);
-    void follow_mode(const sequencer::MotorOrder& order);
-    void take_up_mode();
-    void hold_if_due(bool entered_step, base::Instant now);
-    bool breaks_at(std::uint8_t step) const { return ((breakpoints_ >> step) & 1U) != 0; }
-    void read_inputs(base::Instant now);
+    void autostart(base::Instant now);
+    base::Status run_until(HoldControl::After hold_after);
+    void start_when_ready(base::Instant now);
     void serve_sequence(base::Instant now);
-    void note_motors_fault();
+    void scan(base::Instant now);
+    void leave_safe_state();
+    void begin_hold(bool breakpoint, base::Instant now);
+    void hold_if_due(bool entered_step, base::Instant now);
+    void hold_when_settled(base::Instant now);
+    void watch_link(base::Instant now);
+    void note_motor_fault();
     void expire_forces(base::Instant now);
-    void show_outputs();
-    void note_scan_end(base::Instant now);
     void enter_safe_state(SafeReason reason, base::Instant now);
     void set_safe_reason(SafeReason reason, base::Instant now);
-    static motor::Order to_motor(const sequencer::MotorOrder& order);
-    std::optional<sequencer::TableFault> fault_for_motor() const;
-    void start_by_itself(base::Instant now);
-    void start_when_ready(base::Instant now);
-    void watch_link(base::Instant now);
+    void show_outputs();
     base::Instant next_work(base::Instant now) const;
-    base::Instant next_scan(base::Instant now) const;
-    sequencer::InputImage present_image() const;
-    void work(base::Instant now);
-    bool begin_scan(base::Instant now);
-    bool send_orders(base::Instant now);
-    void finish_scan(base::Instant now);
-    void count_timer(base::Instant now);
-    void write_outputs(std::uint8_t levels);
 
     // Small members first: a Thumb instruction of two bytes reaches only an object's first 32 to 128.
-    Ports ports_;
+    ports::Watchdog& watchdog_;
+    motor::Motor& motor_;
     RunState run_state_ = RunState::stopped;
-    SafeReason safe_reason_ = SafeReason::not_started;
-    SafeReason locked_by_ = SafeReason::none;
-    bool in_service_;               ///< StartCause::service
-    bool starting_up_;              ///< the first table may start by itself
-    bool stop_ordered_ = false;     ///< since run()
+    bool stop_ordered_ = false;     ///< on the way to running, or to being held
     bool stop_after_loss_ = false;  ///< the motor is to be stopped once the link delivers again
-    HoldAfter hold_after_ = HoldAfter::never;
-    bool broke_ = false;  ///< held, or about to be, by a breakpoint
-    bool stop_ordered_to_hold_ = false;
-    /// The motor's MODE_REG, as far as it can be told: 0, 1 (velocity), 2 (position) or kUnknownMode.
-    std::uint8_t mode_ = kUnknownMode;
-    bool resumes_ = false;           ///< the next scan is the first after having been held
-    std::uint8_t motors_fault_ = 0;  ///< as noted
-    bool in_scan_ = false;
-    bool rests_ = false;               ///< nothing could change at the last look
-    sequencer::InputImage image_ = 0;  ///< of the last scan
-    std::optional<std::uint8_t> written_;
-    std::optional<sequencer::Key> quiet_key_;  ///< a scan with this key would do nothing
-    Observer* observer_ = nullptr;
-    std::uint32_t scans_ = 0;
-    std::uint32_t safe_since_uptime_ = 0;
-    sequencer::State before_;                    ///< as the scan under way found it
-    std::optional<sequencer::MotorOrder> held_;  ///< order that found no room
+    std::uint8_t motor_fault_ = 0;  ///< as noted in the log
+    StartPermission permission_;
+    SafeState safe_;
+    HoldControl hold_;
+    Signals signals_;
     Settings settings_;
-    sequencer::Table table_;
-    sequencer::Engine engine_{table_};
-
-    base::Instant safe_since_{};
-    base::Instant progress_{};  ///< last time a scan did not have to wait
-    std::optional<base::Instant> may_rest_until_;
-    base::Microseconds pace_{};
-    base::Instant next_scan_{};
-    base::Instant ticked_{};  ///< the timer has been counted up to here
-    std::optional<base::Instant> scan_ended_;
-    base::Microseconds scan_time_{};
-    base::Microseconds worst_scan_time_{};
-    std::uint64_t breakpoints_ = 0;
-    Forces forces_;
-    Uptime uptime_;
-    Debouncer debouncer_;
-    Debouncer quick_debouncer_;  ///< for the enable input's loss
+    SequenceScan scan_;
     EventLog log_;
 };
 

@@ -4,21 +4,14 @@
 
 #include "base/time.h"
 #include "registers/vocabulary.h"
+#include "sequencer/state.h"
 
 namespace nplc::motor {
 
-/// What a sequence asks of a drive: a FastMAC command (bits 6..0) or a register write in FlexMAC's terms.
-/// Drives that speak another language translate.
-struct Order {
-    bool is_register_write = false;
-    std::uint8_t command = 0;
-    std::uint8_t reg = 0;
-    bool longword = false;
-    std::uint32_t value = 0;
-    bool operator==(const Order&) const = default;
-};
+/// What a sequence asks of a drive.
+using Order = sequencer::MotorOrder;
 
-/// A register that a person reads or writes between the sequence's orders.
+/// A register that the user reads or writes between the sequence's orders.
 struct Access {
     bool is_write = false;
     std::uint8_t reg = 0;
