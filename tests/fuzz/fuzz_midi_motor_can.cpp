@@ -16,7 +16,7 @@ class Bus final : public ports::CanPort {
     bool write(const ports::CanFrame& frame) override {
         if (!takes_ || state_ == ports::CanState::down || state_ == ports::CanState::bus_off) return false;
         fuzz::require(!frame.extended && !frame.remote && frame.length == 8);
-        last_ = can::decode_request({static_cast<std::uint16_t>(frame.id), frame.length, frame.data});
+        last_ = can::decode_request(frame);
         fuzz::require(last_.address == kAddress);
         const bool asks = last_.kind == can::Request::Kind::query;
         fuzz::require(asks || last_.kind == can::Request::Kind::command);

@@ -258,6 +258,9 @@ void add_verify(arguments::App& app, int& exit_code) {
         .add_option("--scenario", options->scenario,
                     "The same as inputs for nanoplc-sim run; of further ones OUT-Name.scn")
         ->type_name("OUT.scn");
+    command.footer(
+        "Exit codes: 0 all properties proved, 1 one is broken, 4 none is broken and one is undecided,\n"
+        "2 wrong usage, a program with errors, or a file that cannot be read, written or understood.");
     command.callback([options, &exit_code] { exit_code = run(*options); });
 }
 
