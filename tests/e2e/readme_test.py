@@ -119,10 +119,11 @@ class FrontPage(Readme):
 
 
 class Outputs(Readme):
-    def test_codes(self):
-        listed = re.findall(r"(?m)^\| ([EW]\d{3}) \| (.*) \|$", self.text)
-        done = self.run_program(SEQC, "explain")
-        self.assertEqual([tuple(line.split("  ", 1)) for line in done.stdout.strip().split("\n")], listed)
+    def test_codes_that_documents_name_can_be_explained(self):
+        listed = {line.split("  ", 1)[0] for line in self.run_program(SEQC, "explain").stdout.strip().split("\n")}
+        named = set(re.findall(r"\b[EW]\d{3}\b", self.text + read("tools/seqc/LANGUAGE.md")))
+        self.assertGreater(len(named), 20)
+        self.assertLessEqual(named, listed)
 
     def test_json(self):
         shown = json.loads(block_after(self.text, "print one JSON document"))
