@@ -19,7 +19,7 @@ void require(bool holds) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size < 3 || size > 11) return 0;
     nplc::base::CanFrame frame{.id = static_cast<std::uint16_t>((data[0] | data[1] << 8) & 0x7FF),
-                         .length = static_cast<std::uint8_t>(size - 3)};
+                               .length = static_cast<std::uint8_t>(size - 3)};
     std::copy(data + 3, data + size, frame.data.begin());
     const Request request = decode_request(frame);
     const Answer answer = decode_answer(frame);

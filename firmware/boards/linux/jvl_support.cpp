@@ -10,8 +10,6 @@ const DriveSupport& jvl_support();
 
 namespace {
 
-using store::Setting;
-
 class JvlSupport final : public DriveSupport {
   public:
     std::span<const char* const> keys() const override {

@@ -183,9 +183,9 @@ std::string MidiSupport::silence_in_words(const motor::AnyDriver& driver, const 
     return {};
 }
 
-std::string MidiSupport::warning_in_words(std::uint32_t wanted) const {
-    for (const midi::Bit& bit : midi::status_bits()) {
-        if (bit.mask == wanted) return std::string(bit.text);
+std::string MidiSupport::warning_in_words(std::uint32_t bit) const {
+    for (const midi::Bit& known : midi::status_bits()) {
+        if (known.mask == bit) return std::string(known.text);
     }
     return {};
 }

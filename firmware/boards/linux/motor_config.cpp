@@ -101,6 +101,7 @@ MotorConfig read_motor(Section& axis, int axis_line, Findings& findings) {
     Section section(axis.table("motor"), axis.path() + ".motor", findings);
     const std::vector<MotorKind> all = kinds();
     std::vector<std::string> names;
+    names.reserve(all.size());
     for (const MotorKind& kind : all) names.push_back(kind.name);
     MotorConfig motor;
     if (const auto kind = section.choice("kind", names)) motor.model = all[*kind].model;

@@ -36,7 +36,7 @@ motor::Motor& MotorPart::start(const store::SettingValues& values) {
 
 std::string MotorPart::silence_in_words() const {
     const std::string line = config_.line_in_words();
-    const std::string why = support_of(config_).silence_in_words(driver_, line);
+    std::string why = support_of(config_).silence_in_words(driver_, line);
     if (!why.empty()) return why;
     return fmt::format("no motor has answered yet on {}; look at its supply, its line, and at [axis.motor]",
                        line);
