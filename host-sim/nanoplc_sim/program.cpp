@@ -17,6 +17,8 @@ namespace {
 Names names_of(const seqc::Symbols& symbols) {
     Names names;
     names.motor = symbols.motor;
+    if (symbols.scale)
+        names.machine = {symbols.scale->unit, symbols.scale->length / symbols.scale->revolutions};
     std::copy(symbols.inputs.begin(), symbols.inputs.end(), names.inputs.begin());
     std::copy(symbols.outputs.begin(), symbols.outputs.end(), names.outputs.begin());
     for (std::size_t step = 0; step < symbols.steps.size(); ++step) {

@@ -83,7 +83,7 @@ Scenario load_scenario(const RunOptions& options, const Names& names) {
     if (!parsed.mistakes.empty()) {
         const std::size_t more = parsed.mistakes.size() - 1;
         throw InputError(
-            fmt::format("{}:{}: {}{}", file, parsed.mistakes.front().line, parsed.mistakes.front().message,
+            fmt::format("{}:{}: {}{}", file, parsed.mistakes.front().place(), parsed.mistakes.front().message,
                         more == 0 ? "" : fmt::format(" (and {} more mistakes in this file)", more)));
     }
     if (!parsed.scenario.can_end() && !options.length && !options.realtime) {

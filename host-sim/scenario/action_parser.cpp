@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 namespace nplc::sim {
 namespace {
 
 constexpr std::string_view kActions =
-    "an action: IN0 := 1, pulse IN0 50 ms, toggle IN0, line ..., motor ..., gateway ..., seed, log or end";
+    "an action: IN0 := 1, pulse IN0 50 ms, toggle IN0, cancel IN0, line ..., motor ..., gateway ..., seed, "
+    "log "
+    "or end";
 
 constexpr std::string_view kMotor =
     "motor error, motor load, motor brake, motor power, motor stop, motor sensor, motor analogue, motor "
@@ -28,6 +32,7 @@ void ActionParser::action(Actions& list, Time after) {
     if (reader_.take("pulse")) return pulse(list, after);
     if (reader_.take("toggle"))
         return add(list, after, action::ToggleInput{conditions_.input("an input to toggle")});
+    if (reader_.take("cancel")) return add(list, after, cancelled());
     if (reader_.take("line")) return line(list, after);
     if (reader_.take("motor")) return motor(list, after);
     if (reader_.take("gateway")) return gateway(list, after);
@@ -41,28 +46,44 @@ void ActionParser::set_input(Actions& list, Time after) {
     if (reader_.peek().kind == Token::Kind::word && !reader_.is(":=", 1)) check_known_word();
     const unsigned index = conditions_.input(kActions);
     reader_.want(":=", ":= and the level, such as IN0 := 1");
-    add(list, after, action::SetInput{index, conditions_.level()});
+    const bool level = conditions_.level();
+    add_for(list, after, action::SetInput{index, level}, action::SetInput{index, !level});
+}
+
+action::Cancel ActionParser::cancelled() {
+    using What = action::Cancel::What;
+    constexpr std::array<std::pair<std::string_view, What>, 6> kWords{{{"motor", What::motor},
+                                                                       {"line", What::line},
+                                                                       {"gateway", What::gateway},
+                                                                       {"log", What::log},
+                                                                       {"end", What::end},
+                                                                       {"all", What::all}}};
+    for (const auto& [word, what] : kWords) {
+        if (reader_.take(word)) return {what};
+    }
+    return {What::input, conditions_.input("an input, motor, line, gateway, log, end or all after cancel")};
 }
 
 /// A first word that is no signal most likely is a misspelt statement.
 void ActionParser::check_known_word() {
     if (conditions_.knows(reader_.peek().text)) return;
-    throw LineMistake{
+    reader_.refuse_next(
         fmt::format("\"{}\" is not known here; write at, every, when, once, expect, always, never, end or {}",
-                    reader_.peek().text, kActions)};
+                    reader_.peek().text, kActions));
 }
 
 void ActionParser::pulse(Actions& list, Time after) {
     const unsigned index = conditions_.input("an input, such as pulse IN0 50 ms");
     reader_.take("for");
     const Time length = reader_.duration("how long, such as pulse IN0 50 ms");
-    if (length <= Time{0}) throw LineMistake{"a pulse must be longer than 0; write such as pulse IN0 50 ms"};
+    if (length <= Time{0})
+        reader_.refuse_time("a pulse must be longer than 0; write such as pulse IN0 50 ms");
     add(list, after, action::SetInput{index, true});
     add(list, after + length, action::SetInput{index, false});
 }
 
 void ActionParser::line(Actions& list, Time after) {
-    if (reader_.take("cut")) return add(list, after, action::CutLine{true});
+    if (reader_.take("cut")) return add_for(list, after, action::CutLine{true}, action::CutLine{false});
     if (reader_.take("restored")) return add(list, after, action::CutLine{false});
     action::SpoilLine spoil;
     line_direction(spoil);
@@ -122,7 +143,7 @@ void ActionParser::seed(Actions& list, Time after) {
     const double number = reader_.number("a whole number, such as seed 7");
     if (number < 0 || number > UINT32_MAX ||
         number != static_cast<double>(static_cast<std::uint64_t>(number))) {
-        throw LineMistake{"a seed is a whole number 0 to 4294967295"};
+        reader_.refuse("a seed is a whole number 0 to 4294967295");
     }
     add(list, after, action::Seed{static_cast<std::uint64_t>(number)});
 }
@@ -156,7 +177,7 @@ void ActionParser::motor(Actions& list, Time after) {
 int ActionParser::whole(std::string_view what, double least, double most, std::string_view mistake) {
     const double number = reader_.number(what);
     if (number < least || number > most || number != static_cast<double>(static_cast<int>(number))) {
-        throw LineMistake{std::string(mistake)};
+        reader_.refuse(std::string(mistake));
     }
     return static_cast<int>(number);
 }
@@ -189,18 +210,16 @@ void ActionParser::motor_stop(Actions& list, Time after) {
     stop.above =
         above_or_below("above or below and a place, such as motor stop below -2 rev, or motor stop none");
     stop.counts = conditions_.place();
-    if (reader_.take("spring")) stop.torque_per_count = spring() / conditions_.counts_per_revolution();
+    if (reader_.take("spring")) stop.torque_per_count = spring();
     add(list, after, stop);
 }
 
 double ActionParser::spring() {
     const double torque = reader_.number("a torque, such as spring 2000 per rev");
+    if (torque < 1 || torque > 1e6)
+        reader_.refuse("a spring is 1 to 1000000 per rev, 1023 being the motor's full torque");
     reader_.want("per", "per rev, such as spring 2000 per rev");
-    reader_.want("rev", "per rev, such as spring 2000 per rev");
-    if (torque < 1 || torque > 1e6) {
-        throw LineMistake{"a spring is 1 to 1000000 per rev, 1023 being the motor's full torque"};
-    }
-    return torque;
+    return torque / conditions_.length();
 }
 
 action::MotorSensor ActionParser::motor_sensor() {
@@ -215,7 +234,7 @@ action::MotorSensor ActionParser::motor_sensor() {
 action::MotorAnalogue ActionParser::motor_analogue() {
     const double volts = reader_.number("a voltage, such as motor analogue 7.5 V");
     reader_.want("V", "its unit, such as motor analogue 7.5 V");
-    if (volts < -10 || volts > 10) throw LineMistake{"the analogue input takes -10 V to 10 V"};
+    if (volts < -10 || volts > 10) reader_.refuse("the analogue input takes -10 V to 10 V");
     return {volts};
 }
 
@@ -232,7 +251,7 @@ action::MotorSupply ActionParser::motor_supply(bool logic) {
     const std::string example = logic ? "motor logic 15 V" : "motor supply 20 V";
     const double volts = reader_.number("a voltage, such as " + example);
     reader_.want("V", "its unit, such as " + example);
-    if (volts < 0 || volts > 600) throw LineMistake{"a supply is 0 V to 600 V"};
+    if (volts < 0 || volts > 600) reader_.refuse("a supply is 0 V to 600 V");
     return {volts, logic};
 }
 

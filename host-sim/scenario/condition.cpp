@@ -28,10 +28,25 @@ bool compare(const Condition& condition, double seen) {
     return false;
 }
 
+/// At most four decimals.
+std::string in_unit(double value, const Unit& unit) {
+    std::string text = fmt::format("{:.4f}", value / unit.size);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return fmt::format("{}{}{}", text == "-0" ? "0" : text, unit.name.empty() ? "" : " ", unit.name);
+}
+
+/// `step = Fault`, `P_IST = 80.02 mm`.
+std::string describe(const Condition& condition, const Snapshot& snapshot, const Names& names) {
+    if (condition.value.kind == Value::Kind::step) return "step = " + names.step(snapshot.step);
+    return fmt::format("{} = {}", condition.value.name(names),
+                       in_unit(condition.value.of(snapshot), condition.unit));
+}
+
 void collect(const Condition& condition, const Snapshot& snapshot, const Names& names,
              std::vector<std::string>& texts) {
     std::string text;
-    if (condition.kind == Condition::Kind::compare) text = condition.value.describe(snapshot, names);
+    if (condition.kind == Condition::Kind::compare) text = describe(condition, snapshot, names);
     if (condition.kind == Condition::Kind::ordered) {
         for (const SentOrder& order : snapshot.orders)
             text += (text.empty() ? "" : ", ") + in_words(order, names.motor);
@@ -129,11 +144,6 @@ std::string Value::name(const Names& names) const {
     return "?";
 }
 
-std::string Value::describe(const Snapshot& snapshot, const Names& names) const {
-    if (kind == Kind::step) return "step = " + names.step(snapshot.step);
-    return fmt::format("{} = {}", name(names), of(snapshot));
-}
-
 bool Condition::holds(const Snapshot& snapshot, const Names& names) const {
     const auto part_holds = [&](const Condition& part) { return part.holds(snapshot, names); };
     switch (kind) {
@@ -160,6 +170,28 @@ std::string Condition::seen(const Snapshot& snapshot, const Names& names) const 
 }
 
 bool EventWatch::happens(const Snapshot& snapshot, const Names& names) {
+    const bool sets_in_now =
+        sets_in(snapshot, names) && (!event_->guard || event_->guard->holds(snapshot, names));
+    if (event_->span == Time{0}) return sets_in_now;
+    if (sets_in_now) since_ = snapshot.time;
+    if (!lasts(snapshot, names)) since_.reset();
+    if (!since_ || snapshot.time < *due()) return false;
+    since_.reset();
+    return true;
+}
+
+std::optional<Time> EventWatch::due() const {
+    if (!since_) return std::nullopt;
+    return *since_ + event_->span;
+}
+
+bool EventWatch::lasts(const Snapshot& snapshot, const Names& names) const {
+    const bool wanted = event_->edge != Event::Edge::falls;
+    return event_->condition.holds(snapshot, names) == wanted &&
+           (!event_->guard || event_->guard->holds(snapshot, names));
+}
+
+bool EventWatch::sets_in(const Snapshot& snapshot, const Names& names) {
     const bool by_value =
         event_->edge == Event::Edge::changes && event_->condition.kind == Condition::Kind::compare;
     const bool holds = !by_value && event_->condition.holds(snapshot, names);

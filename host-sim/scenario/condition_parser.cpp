@@ -1,4 +1,5 @@
 #include "parser.h"
+#include "units.h"
 
 #include <fmt/format.h>
 
@@ -98,8 +99,8 @@ Condition ConditionParser::primary() {
 
 Condition ConditionParser::nested(Condition (ConditionParser::*part)()) {
     if (++depth_ > kDeepest) {
-        throw LineMistake{fmt::format(
-            "parentheses and NOTs are more than {} deep; write the condition in a simpler way", kDeepest)};
+        reader_.refuse(fmt::format(
+            "parentheses and NOTs are more than {} deep; write the condition in a simpler way", kDeepest));
     }
     Condition inner = (this->*part)();
     --depth_;
@@ -133,7 +134,7 @@ Condition ConditionParser::comparison() {
 void ConditionParser::operand(Condition& condition) {
     const bool by_size = condition.relation != Relation::equal && condition.relation != Relation::unequal;
     if (condition.value.is_bit()) {
-        if (by_size) throw LineMistake{"a signal is 0 or 1; compare it with = or <>"};
+        if (by_size) reader_.refuse("a signal is 0 or 1; compare it with = or <>");
         condition.operand = level() ? 1 : 0;
     } else if (condition.value.kind == Value::Kind::step) {
         condition.operand = step_number();
@@ -146,31 +147,71 @@ void ConditionParser::quantity(Condition& condition) {
     const Value::Kind kind = condition.value.kind;
     if (kind == Value::Kind::timer && reader_.starts_duration()) {
         condition.operand = static_cast<double>(reader_.duration("a time").count()) / 1e6;
+        condition.unit = {"ms", 1};
         return;
     }
-    condition.operand = scaled(reader_.number("a number"), kind);
+    const Measure wanted = measure("a number", kind);
+    condition.operand = wanted.value;
+    condition.unit = wanted.unit;
     if (!reader_.take("+-")) return;
-    if (condition.relation != Relation::equal) throw LineMistake{"a tolerance (+-) goes with = only"};
-    condition.tolerance = scaled(reader_.number("a number after +-"), kind);
-    if (condition.tolerance < 0) throw LineMistake{"a tolerance is not negative; write it without the sign"};
+    if (condition.relation != Relation::equal) reader_.refuse("a tolerance (+-) goes with = only");
+    const Measure tolerance = measure("a number after +-", kind);
+    condition.tolerance = tolerance.value;
+    if (tolerance.value < 0) reader_.refuse("a tolerance is not negative; write it without the sign");
+    if (wanted.unit.name.empty()) {
+        condition.unit = tolerance.unit;
+    } else if (tolerance.unit.name.empty()) {
+        reader_.refuse(fmt::format("the tolerance has no unit; write {} behind it, or {}", wanted.unit.name,
+                                   units_in_words(kind, names_)));
+    }
 }
 
-double ConditionParser::scaled(double number, Value::Kind kind) {
-    const registers::Scale scale = registers::scale_of(names_.motor);
-    if (reader_.take("counts")) return number;
-    const bool is_position = kind == Value::Kind::p_ist || kind == Value::Kind::shaft;
-    if (is_position && reader_.take("rev")) return number * scale.counts_per_rev;
-    if (kind == Value::Kind::v_ist && reader_.take("rpm")) {
-        return number * scale.counts_per_rev / (60 * scale.samples_per_second);
+ConditionParser::Measure ConditionParser::measure(std::string_view what, Value::Kind kind) {
+    const double number = reader_.number(what);
+    for (const Unit& unit : units_of(kind, names_)) {
+        if (take_unit(unit.name)) return {number * unit.size, unit};
     }
-    return number;
+    const Token& next = reader_.peek();
+    if (next.kind == Token::Kind::word && !knows(next.text) && looks_like_unit(next.text, names_))
+        refuse_unit(kind);
+    return {number, {}};
+}
+
+/// `mm`, or `mm/s` with or without blanks.
+bool ConditionParser::take_unit(std::string_view name) {
+    const auto slash = name.find('/');
+    if (!reader_.is(name.substr(0, slash))) return false;
+    const bool has_slash = reader_.is("/", 1);
+    if (has_slash != (slash != std::string_view::npos)) return false;
+    if (has_slash && !reader_.is(name.substr(slash + 1), 2)) return false;
+    for (int tokens = has_slash ? 3 : 1; tokens > 0; --tokens) reader_.next();
+    return true;
+}
+
+void ConditionParser::refuse_unit(Value::Kind kind) {
+    const std::string unit = fmt::format("{}{}{}", reader_.peek().text, reader_.is("/", 1) ? "/" : "",
+                                         reader_.is("/", 1) ? reader_.peek(2).text : "");
+    const std::string name = Value{.kind = kind}.name(names_);
+    const std::string known = units_in_words(kind, names_);
+    if (known.empty()) reader_.refuse_next(fmt::format("{} has no unit; write the number alone", name));
+    const bool could_scale = kind != Value::Kind::torque && !names_.machine;
+    reader_.refuse_next(fmt::format("\"{}\" is no unit of {}; write {}{}", unit, name, known,
+                                    could_scale ? "; SCALE 1 rev = 5 mm; in the program adds mm" : ""));
+}
+
+double ConditionParser::length() {
+    for (const Unit& unit : units_of(Value::Kind::shaft, names_)) {
+        if (unit.name != "counts" && take_unit(unit.name)) return unit.size;
+    }
+    reader_.fail(names_.machine ? "per rev or per " + names_.machine->name
+                                : "per rev, such as spring 2000 per rev");
 }
 
 std::int64_t ConditionParser::place() {
     constexpr double kFarthest = 1e9;
-    const double counts = scaled(reader_.number("a place, such as -2 rev or 500 counts"), Value::Kind::shaft);
+    const double counts = measure("a place, such as -2 rev or 500 counts", Value::Kind::shaft).value;
     if (counts < -kFarthest || counts > kFarthest) {
-        throw LineMistake{"a place is at most 1000000000 counts away; write a nearer one"};
+        reader_.refuse("a place is at most 1000000000 counts away; write a nearer one");
     }
     return std::llround(counts);
 }
@@ -180,7 +221,7 @@ double ConditionParser::step_number() {
     if (token.kind == Token::Kind::number) {
         const double number = reader_.next().number;
         if (number != static_cast<int>(number) || number > 62)
-            throw LineMistake{"a step is a whole number 0 to 62"};
+            reader_.refuse("a step is a whole number 0 to 62");
         return number;
     }
     std::string known;
@@ -193,10 +234,10 @@ double ConditionParser::step_number() {
     }
     if (token.kind != Token::Kind::word) reader_.fail("a step's name or number");
     if (known.empty()) {
-        throw LineMistake{
-            fmt::format("\"{}\": this program has no step names; write the step's number", token.text)};
+        reader_.refuse_next(
+            fmt::format("\"{}\": this program has no step names; write the step's number", token.text));
     }
-    throw LineMistake{fmt::format("the program has no step \"{}\"; write one of {}", token.text, known)};
+    reader_.refuse_next(fmt::format("the program has no step \"{}\"; write one of {}", token.text, known));
 }
 
 bool ConditionParser::level() {
@@ -238,7 +279,8 @@ Value ConditionParser::value() {
         reader_.fail("a condition, such as IN0, NOT OUT1 or step = 3");
     const std::string_view word = reader_.peek().text;
     const auto found = lookup(word);
-    if (!found) throw LineMistake{fmt::format("\"{}\" is not known; write one of {}", word, known_values())};
+    if (!found)
+        reader_.refuse_next(fmt::format("\"{}\" is not known; write one of {}", word, known_values()));
     reader_.next();
     return *found;
 }
@@ -246,6 +288,18 @@ Value ConditionParser::value() {
 Event ConditionParser::event() {
     const std::size_t begin = reader_.mark();
     Event event{.condition = condition(), .text = {}};
+    edge(event);
+    if (event.edge != Event::Edge::true_now && reader_.take("and")) event.guard = both();
+    const std::size_t before = reader_.mark();
+    event.span = reader_.lasting();
+    const bool is_moment = event.edge == Event::Edge::each || event.edge == Event::Edge::changes;
+    if (is_moment && reader_.mark() != before)
+        reader_.refuse("a change or an order is a moment and does not last; remove for and its time");
+    event.text = reader_.source_since(begin);
+    return event;
+}
+
+void ConditionParser::edge(Event& event) {
     const bool is_order = event.condition.kind == Condition::Kind::ordered;
     if (reader_.take("rises")) {
         event.edge = Event::Edge::rises;
@@ -254,13 +308,14 @@ Event ConditionParser::event() {
     } else if (reader_.take("changes")) {
         event.edge = Event::Edge::changes;
     }
-    if (is_order && event.edge != Event::Edge::true_now) {
-        throw LineMistake{
-            "an order is a moment, it does not rise, fall or change; remove the word behind it"};
-    }
+    if (is_order && event.edge != Event::Edge::true_now)
+        reader_.refuse("an order is a moment, it does not rise, fall or change; remove the word behind it");
     if (is_order) event.edge = Event::Edge::each;
-    event.text = reader_.source_since(begin);
-    return event;
+}
+
+bool ConditionParser::knows_input(std::string_view word) const {
+    const auto found = lookup(word);
+    return found && found->kind == Value::Kind::input;
 }
 
 unsigned ConditionParser::input(std::string_view use) {
@@ -268,13 +323,13 @@ unsigned ConditionParser::input(std::string_view use) {
     const std::string_view word = reader_.peek().text;
     const auto found = lookup(word);
     if (found && found->kind == Value::Kind::output) {
-        throw LineMistake{fmt::format(
-            "{} is an output: the sequence sets it, a scenario can only watch it; name an input", word)};
+        reader_.refuse_next(fmt::format(
+            "{} is an output: the sequence sets it, a scenario can only watch it; name an input", word));
     }
     if (!found || found->kind != Value::Kind::input) {
         std::string known;
         append(known, names_.inputs);
-        throw LineMistake{fmt::format("\"{}\" is no input; write one of {}IN0..IN5", word, known)};
+        reader_.refuse_next(fmt::format("\"{}\" is no input; write one of {}IN0..IN5", word, known));
     }
     reader_.next();
     return found->index;

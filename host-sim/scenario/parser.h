@@ -11,9 +11,10 @@
 
 namespace nplc::sim {
 
-/// What is wrong with the line at hand.
+/// What is wrong with the line at hand, and where in it.
 struct LineMistake {
     std::string message;
+    std::size_t at = 0;
 };
 
 struct Token {
@@ -26,6 +27,12 @@ struct Token {
 
 /// One line, without its comment (`#` or `//`). The last token is of kind `end`. Throws LineMistake.
 std::vector<Token> tokens_of(std::string_view line);
+
+/// `from 2 s until 5 s`
+struct Window {
+    Time from{0};
+    std::optional<Time> until;
+};
 
 /// Reads tokens one after the other; words are compared without regard to case.
 class Reader {
@@ -41,9 +48,13 @@ class Reader {
     void want(std::string_view word_or_symbol, std::string_view what_to_write);
     /// What was found, and what to write instead.
     [[noreturn]] void fail(std::string_view what_to_write) const;
+    /// Throws with the place of the token read last, or of the next one.
+    [[noreturn]] void refuse(const std::string& message) const;
+    [[noreturn]] void refuse_next(const std::string& message) const;
+    /// With the place of the time read last.
+    [[noreturn]] void refuse_time(const std::string& message) const;
 
     std::size_t mark() const { return position_; }
-    bool was_first(std::string_view word) const { return same_name(tokens_.front().text, word); }
     /// The source from the token at `mark` to the one read last.
     std::string source_since(std::size_t mark) const;
 
@@ -51,11 +62,16 @@ class Reader {
     Time duration(std::string_view what_to_write);
     double percent(std::string_view what_to_write);
     bool starts_duration() const;
+    /// `for 200 ms`; 0 without it.
+    Time lasting();
+    /// Begins at `from` where nothing else is written.
+    Window window(Time from = Time{0});
 
   private:
     std::string_view line_;
     std::vector<Token> tokens_;
     std::size_t position_ = 0;
+    std::size_t time_at_ = 0;  ///< the token with which the time read last began
 };
 
 /// Conditions and events of the language. All functions throw LineMistake.
@@ -69,10 +85,13 @@ class ConditionParser {
     bool level();
     /// An input by its own or the program's name; `use` says what it is wanted for.
     unsigned input(std::string_view use);
-    /// Where the shaft is, in counts, written as counts or revolutions.
+    /// Where the shaft is, in counts.
     std::int64_t place();
-    double counts_per_revolution() const { return registers::scale_of(names_.motor).counts_per_rev; }
+    /// What `per` is followed by, in counts: a revolution, or the machine's unit.
+    double length();
     bool knows(std::string_view word) const { return lookup(word).has_value(); }
+    bool knows_input(std::string_view word) const;
+    const Names& names() const { return names_; }
 
   private:
     Condition either();
@@ -85,13 +104,46 @@ class ConditionParser {
     void operand(Condition& condition);
     void quantity(Condition& condition);
     double step_number();
-    double scaled(double number, Value::Kind kind);
+    struct Measure {
+        double value;  ///< in the value's own steps
+        Unit unit;
+    };
+    Measure measure(std::string_view what, Value::Kind kind);
+    bool take_unit(std::string_view name);
+    [[noreturn]] void refuse_unit(Value::Kind kind);
+    void edge(Event& event);
     std::optional<Value> lookup(std::string_view word) const;
     std::string known_values() const;
 
     Reader& reader_;
     const Names& names_;
     int depth_ = 0;  ///< of parentheses and NOTs
+};
+
+/// What a scenario expects. All functions throw LineMistake.
+class ExpectationParser {
+  public:
+    ExpectationParser(Reader& reader, ConditionParser& conditions)
+        : reader_(reader), conditions_(conditions) {}
+
+    /// `at`: the time that stands before the word.
+    Expectation expectation(std::optional<Time> at);
+
+  private:
+    void held_condition(Expectation& result);
+    void always(Expectation& result, bool never);
+    void all_the_time(Expectation& result);
+    void take_window(Expectation& result);
+    void at_time(Expectation& result);
+    void event_or_condition(Expectation& result);
+    void after_event(Expectation& result);
+    void of_event(Expectation& result);
+    bool starts_count() const;
+    void count(Expectation& result);
+    std::uint64_t number_of_times();
+
+    Reader& reader_;
+    ConditionParser& conditions_;
 };
 
 /// What a scenario can do. All functions throw LineMistake.
@@ -108,7 +160,15 @@ class ActionParser {
         list.push_back({after, std::move(what)});
     }
 
+    /// And what takes it back, where `for TIME` follows.
+    template <class What>
+    void add_for(Actions& list, Time after, What what, What back) {
+        add(list, after, std::move(what));
+        if (const Time span = reader_.lasting(); span != Time{0}) add(list, after + span, std::move(back));
+    }
+
     void action(Actions& list, Time after);
+    action::Cancel cancelled();
     void set_input(Actions& list, Time after);
     void check_known_word();
     void pulse(Actions& list, Time after);

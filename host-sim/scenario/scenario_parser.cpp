@@ -32,45 +32,60 @@ class LineParser {
         if (reader_.take("every")) return every();
         if (reader_.take("when")) return when(false);
         if (reader_.take("once")) return when(true);
-        if (reader_.take("expect")) return expect();
-        if (reader_.is("always") || reader_.is("never")) return expect();
+        if (reader_.is("expect") || reader_.is("always") || reader_.is("never")) return expect();
         if (reader_.take("end")) return end();
+        if (reader_.is("follows", 1)) return follows();
+        if (reader_.is("appears", 1)) return comes(true);
+        if (reader_.is("disappears", 1)) return comes(false);
         scenario_.at.push_back({Time{0}, actions_.actions()});
     }
 
     void at() {
         const Time time = reader_.duration("a time, such as at 100 ms IN0 := 1");
-        if (!reader_.take("expect")) {
+        if (!reader_.is("expect")) {
             scenario_.at.push_back({time, actions_.actions()});
             return;
         }
-        Expectation expectation = begin_expectation();
-        expectation.condition = conditions_.condition();
-        expectation.time = time;
-        add(expectation);
+        expect(time);
     }
 
     void every() {
-        EveryRule rule;
-        rule.period = reader_.duration("a time, such as every 500 ms pulse IN0 50 ms");
-        if (rule.period <= Time{0})
-            throw LineMistake{"a period must be longer than 0; write such as every 500 ms"};
-        rule.from = rule.period;
-        if (reader_.take("from")) rule.from = reader_.duration("a time after from");
-        if (reader_.take("until")) rule.until = reader_.duration("a time after until");
+        EveryRule rule = period("every 500 ms pulse IN0 50 ms");
         rule.actions = actions_.actions();
         scenario_.every.push_back(std::move(rule));
     }
 
+    EveryRule period(std::string_view example) {
+        EveryRule rule;
+        rule.period = reader_.duration(fmt::format("a time, such as {}", example));
+        if (rule.period <= Time{0})
+            reader_.refuse_time(fmt::format("a period must be longer than 0; write such as {}", example));
+        const Window window = reader_.window(rule.period);
+        rule.from = window.from;
+        rule.until = window.until;
+        return rule;
+    }
+
     void when(bool once) {
-        WhenRule rule{.event = conditions_.event(), .once = once, .actions = {}, .line = line_};
+        WhenRule rule = begin_when(once);
         rule.actions = actions_.actions();
         scenario_.when.push_back(std::move(rule));
     }
 
+    WhenRule begin_when(bool once) {
+        WhenRule rule;
+        rule.event = conditions_.event();
+        rule.once = once;
+        rule.line = line_;
+        const Window window = reader_.window();
+        rule.from = window.from;
+        rule.until = window.until;
+        return rule;
+    }
+
     void end() {
         if (reader_.take("when")) {
-            WhenRule rule{.event = conditions_.event(), .once = true, .actions = {}, .line = line_};
+            WhenRule rule = begin_when(true);
             Time after{0};
             if (reader_.take("after")) after = reader_.duration("a time after after");
             rule.actions.push_back({after, action::End{}});
@@ -78,109 +93,63 @@ class LineParser {
             return;
         }
         reader_.want("at", "end at 10 s, or end when step = 3");
-        if (scenario_.end) throw LineMistake{"the scenario has an end already; keep one of the two"};
+        if (scenario_.end) reader_.refuse("the scenario has an end already; keep one of the two");
         scenario_.end = reader_.duration("a time, such as end at 10 s");
     }
 
-    // --- expectations -------------------------------------------------------------------------------------
-
-    Expectation begin_expectation() {
-        Expectation expectation;
-        expectation.line = line_;
-        return expectation;
+    void expect(std::optional<Time> at = {}) {
+        scenario_.expectations.push_back(ExpectationParser(reader_, conditions_).expectation(at));
+        scenario_.expectations.back().line = line_;
     }
 
-    void add(Expectation& expectation) {
-        expectation.text = reader_.source_since(reader_.was_first("expect") ? 1 : 0);
-        scenario_.expectations.push_back(expectation);
-    }
+    // --- the plant ----------------------------------------------------------------------------------------
 
-    void expect() {
-        Expectation expectation = begin_expectation();
-        if (reader_.take("always")) {
-            always(expectation, false);
-        } else if (reader_.take("never")) {
-            always(expectation, true);
-        } else if (reader_.take("eventually")) {
-            expectation.kind = Expectation::Kind::by;
-            expectation.condition = conditions_.condition();
-            if (reader_.take("by")) expectation.time = reader_.duration("a time after by");
-        } else if (reader_.take("at")) {
-            at_time(expectation);
-            expectation.condition = conditions_.condition();
-        } else {
-            expect_event_or_condition(expectation);
+    /// Clamped follows Clamp after 300 ms back after 100 ms
+    void follows() {
+        FollowRule rule;
+        rule.input = conditions_.input("an input, such as IN2 follows OUT0 after 300 ms");
+        rule.line = line_;
+        reader_.next();
+        rule.condition = conditions_.condition();
+        if (reader_.take("after")) rule.after = reader_.duration("a time, such as after 300 ms");
+        rule.back = rule.after;
+        if (reader_.take("back")) {
+            reader_.want("after", "back after and a time, such as back after 100 ms");
+            rule.back = reader_.duration("a time, such as back after 100 ms");
         }
-        add(expectation);
+        const auto same = [&](const FollowRule& other) { return other.input == rule.input; };
+        if (std::any_of(scenario_.follow.begin(), scenario_.follow.end(), same))
+            reader_.refuse("this input follows something already; put both into one condition with and, or");
+        scenario_.follow.push_back(std::move(rule));
     }
 
-    void always(Expectation& expectation, bool never) {
-        expectation.kind = Expectation::Kind::always;
-        expectation.condition = conditions_.condition();
-        if (never) {
-            expectation.condition = {.kind = Condition::Kind::negated,
-                                     .value = {},
-                                     .order = {},
-                                     .parts = {std::move(expectation.condition)}};
-        }
-        if (reader_.take("from")) expectation.from = reader_.duration("a time after from");
-        if (reader_.take("until")) expectation.time = reader_.duration("a time after until");
-    }
-
-    void at_time(Expectation& expectation) {
-        if (!reader_.take("end"))
-            expectation.time = reader_.duration("a time or end, such as expect at 3 s step = 0");
-    }
-
-    void expect_event_or_condition(Expectation& expectation) {
-        Event event = conditions_.event();
-        if (event.edge != Event::Edge::true_now) {
-            expectation.event = std::move(event);
-            count(expectation);
+    /// Part appears every 2 s, Part appears for 100 ms 300 ms after Feed rises, Part appears at 2 s
+    void comes(bool level) {
+        const unsigned input = conditions_.input("an input, such as IN2 appears every 2 s");
+        reader_.next();
+        const Actions actions = levels(input, level, reader_.lasting());
+        if (reader_.take("every")) {
+            EveryRule rule = period("IN2 appears every 2 s");
+            rule.actions = actions;
+            scenario_.every.push_back(std::move(rule));
             return;
         }
-        expectation.condition = std::move(event.condition);
         if (reader_.take("at")) {
-            at_time(expectation);
-        } else if (reader_.take("by")) {
-            expectation.kind = Expectation::Kind::by;
-            expectation.time = reader_.duration("a time after by");
-        } else if (reader_.take("within")) {
-            expectation.kind = Expectation::Kind::within;
-            after_event(expectation);
-        } else if (reader_.starts_duration()) {
-            expectation.kind = Expectation::Kind::after;
-            after_event(expectation);
+            scenario_.at.push_back({reader_.duration("a time, such as IN2 appears at 2 s"), actions});
+            return;
         }
+        Time delay{0};
+        if (reader_.starts_duration()) delay = reader_.duration("a time");
+        reader_.want("after", "every 2 s, at 2 s, or 300 ms after and what happens");
+        WhenRule rule = begin_when(false);
+        for (const Action& action : actions) rule.actions.push_back({delay + action.after, action.what});
+        scenario_.when.push_back(std::move(rule));
     }
 
-    void after_event(Expectation& expectation) {
-        expectation.span = reader_.duration("a time, such as within 200 ms after IN0 rises");
-        reader_.want("after", "after and what happens, such as within 200 ms after IN0 rises");
-        expectation.event = conditions_.event();
-    }
-
-    void count(Expectation& expectation) {
-        expectation.kind = Expectation::Kind::count;
-        if (reader_.take("at")) {
-            const bool least = reader_.take("least");
-            if (!least) reader_.want("most", "at least 3 times, or at most 3 times");
-            const std::uint64_t times = number_of_times();
-            (least ? expectation.least : expectation.most) = times;
-            if (!least) expectation.least = 0;
-        } else if (reader_.peek().kind == Token::Kind::number) {
-            expectation.least = expectation.most = number_of_times();
-        }
-        if (reader_.take("by")) expectation.time = reader_.duration("a time after by");
-    }
-
-    std::uint64_t number_of_times() {
-        const double number = reader_.number("a number of times");
-        if (number < 0 || number != static_cast<double>(static_cast<std::uint32_t>(number))) {
-            throw LineMistake{"a number of times is a whole number, such as 3 times"};
-        }
-        if (!reader_.take("times")) reader_.want("time", "times, such as 3 times");
-        return static_cast<std::uint64_t>(number);
+    static Actions levels(unsigned input, bool level, Time span) {
+        Actions actions{{Time{0}, action::SetInput{input, level}}};
+        if (span != Time{0}) actions.push_back({span, action::SetInput{input, !level}});
+        return actions;
     }
 
     Reader reader_;
@@ -194,12 +163,20 @@ void check_expectation_times(ParsedScenario& parsed) {
     const Scenario& scenario = parsed.scenario;
     if (!scenario.end) return;
     for (const Expectation& expectation : scenario.expectations) {
-        if (!expectation.time || *expectation.time <= *scenario.end) continue;
+        const Time latest = expectation.time.value_or(expectation.from);
+        if (latest <= *scenario.end) continue;
         parsed.mistakes.push_back(
-            {expectation.line, fmt::format("this looks at {}, but the scenario ends at {}; move one "
-                                           "of the two",
-                                           in_words(*expectation.time), in_words(*scenario.end))});
+            {.line = expectation.line,
+             .message = fmt::format("this looks at {}, but the scenario ends at {}; move one of the two",
+                                    in_words(latest), in_words(*scenario.end))});
     }
+}
+
+/// From 1, in characters.
+int column_of(std::string_view line, std::size_t byte) {
+    const std::string_view before = line.substr(0, std::min(byte, line.size()));
+    const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
+    return 1 + static_cast<int>(std::count_if(before.begin(), before.end(), begins));
 }
 
 bool has_end(const Actions& actions) {
@@ -218,6 +195,10 @@ bool Scenario::can_end() const {
     return end || any_ends(at) || any_ends(every) || any_ends(when);
 }
 
+std::string Mistake::place() const {
+    return column == 0 ? fmt::format("{}", line) : fmt::format("{}:{}", line, column);
+}
+
 ParsedScenario parse_scenario(std::string_view text, const std::string& file, const Names& names) {
     ParsedScenario parsed;
     parsed.scenario.file = file;
@@ -225,15 +206,16 @@ ParsedScenario parse_scenario(std::string_view text, const std::string& file, co
     int number = 0;
     while (!text.empty()) {
         const auto length = std::min(text.find('\n'), text.size());
+        const std::string_view line = text.substr(0, length);
         ++number;
         try {
             if (length > kLongestLine) {
                 throw LineMistake{
                     fmt::format("the line is longer than {} characters; write several", kLongestLine)};
             }
-            LineParser(text.substr(0, length), number, names, parsed.scenario).parse();
+            LineParser(line, number, names, parsed.scenario).parse();
         } catch (const LineMistake& mistake) {
-            parsed.mistakes.push_back({number, mistake.message});
+            parsed.mistakes.push_back({number, column_of(line, mistake.at), mistake.message});
         }
         text.remove_prefix(std::min(length + 1, text.size()));
     }

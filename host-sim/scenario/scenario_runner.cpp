@@ -9,29 +9,60 @@ namespace {
 
 constexpr int kMostRoundsAtOnce = 100;
 
-void earliest(std::optional<Time>& best, Time candidate, Time after) {
-    if (candidate > after && (!best || candidate < *best)) best = candidate;
+void earliest(std::optional<Time>& best, std::optional<Time> candidate, Time after) {
+    if (candidate && *candidate > after && (!best || *candidate < *best)) best = candidate;
+}
+
+/// What `cancel` names an action by.
+struct KindOfAction {
+    using What = action::Cancel::What;
+    What operator()(const action::SetInput&) const { return What::input; }
+    What operator()(const action::ToggleInput&) const { return What::input; }
+    What operator()(const action::Cancel&) const { return What::all; }
+    What operator()(const action::CutLine&) const { return What::line; }
+    What operator()(const action::SpoilLine&) const { return What::line; }
+    What operator()(const action::Seed&) const { return What::line; }
+    What operator()(const action::Gateway&) const { return What::gateway; }
+    What operator()(const action::Log&) const { return What::log; }
+    What operator()(const action::End&) const { return What::end; }
+    template <class Motor>
+    What operator()(const Motor&) const {
+        return What::motor;
+    }
+};
+
+bool is_dropped(const Action& action, const action::Cancel& by) {
+    using What = action::Cancel::What;
+    const What kind = std::visit(KindOfAction{}, action.what);
+    if (by.what == What::all) return kind != What::end;
+    if (kind != by.what) return false;
+    if (const auto* set = std::get_if<action::SetInput>(&action.what)) return set->index == by.index;
+    if (const auto* toggle = std::get_if<action::ToggleInput>(&action.what)) return toggle->index == by.index;
+    return true;
 }
 
 }  // namespace
 
 ScenarioRunner::ScenarioRunner(const Scenario& scenario, const Names& names, Stage& stage)
     : scenario_(scenario), names_(names), stage_(stage) {
-    for (const AtRule& rule : scenario_.at) plan(rule.actions, rule.time, 0);
+    for (const AtRule& rule : scenario_.at) plan(rule.actions, rule.time, 0, false);
+    followed_.resize(scenario_.follow.size());
     for (const EveryRule& rule : scenario_.every) every_next_.push_back(rule.from);
     for (const WhenRule& rule : scenario_.when) watches_.push_back({EventWatch(rule.event)});
     for (const Expectation& expectation : scenario_.expectations) judgements_.emplace_back(expectation);
 }
 
-void ScenarioRunner::plan(const Actions& actions, Time now, int line) {
-    for (const Action& action : actions) planned_.emplace(now + action.after, Planned{&action, line});
+void ScenarioRunner::plan(const Actions& actions, Time now, int line, bool by_rule) {
+    ++batches_;
+    for (const Action& action : actions)
+        planned_.emplace(now + action.after, Planned{&action, line, by_rule, batches_});
 }
 
 void ScenarioRunner::plan_every(Time now) {
     for (std::size_t i = 0; i < scenario_.every.size(); ++i) {
         const EveryRule& rule = scenario_.every[i];
         while (every_next_[i] <= now && (!rule.until || every_next_[i] <= *rule.until)) {
-            plan(rule.actions, every_next_[i], 0);
+            plan(rule.actions, every_next_[i], 0, true);
             every_next_[i] += rule.period;
         }
     }
@@ -41,9 +72,15 @@ std::optional<Time> ScenarioRunner::next_due() const {
     std::optional<Time> best;
     if (!planned_.empty()) best = planned_.begin()->first;
     for (const Time time : every_next_) earliest(best, time, last_shown_);
+    for (const Watched& watched : watches_) earliest(best, watched.watch.due(), last_shown_);
+    for (const Followed& followed : followed_) earliest(best, followed.due, last_shown_);
     for (const Judgement& judgement : judgements_) {
         if (judgement.decided) continue;
-        if (judgement.expectation->time) earliest(best, *judgement.expectation->time, last_shown_);
+        const Expectation& wanted = *judgement.expectation;
+        earliest(best, wanted.time, last_shown_);
+        earliest(best, wanted.from, last_shown_);
+        earliest(best, judgement.watch.due(), last_shown_);
+        if (judgement.since) earliest(best, *judgement.since + wanted.hold, last_shown_);
         for (const Time deadline : judgement.deadlines) earliest(best, deadline, last_shown_);
     }
     if (scenario_.end) earliest(best, *scenario_.end, last_shown_);
@@ -59,12 +96,47 @@ bool ScenarioRunner::observe(const Snapshot& snapshot) {
     for (std::size_t i = 0; i < watches_.size(); ++i) {
         const WhenRule& rule = scenario_.when[i];
         if (!watches_[i].watch.happens(snapshot, names_) || watches_[i].done) continue;
+        if (now < rule.from || (rule.until && now > *rule.until)) continue;
         watches_[i].done = rule.once;
-        plan(rule.actions, now, rule.line);
+        plan(rule.actions, now, rule.line, true);
     }
+    const bool followed = follow(snapshot);
     const bool acted = act(now);
     if (scenario_.end && now >= *scenario_.end) ended_ = true;
-    return acted;
+    return followed || acted;
+}
+
+/// At the beginning an input is where its condition has it.
+bool ScenarioRunner::follow(const Snapshot& snapshot) {
+    bool any = false;
+    for (std::size_t i = 0; i < followed_.size(); ++i) {
+        const FollowRule& rule = scenario_.follow[i];
+        Followed& followed = followed_[i];
+        const bool wanted = rule.condition.holds(snapshot, names_);
+        if (followed.wanted != wanted) {
+            const Time delay = !followed.wanted ? Time{0} : wanted ? rule.after : rule.back;
+            followed = {wanted, snapshot.time + delay};
+        }
+        if (!followed.due || *followed.due > snapshot.time) continue;
+        followed.due.reset();
+        if ((snapshot.inputs >> rule.input & 1) == (wanted ? 1 : 0)) continue;
+        guard_against_loops(snapshot.time, rule.line);
+        stage_.set_input(rule.input, wanted);
+        any = true;
+    }
+    return any;
+}
+
+void ScenarioRunner::cancel(const action::Cancel& what, std::uint64_t batch) {
+    std::erase_if(planned_, [&](const auto& entry) {
+        const Planned& planned = entry.second;
+        return planned.by_rule && planned.batch < batch && is_dropped(*planned.action, what);
+    });
+    using What = action::Cancel::What;
+    for (std::size_t i = 0; i < followed_.size(); ++i) {
+        if (what.what == What::all || (what.what == What::input && what.index == scenario_.follow[i].input))
+            followed_[i].due.reset();
+    }
 }
 
 void ScenarioRunner::guard_against_loops(Time now, int line) {
@@ -81,17 +153,19 @@ bool ScenarioRunner::act(Time now) {
         const Planned planned = planned_.begin()->second;
         planned_.erase(planned_.begin());
         if (planned.line != 0) guard_against_loops(now, planned.line);
-        perform(*planned.action);
+        perform(planned);
         acted = true;
     }
     return acted;
 }
 
-void ScenarioRunner::perform(const Action& action) {
+void ScenarioRunner::perform(const Planned& planned) {
     struct Performer {
         ScenarioRunner& self;
+        std::uint64_t batch;
         void operator()(const action::SetInput& a) const { self.stage_.set_input(a.index, a.level); }
         void operator()(const action::ToggleInput& a) const { self.stage_.toggle_input(a.index); }
+        void operator()(const action::Cancel& a) const { self.cancel(a, batch); }
         void operator()(const action::CutLine& a) const { self.stage_.cut_line(a.cut); }
         void operator()(const action::SpoilLine& a) const { self.stage_.spoil_line(a); }
         void operator()(const action::Seed& a) const { self.stage_.seed(a.value); }
@@ -111,7 +185,7 @@ void ScenarioRunner::perform(const Action& action) {
         void operator()(const action::Log& a) const { self.stage_.log(a.text); }
         void operator()(const action::End&) const { self.ended_ = true; }
     };
-    std::visit(Performer{*this}, action.what);
+    std::visit(Performer{*this, planned.batch}, planned.action->what);
 }
 
 void ScenarioRunner::finish(const Snapshot& snapshot) {
@@ -149,21 +223,40 @@ void ScenarioRunner::judge(Judgement& judgement, const Snapshot& snapshot) {
         case Expectation::Kind::within:
         case Expectation::Kind::after:
             return judge_after_event(judgement, snapshot);
+        case Expectation::Kind::during:
+            return judge_during(judgement, snapshot);
         case Expectation::Kind::count:
             return judge_count(judgement, snapshot);
     }
 }
 
+bool ScenarioRunner::holds(Judgement& judgement, const Snapshot& snapshot) const {
+    const Expectation& wanted = *judgement.expectation;
+    if (!wanted.condition.holds(snapshot, names_)) {
+        judgement.since.reset();
+        return false;
+    }
+    if (!judgement.since) judgement.since = snapshot.time;
+    return snapshot.time - *judgement.since >= wanted.hold;
+}
+
+/// In its window.
+bool ScenarioRunner::event_happens(Judgement& judgement, const Snapshot& snapshot) const {
+    const Expectation& wanted = *judgement.expectation;
+    return judgement.watch.happens(snapshot, names_) && snapshot.time >= wanted.from &&
+           !(wanted.time && snapshot.time > *wanted.time);
+}
+
 void ScenarioRunner::judge_at(Judgement& judgement, const Snapshot& snapshot) {
     const Expectation& wanted = *judgement.expectation;
+    const bool good = holds(judgement, snapshot);
     if (!wanted.time || snapshot.time < *wanted.time) return;
-    decide(judgement, wanted.condition.holds(snapshot, names_), snapshot.time,
-           seen_at(wanted.condition, snapshot));
+    decide(judgement, good, snapshot.time, seen_at(wanted.condition, snapshot));
 }
 
 void ScenarioRunner::judge_by(Judgement& judgement, const Snapshot& snapshot) {
     const Expectation& wanted = *judgement.expectation;
-    if (wanted.condition.holds(snapshot, names_)) return decide(judgement, true, snapshot.time);
+    if (holds(judgement, snapshot)) return decide(judgement, true, snapshot.time);
     if (!wanted.time || snapshot.time < *wanted.time) return;
     decide(judgement, false, snapshot.time, "never until then; " + seen_at(wanted.condition, snapshot));
 }
@@ -179,13 +272,13 @@ void ScenarioRunner::judge_always(Judgement& judgement, const Snapshot& snapshot
 
 void ScenarioRunner::judge_after_event(Judgement& judgement, const Snapshot& snapshot) {
     const Expectation& wanted = *judgement.expectation;
-    if (judgement.watch.happens(snapshot, names_)) {
+    const bool good = holds(judgement, snapshot);
+    if (event_happens(judgement, snapshot)) {
         ++judgement.events;
         judgement.deadlines.push_back(snapshot.time + wanted.span);
     }
     if (judgement.deadlines.empty()) return;
-    const bool holds = wanted.condition.holds(snapshot, names_);
-    if (holds && wanted.kind == Expectation::Kind::within) {
+    if (good && wanted.kind == Expectation::Kind::within) {
         judgement.fulfilled += judgement.deadlines.size();
         judgement.deadlines.clear();
         return;
@@ -193,7 +286,7 @@ void ScenarioRunner::judge_after_event(Judgement& judgement, const Snapshot& sna
     const auto due = std::find_if(judgement.deadlines.begin(), judgement.deadlines.end(),
                                   [&](Time deadline) { return deadline <= snapshot.time; });
     if (due == judgement.deadlines.end()) return;
-    if (!holds) {
+    if (!good) {
         const Time event_time = *due - wanted.span;
         return decide(judgement, false, snapshot.time,
                       fmt::format("{}, {} after {} ({} ms)", seen_at(wanted.condition, snapshot),
@@ -203,10 +296,27 @@ void ScenarioRunner::judge_after_event(Judgement& judgement, const Snapshot& sna
     judgement.deadlines.erase(due);
 }
 
+void ScenarioRunner::judge_during(Judgement& judgement, const Snapshot& snapshot) {
+    const Expectation& wanted = *judgement.expectation;
+    if (event_happens(judgement, snapshot)) {
+        ++judgement.events;
+        judgement.deadlines.push_back(snapshot.time + wanted.span);
+    }
+    if (!judgement.deadlines.empty() && !wanted.condition.holds(snapshot, names_)) {
+        const Time event_time = judgement.deadlines.front() - wanted.span;
+        return decide(judgement, false, snapshot.time,
+                      fmt::format("{}, {} after {} ({} ms)", seen_at(wanted.condition, snapshot),
+                                  in_words(snapshot.time - event_time), wanted.event.text,
+                                  in_milliseconds(event_time)));
+    }
+    judgement.fulfilled +=
+        std::erase_if(judgement.deadlines, [&](Time deadline) { return deadline <= snapshot.time; });
+}
+
 void ScenarioRunner::judge_count(Judgement& judgement, const Snapshot& snapshot) {
     const Expectation& wanted = *judgement.expectation;
     if (wanted.time && snapshot.time > *wanted.time) return judge_at_end(judgement, snapshot);
-    if (judgement.watch.happens(snapshot, names_)) ++judgement.events;
+    if (event_happens(judgement, snapshot)) ++judgement.events;
     if (judgement.events > wanted.most) {
         decide(judgement, false, snapshot.time,
                fmt::format("at {} ms it happened for the {}. time", in_milliseconds(snapshot.time),
@@ -221,7 +331,7 @@ void ScenarioRunner::judge_at_end(Judgement& judgement, const Snapshot& snapshot
     switch (wanted.kind) {
         case Expectation::Kind::at:
             if (too_early) return decide(judgement, false, snapshot.time, end + ", before that time");
-            return decide(judgement, wanted.condition.holds(snapshot, names_), snapshot.time,
+            return decide(judgement, holds(judgement, snapshot), snapshot.time,
                           seen_at(wanted.condition, snapshot));
         case Expectation::Kind::by:
             return decide(judgement, false, snapshot.time, "never; " + seen_at(wanted.condition, snapshot));
@@ -232,6 +342,7 @@ void ScenarioRunner::judge_at_end(Judgement& judgement, const Snapshot& snapshot
             return decide(judgement, true, snapshot.time);
         case Expectation::Kind::within:
         case Expectation::Kind::after:
+        case Expectation::Kind::during:
             if (judgement.events == 0) {
                 return decide(judgement, false, snapshot.time, wanted.event.text + " never happened; " + end);
             }

@@ -9,8 +9,8 @@
 namespace nplc::sim {
 namespace {
 
-constexpr std::array<std::string_view, 13> kSymbols{":=", "<=", ">=", "<>", "+-", "=", "<",
-                                                    ">",  "(",  ")",  ",",  "%",  "-"};
+constexpr std::array<std::string_view, 14> kSymbols{":=", "<=", ">=", "<>", "+-", "=", "<",
+                                                    ">",  "(",  ")",  ",",  "%",  "-", "/"};
 
 bool is_word_start(char c) {
     return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
@@ -47,7 +47,7 @@ Token number_at(std::string_view rest, std::size_t begin) {
     if (const std::size_t hex = length_of_hex(rest); hex != 0) {
         std::uint32_t value = 0;
         const auto [stop, error] = std::from_chars(rest.data() + 3, rest.data() + hex, value, 16);
-        if (error != std::errc{}) throw LineMistake{"this hexadecimal number does not fit in 32 bits"};
+        if (error != std::errc{}) throw LineMistake{"this hexadecimal number does not fit in 32 bits", begin};
         token.text = rest.substr(0, hex);
         token.number = value;
     } else {
@@ -55,7 +55,7 @@ Token number_at(std::string_view rest, std::size_t begin) {
         const auto value = parse_decimal(token.text);
         if (!value)
             throw LineMistake{
-                fmt::format("\"{}\" is not a number; write digits such as 250 or 1.5", token.text)};
+                fmt::format("\"{}\" is not a number; write digits such as 250 or 1.5", token.text), begin};
         token.number = *value;
     }
     token.end = begin + token.text.size();
@@ -64,7 +64,7 @@ Token number_at(std::string_view rest, std::size_t begin) {
 
 Token text_at(std::string_view rest, std::size_t begin) {
     const auto close = rest.find('"', 1);
-    if (close == std::string_view::npos) throw LineMistake{"the text is not closed; end it with \""};
+    if (close == std::string_view::npos) throw LineMistake{"the text is not closed; end it with \"", begin};
     return {.kind = Token::Kind::text,
             .text = rest.substr(1, close - 1),
             .begin = begin,
@@ -78,8 +78,8 @@ Token word_at(std::string_view rest, std::size_t begin) {
 }
 
 Token symbol_at(std::string_view rest, std::size_t begin) {
-    if (rest.starts_with("==")) throw LineMistake{"\"==\" is not known here; write = to compare"};
-    if (rest.starts_with("!=")) throw LineMistake{"\"!=\" is not known here; write <> for unequal"};
+    if (rest.starts_with("==")) throw LineMistake{"\"==\" is not known here; write = to compare", begin};
+    if (rest.starts_with("!=")) throw LineMistake{"\"!=\" is not known here; write <> for unequal", begin};
     for (const std::string_view symbol : kSymbols) {
         if (!rest.starts_with(symbol)) continue;
         return {.kind = Token::Kind::symbol, .text = symbol, .begin = begin, .end = begin + symbol.size()};
@@ -87,7 +87,8 @@ Token symbol_at(std::string_view rest, std::size_t begin) {
     const auto c = static_cast<unsigned char>(rest.front());
     const std::string shown =
         c > ' ' && c < 127 ? fmt::format("\"{}\"", rest.front()) : fmt::format("byte {:02X}h", c);
-    throw LineMistake{fmt::format("{} has no meaning here; remove it (comments begin with # or //)", shown)};
+    throw LineMistake{fmt::format("{} has no meaning here; remove it (comments begin with # or //)", shown),
+                      begin};
 }
 
 }  // namespace
@@ -146,7 +147,19 @@ void Reader::want(std::string_view word_or_symbol, std::string_view what_to_writ
 void Reader::fail(std::string_view what_to_write) const {
     const std::string found =
         at_end() ? "the line ends too early" : fmt::format("\"{}\" is out of place", peek().text);
-    throw LineMistake{fmt::format("{}; write {}", found, what_to_write)};
+    refuse_next(fmt::format("{}; write {}", found, what_to_write));
+}
+
+void Reader::refuse(const std::string& message) const {
+    throw LineMistake{message, tokens_[position_ == 0 ? 0 : position_ - 1].begin};
+}
+
+void Reader::refuse_time(const std::string& message) const {
+    throw LineMistake{message, tokens_[time_at_].begin};
+}
+
+void Reader::refuse_next(const std::string& message) const {
+    throw LineMistake{message, peek().begin};
 }
 
 std::string Reader::source_since(std::size_t mark) const {
@@ -166,15 +179,34 @@ bool Reader::starts_duration() const {
            to_duration(peek().number, peek(1).text).has_value();
 }
 
+Time Reader::lasting() {
+    if (!take("for")) return Time{0};
+    const Time time = duration("a time after for, such as for 200 ms");
+    if (time <= Time{0}) refuse_time("what lasts takes longer than 0; write such as for 200 ms");
+    return time;
+}
+
+Window Reader::window(Time from) {
+    Window window{.from = from, .until = {}};
+    if (take("from")) window.from = duration("a time after from");
+    if (!take("until")) return window;
+    window.until = duration("a time after until");
+    if (*window.until < window.from)
+        refuse_time(fmt::format("this ends at {}, before it begins at {}; write the earlier time first",
+                                in_words(*window.until), in_words(window.from)));
+    return window;
+}
+
 Time Reader::duration(std::string_view what_to_write) {
+    time_at_ = position_;
     if (peek().kind != Token::Kind::number) fail(what_to_write);
     const double value = peek().number;
     const Token& unit = peek(1);
     const auto time = to_duration(value, unit.kind == Token::Kind::word ? unit.text : "");
     if (!time) {
-        throw LineMistake{
+        refuse_next(
             fmt::format("\"{}{}{}\" is not a time; write a number with us, ms, s or min, such as 250 ms",
-                        peek().text, unit.text.empty() ? "" : " ", unit.text)};
+                        peek().text, unit.text.empty() ? "" : " ", unit.text));
     }
     next();
     next();
@@ -185,7 +217,7 @@ double Reader::percent(std::string_view what_to_write) {
     if (peek().kind != Token::Kind::number) fail(what_to_write);
     const double value = next().number;
     want("%", "a share with its sign, such as 1 %");
-    if (value > 100) throw LineMistake{"a share is 0 % to 100 %"};
+    if (value > 100) refuse("a share is 0 % to 100 %");
     return value / 100;
 }
 

@@ -198,14 +198,14 @@ class Run(Case):
 
     def test_mistakes_in_scenarios(self):
         bad = {
-            "end at 1 s\nat 5 IN0 := 1\n": "s.scn:2: \"5 IN0\" is not a time",
-            "end at 1 s\nexpect step = Idle\n": "s.scn:2: \"Idle\": this program has no step names",
+            "end at 1 s\nat 5 IN0 := 1\n": "s.scn:2:4: \"5 IN0\" is not a time",
+            "end at 1 s\nexpect step = Idle\n": "s.scn:2:15: \"Idle\": this program has no step names",
             "at 1 s IN0 := 1\n": "s.scn: the scenario has no end",
             "end at 1 s\nwhen IN0 rises IN0 := 0\nwhen not IN0 IN0 := 1\n": "",
             "foo\nbar\nbaz\n": "(and 2 more mistakes in this file)",
             "\x00\xff\n": "s.scn:1:",
-            "end at 1 s\nexpect " + "(" * 10000 + "IN0" + ")" * 10000 + "\n": "s.scn:2: parentheses and NOTs are more",
-            "expect " + "not " * 40000 + "IN0\n": "s.scn:1: parentheses and NOTs are more",
+            "end at 1 s\nexpect " + "(" * 10000 + "IN0" + ")" * 10000 + "\n": "s.scn:2:108: parentheses and NOTs are more",
+            "expect " + "not " * 40000 + "IN0\n": "s.scn:1:408: parentheses and NOTs are more",
         }
         for content, says in bad.items():
             with self.subTest(content):

@@ -99,7 +99,7 @@ class Names(Case):
     def test_symbols_by_name(self):
         self.build("-o", "t.bin", "--symbols", "names.json")
         self.assertFalse(os.path.exists(self.path("t.sym")))
-        self.refused("t.bin", says="blink.scn:1: ")
+        self.refused("t.bin", says="blink.scn:1:17: ")
         self.runs("t.bin", "--symbols", "names.json")
         self.refused("t.bin", "--symbols", "no.sym", says="no.sym: cannot be opened")
         self.refused("t.bin", "--symbols", "blink.scn", says="blink.scn: this is not JSON, from line 1, column 1 on")

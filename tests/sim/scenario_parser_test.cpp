@@ -11,6 +11,7 @@ Names program_names() {
     Names names;
     names.inputs = {"Start", "Guard", "", "", "", ""};
     names.outputs = {"Grip", "", "", "Lamp"};
+    names.machine = {"mm", 5};
     names.steps = {{0, "POWER_UP"}, {1, "Idle"}, {2, "Travel"}};
     return names;
 }
@@ -65,6 +66,29 @@ TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
         expect at 3 s step = Idle
         at 3 s expect step = 1
         expect P_IST = 49152 +- 2 counts
+        expect P_IST = 60 mm +- 0.1 mm
+        expect V_IST = 125 mm/s +- 1 mm/s at 2 s
+        expect V_IST < 25 rev / s and V_IST < 7500 mm/min and TORQUE < 30 %
+        when Start rises and not Guard IN2 := 1
+        when Start rises and (Guard or IN4) for 200 ms from 1 s until 2 s IN2 := 1 for 1 s, cancel Start
+        once step = Travel for 3 s cancel all
+        end when Lamp for 1 s
+        when Grip falls cancel motor, cancel line, cancel gateway, cancel log, cancel end
+        IN3 follows Grip after 300 ms back after 100 ms
+        IN4 follows not Grip and step = Travel
+        IN5 appears for 100 ms every 2 s from 1 s until 9 s
+        IN5 appears for 100 ms 300 ms after Grip rises from 1 s
+        IN5 disappears after Lamp rises
+        IN5 appears at 3 s
+        line cut for 200 ms
+        expect Grip from 2 s until 5 s
+        expect Grip for 200 ms at 3 s
+        expect Grip for 200 ms by 5 s
+        expect Grip for 200 ms within 1 s after Start rises from 1 s
+        expect Grip for 200 ms after Start rises and Guard
+        expect Grip for 200 ms 2 times from 1 s until 5 s
+        at 3 s expect Grip for 20 ms
+        motor stop above 110 mm spring 200 per mm
         expect V_IST = 1500 rpm +- 20 rpm at 2 s
         expect at end Lamp
         expect OUT1 = 1 within 200 ms after IN0 rises
@@ -81,9 +105,10 @@ TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
         end at 10 s
     )scn");
     for (const Mistake& found : parsed.mistakes) ADD_FAILURE() << found.line << ": " << found.message;
-    EXPECT_EQ(parsed.scenario.expectations.size(), 16U);
-    EXPECT_EQ(parsed.scenario.when.size(), 7U);
-    EXPECT_EQ(parsed.scenario.every.size(), 2U);
+    EXPECT_EQ(parsed.scenario.expectations.size(), 26U);
+    EXPECT_EQ(parsed.scenario.when.size(), 14U);
+    EXPECT_EQ(parsed.scenario.every.size(), 3U);
+    EXPECT_EQ(parsed.scenario.follow.size(), 2U);
     EXPECT_EQ(parsed.scenario.end, Time(10s));
     EXPECT_TRUE(parsed.scenario.can_end());
 }
@@ -105,6 +130,93 @@ TEST(ScenarioParser, UnitsBecomeCounts) {
     EXPECT_EQ(parsed.scenario.expectations[0].condition.tolerance, 2048);
     // 1500 / 60 rev/s x 4096 counts / 520.8333 samples/s = 196.608
     EXPECT_NEAR(parsed.scenario.expectations[1].condition.operand, 196.608, 1e-9);
+}
+
+// 1 rev = 5 mm: 80 mm are 16 revolutions of 4096 counts, 0.1 mm 81.92 counts; 125 mm/s are 25 revolutions a
+// second, 25 x 4096 / 520.8333 = 196.608 counts a sample, and so are 7500 mm/min. 30 % of 1023 are 306.9.
+TEST(ScenarioParser, UnitsOfTheMachineBecomeCounts) {
+    const auto condition = [](const std::string& text) {
+        const ParsedScenario parsed = parse("expect " + text);
+        EXPECT_TRUE(parsed.mistakes.empty()) << text;
+        return parsed.scenario.expectations.at(0).condition;
+    };
+    EXPECT_EQ(condition("P_IST = 80 mm +- 0.1 mm").operand, 65'536);
+    EXPECT_NEAR(condition("P_IST = 80 mm +- 0.1 mm").tolerance, 81.92, 1e-9);
+    EXPECT_EQ(condition("SHAFT > -5 mm").operand, -4096);
+    EXPECT_NEAR(condition("V_IST < 125 mm/s").operand, 196.608, 1e-9);
+    EXPECT_NEAR(condition("V_IST < 7500 mm/min").operand, 196.608, 1e-9);
+    EXPECT_NEAR(condition("V_IST < 25 rev/s").operand, 196.608, 1e-9);
+    EXPECT_NEAR(condition("TORQUE < 30 %").operand, 306.9, 1e-9);
+    const auto stop = parse("motor stop above 110 mm spring 200 per mm");  // 90112 counts; 819.2 counts a mm
+    const auto& action = std::get<action::StopMotor>(stop.scenario.at.at(0).actions.at(0).what);
+    EXPECT_EQ(action.counts, 90'112);
+    EXPECT_NEAR(action.torque_per_count, 200 / 819.2, 1e-12);
+}
+
+/// `column: message` of the one mistake of a line.
+std::string at_column(const std::string& line) {
+    const ParsedScenario parsed = parse(line);
+    if (parsed.mistakes.size() != 1) return "(no mistake)";
+    return std::to_string(parsed.mistakes[0].column) + ": " + parsed.mistakes[0].message;
+}
+
+TEST(ScenarioParser, MistakesHaveColumns) {
+    EXPECT_EQ(at_column("at 5 IN0 := 1"),
+              "4: \"5 IN0\" is not a time; write a number with us, ms, s or min, such as 250 ms");
+    EXPECT_EQ(at_column("  at 5 s Start := 2"), "19: \"2\" is out of place; write 0 or 1");
+    EXPECT_EQ(at_column("expect Grip and Lamp ="), "23: the line ends too early; write 0 or 1");
+    EXPECT_EQ(at_column("log \"\u00fcber\", foo := 1").substr(0, 3), "13:") << "characters, not bytes";
+    EXPECT_EQ(at_column("motor load 99999"),
+              "12: a load is a whole number -10000 to 10000, 1023 being the motor's full torque");
+    EXPECT_EQ(at_column("expect Grip < 1"), "13: a signal is 0 or 1; compare it with = or <>");
+    EXPECT_EQ(at_column("expect Grip ; Lamp"),
+              "13: \";\" has no meaning here; remove it (comments begin with # or //)");
+    EXPECT_EQ(parse("at x").mistakes[0].place(), "1:4");
+    EXPECT_EQ(parse("expect at 12 s Grip\nend at 10 s").mistakes[0].place(), "1");
+}
+
+TEST(ScenarioParser, MistakesInUnits) {
+    EXPECT_EQ(at_column("expect P_IST = 80 rpm"), "19: \"rpm\" is no unit of P_IST; write counts, rev or mm");
+    EXPECT_EQ(at_column("expect V_IST = 80 mm"),
+              "19: \"mm\" is no unit of V_IST; write counts, rpm, rev/s, mm/s or mm/min");
+    EXPECT_EQ(at_column("expect P_IST = 80 mm/s"),
+              "19: \"mm/s\" is no unit of P_IST; write counts, rev or mm");
+    EXPECT_EQ(at_column("expect P_IST = 80 mm +- 0.1"),
+              "25: the tolerance has no unit; write mm behind it, or counts, rev or mm");
+    EXPECT_EQ(at_column("expect COUNTER = 5 mm"), "20: COUNTER has no unit; write the number alone");
+    EXPECT_EQ(at_column("expect TORQUE = 5 Nm"), "19: \"Nm\" is no unit of TORQUE; write %");
+    const auto scaleless = parse_scenario("motor stop above 80 mm", "x.scn", Names{});
+    ASSERT_EQ(scaleless.mistakes.size(), 1U);
+    EXPECT_EQ(scaleless.mistakes[0].message,
+              "\"mm\" is no unit of SHAFT; write counts or rev; SCALE 1 rev = 5 mm; in the program adds mm");
+    EXPECT_EQ(at_column("motor stop above 3 rev spring 20 per cm"),
+              "38: \"cm\" is out of place; write per rev or per mm");
+}
+
+TEST(ScenarioParser, MistakesInTimesAndThePlant) {
+    EXPECT_EQ(at_column("when Grip from 5 s until 2 s IN2 := 1"),
+              "26: this ends at 2 s, before it begins at 5 s; write the earlier time first");
+    EXPECT_EQ(at_column("when Grip for 0 s IN2 := 1"),
+              "15: what lasts takes longer than 0; write such as for 200 ms");
+    EXPECT_EQ(at_column("when step changes for 1 s IN2 := 1"),
+              "25: a change or an order is a moment and does not last; remove for and its time");
+    EXPECT_EQ(at_column("expect Grip for 1 s from 2 s"),
+              "21: this has for and from or until; write one of them, or by and a time");
+    EXPECT_EQ(at_column("when Grip cancel Lamp"),
+              "18: Lamp is an output: the sequence sets it, a scenario can only watch it; name an input");
+    EXPECT_EQ(
+        at_column("when Grip cancel"),
+        "17: the line ends too early; write an input, motor, line, gateway, log, end or all after cancel");
+    EXPECT_EQ(at_column("Grip follows Start"),
+              "1: Grip is an output: the sequence sets it, a scenario can only watch it; name an input");
+    EXPECT_EQ(at_column("IN3 follows Grip back 100 ms"),
+              "23: \"100\" is out of place; write back after and a time, such as back after 100 ms");
+    EXPECT_EQ(at_column("IN3 follows Grip\nIN3 follows Lamp"),
+              "13: this input follows something already; put both into one condition with and, or");
+    EXPECT_EQ(at_column("IN3 appears"),
+              "12: the line ends too early; write every 2 s, at 2 s, or 300 ms after and what happens");
+    EXPECT_EQ(at_column("IN3 appears every 0 s"),
+              "19: a period must be longer than 0; write such as IN2 appears every 2 s");
 }
 
 TEST(ScenarioParser, ExpectationsKeepTheirText) {
@@ -132,7 +244,8 @@ TEST(ScenarioParser, MistakesSayWhatIsWrongAndWhatToWrite) {
     EXPECT_EQ(mistake("line drop 101 %"), "a share is 0 % to 100 %");
     EXPECT_EQ(mistake("expect (Grip and Lamp"), "the line ends too early; write ) to close the parenthesis");
     EXPECT_EQ(mistake("log \"open"), "the text is not closed; end it with \"");
-    EXPECT_EQ(mistake("every 0 s toggle IN0"), "a period must be longer than 0; write such as every 500 ms");
+    EXPECT_EQ(mistake("every 0 s toggle IN0"),
+              "a period must be longer than 0; write such as every 500 ms pulse IN0 50 ms");
     EXPECT_EQ(mistake("expect P_IST > 5 +- 1"), "a tolerance (+-) goes with = only");
     EXPECT_EQ(mistake("motor power"), "the line ends too early; write motor power off, or motor power on");
     EXPECT_EQ(
@@ -162,6 +275,8 @@ TEST(ScenarioParser, MistakesSayWhatIsWrongAndWhatToWrite) {
               "a place is at most 1000000000 counts away; write a nearer one");
     EXPECT_EQ(mistake("motor stop above 3 rev spring 20"),
               "the line ends too early; write per rev, such as spring 2000 per rev");
+    EXPECT_EQ(mistake("motor stop above 3 rev spring 20 per"),
+              "the line ends too early; write per rev or per mm");
     EXPECT_EQ(mistake("motor stop above 3 rev spring 0 per rev"),
               "a spring is 1 to 1000000 per rev, 1023 being the motor's full torque");
     EXPECT_EQ(mistake("motor sensor below 3 rev"),

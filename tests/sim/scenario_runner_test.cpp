@@ -34,6 +34,12 @@ class Bench final : public Stage {
         }
     }
 
+    void set_outputs(Time at, std::uint8_t levels) {
+        run_to(at);
+        s.outputs = levels;
+        run_to(at);
+    }
+
     bool passes() {
         runner_.finish(s);
         return runner_.failures() == 0;
@@ -308,6 +314,161 @@ TEST(ScenarioRunner, CountsEvents) {
     EXPECT_TRUE(passes("expect INPUTS changes 5 times"));
     EXPECT_TRUE(passes("expect IN1 rises 0 times"));
     EXPECT_FALSE(passes("expect IN1 rises"));
+}
+
+// --- what reacts, and for how long
+// -----------------------------------------------------------------------------
+
+TEST(ScenarioRunner, WhenOneRisesWhileAnotherIs) {
+    Bench bench("when OUT0 rises and OUT1 log \"both\"");
+    bench.run_to(5ms);
+    for (const int outputs : {1, 0, 2, 3, 1, 3, 0}) {  // OUT0 rises without OUT1, then with it, then stays
+        bench.s.outputs = static_cast<std::uint8_t>(outputs);
+        bench.run_to(bench.s.time + 5ms);
+    }
+    EXPECT_EQ(bench.done, (Done{"25: both"}));
+}
+
+TEST(ScenarioRunner, WhatLastsForATimeHappensOnceAStretch) {
+    Bench bench("when OUT0 for 20 ms log \"lasts\"\nwhen OUT0 falls and not OUT1 for 10 ms log \"gone\"");
+    bench.set_outputs(5ms, 1);
+    bench.set_outputs(24ms, 0);
+    bench.set_outputs(40ms, 1);
+    bench.set_outputs(100ms, 0);
+    bench.set_outputs(105ms, 2);  // not long enough without OUT1
+    bench.run_to(150ms);
+    EXPECT_EQ(bench.done, (Done{"34: gone", "60: lasts"}));
+}
+
+TEST(ScenarioRunner, AWindowOpensAndCloses) {
+    Bench bench("every 10 ms toggle IN0\nwhen IN0 rises from 20 ms until 50 ms log \"in\"");
+    bench.run_to(100ms);  // rises at 10, 30, 50, 70, 90 ms
+    Done in;
+    for (const std::string& done : bench.done) {
+        if (done.ends_with("in")) in.push_back(done);
+    }
+    EXPECT_EQ(in, (Done{"30: in", "50: in"}));
+}
+
+TEST(ScenarioRunner, CancelDropsWhatRulesPlannedBefore) {
+    Bench bench(R"scn(
+        when OUT0 rises after 20 ms IN1 := 1, log "kept"
+        when OUT0 falls cancel IN1, after 5 ms IN1 := 0
+        at 30 ms IN1 := 1
+    )scn");
+    bench.set_outputs(5ms, 1);
+    bench.set_outputs(10ms, 0);
+    bench.run_to(50ms);
+    EXPECT_EQ(bench.done, (Done{"15: IN1=0", "25: kept", "30: IN1=1"}))
+        << "what it plans itself stays, and what has a time of its own";
+}
+
+TEST(ScenarioRunner, CancelAllLeavesTheEnd) {
+    Bench bench(
+        "end when OUT0 after 20 ms\nwhen OUT0 after 10 ms log \"late\", motor load 5\nat 5 ms line cut for 2 "
+        "ms\n"
+        "when OUT1 cancel all");
+    bench.s.outputs = 1;
+    bench.set_outputs(1ms, 3);
+    bench.run_to(20ms);
+    EXPECT_EQ(bench.done, (Done{"5: cut", "7: restored"}));
+    EXPECT_TRUE(bench.ended());
+}
+
+TEST(ScenarioRunner, AnInputFollowsTheMachine) {
+    Bench bench("IN2 follows OUT0 after 30 ms back after 10 ms\nIN3 follows not OUT0");
+    bench.run_to(5ms);
+    EXPECT_EQ(bench.s.inputs, 8) << "IN3 is where it belongs from the beginning";
+    bench.set_outputs(20ms, 1);  // too short
+    bench.set_outputs(40ms, 0);
+    bench.set_outputs(100ms, 1);
+    bench.set_outputs(300ms, 0);
+    bench.run_to(400ms);
+    EXPECT_EQ(bench.done, (Done{"0: IN3=1", "20: IN3=0", "40: IN3=1", "100: IN3=0", "130: IN2=1",
+                                "300: IN3=1", "310: IN2=0"}));
+}
+
+TEST(ScenarioRunner, APartAppearsAndDisappears) {
+    Bench bench(R"scn(
+        IN0 appears every 20 ms until 40 ms
+        IN0 disappears 5 ms after IN0 rises
+        IN1 appears for 3 ms 10 ms after OUT0 rises
+        IN2 appears at 50 ms
+    )scn");
+    bench.set_outputs(31ms, 1);
+    bench.run_to(100ms);
+    EXPECT_EQ(bench.done, (Done{"20: IN0=1", "25: IN0=0", "40: IN0=1", "41: IN1=1", "44: IN1=0", "45: IN0=0",
+                                "50: IN2=1"}));
+}
+
+TEST(ScenarioRunner, WhatIsSetForATimeGoesBack) {
+    Bench bench("at 10 ms IN0 := 1 for 5 ms, after 20 ms line cut for 2 ms");
+    bench.run_to(100ms);
+    EXPECT_EQ(bench.done, (Done{"10: IN0=1", "15: IN0=0", "30: cut", "32: restored"}));
+}
+
+// OUT1 is on from 15 ms to 39 ms; IN0 rises at 10 ms.
+bool passes_with_out1(const std::string& text) {
+    Bench bench("at 10 ms IN0 := 1\n" + text);
+    bench.set_outputs(15ms, 2);
+    bench.set_outputs(39ms, 0);
+    bench.run_to(60ms);
+    return bench.passes();
+}
+
+TEST(ScenarioRunner, ExpectationsOfATime) {
+    EXPECT_TRUE(passes_with_out1("expect OUT1 from 16 ms until 38 ms"));
+    EXPECT_FALSE(passes_with_out1("expect OUT1 from 13 ms until 39 ms"));
+    EXPECT_FALSE(passes_with_out1("expect OUT1 from 15 ms until 41 ms"));
+    EXPECT_FALSE(passes_with_out1("expect not OUT1 for 4 ms after IN0 rises until 9 ms")) << "no event";
+    EXPECT_TRUE(passes_with_out1("expect not OUT1 for 4 ms after IN0 rises"));
+    EXPECT_FALSE(passes_with_out1("expect not OUT1 for 6 ms after IN0 rises"));
+    EXPECT_TRUE(passes_with_out1("expect OUT1 for 20 ms within 25 ms after IN0 rises"));
+    EXPECT_FALSE(passes_with_out1("expect OUT1 for 20 ms within 24 ms after IN0 rises"));
+    EXPECT_TRUE(passes_with_out1("expect OUT1 for 20 ms by 35 ms"));
+    EXPECT_FALSE(passes_with_out1("expect OUT1 for 30 ms by 60 ms"));
+    EXPECT_TRUE(passes_with_out1("expect OUT1 for 10 ms at 25 ms"));
+    EXPECT_FALSE(passes_with_out1("expect OUT1 for 10 ms at 24 ms"));
+    EXPECT_TRUE(passes_with_out1("expect OUT1 for 20 ms 1 times"));
+    EXPECT_TRUE(passes_with_out1("expect OUT1 for 30 ms 0 times"));
+    EXPECT_TRUE(passes_with_out1("expect OUT1 rises 1 times from 15 ms until 20 ms"));
+    EXPECT_TRUE(passes_with_out1("expect OUT1 rises 0 times from 16 ms"));
+    EXPECT_TRUE(passes_with_out1("expect not OUT1 for 10 ms"));
+    EXPECT_FALSE(passes_with_out1("expect not OUT1 for 30 ms"));
+}
+
+TEST(ScenarioRunner, WhatIsSeenHasTheUnitAskedFor) {
+    const auto seen = [](const std::string& text) {
+        Bench bench("expect " + text);
+        bench.s.p_ist = 8100;  // 4096 counts a revolution: 1.97754
+        bench.s.v_ist = -31;   // 31 x 60 x 520.8333 / 4096 = 236.511
+        bench.s.torque = 512;  // of 1023: 50.0489 %
+        bench.run_to(1ms);
+        EXPECT_FALSE(bench.passes());
+        return bench.seen();
+    };
+    EXPECT_EQ(seen("P_IST = 2 rev +- 10 counts"), "at 1.000 ms P_IST = 1.9775 rev");
+    EXPECT_EQ(seen("P_IST = 0 +- 10 counts"), "at 1.000 ms P_IST = 8100 counts");
+    EXPECT_EQ(seen("P_IST = 0"), "at 1.000 ms P_IST = 8100");
+    EXPECT_EQ(seen("V_IST = 0 +- 1 rpm"), "at 1.000 ms V_IST = -236.5112 rpm");
+    EXPECT_EQ(seen("TORQUE < 50 %"), "at 1.000 ms TORQUE = 50.0489 %");
+}
+
+TEST(ScenarioRunner, WhatIsSeenHasTheUnitOfTheMachine) {
+    Names names;
+    names.machine = {"mm", 5};
+    const ParsedScenario parsed =
+        parse_scenario("expect P_IST = 80 mm +- 0.1 mm", "x.scn", names);  // 65536 counts, +- 81.92
+    ASSERT_TRUE(parsed.mistakes.empty());
+    const Condition& condition = parsed.scenario.expectations[0].condition;
+    const auto at = [](std::int32_t counts) {
+        Snapshot snapshot;
+        snapshot.p_ist = counts;
+        return snapshot;
+    };
+    EXPECT_TRUE(condition.holds(at(65'617), names));
+    EXPECT_FALSE(condition.holds(at(65'618), names));
+    EXPECT_EQ(condition.seen(at(65'618), names), "P_IST = 80.1001 mm");  // 82 x 5 / 4096 = 0.100098
 }
 
 }  // namespace

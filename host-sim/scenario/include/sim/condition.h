@@ -34,8 +34,12 @@ struct Value {
     bool is_bit() const;
     double of(const Snapshot& snapshot) const;
     std::string name(const Names& names) const;
-    /// `step = Fault`, `P_IST = 4096`.
-    std::string describe(const Snapshot& snapshot, const Names& names) const;
+};
+
+/// What a number is written in.
+struct Unit {
+    std::string name;  ///< `mm/s`; empty: the value's own steps
+    double size = 1;   ///< in those
 };
 
 struct Condition {
@@ -47,6 +51,7 @@ struct Condition {
     Relation relation = Relation::equal;
     double operand = 1;
     double tolerance = 0;
+    Unit unit{};        ///< in which it was asked for
     std::string order;  ///< in words, without blanks, lower case
     std::vector<Condition> parts;
 
@@ -55,7 +60,7 @@ struct Condition {
     std::string seen(const Snapshot& snapshot, const Names& names) const;
 };
 
-/// A moment: when a condition becomes true, or false, or a value changes.
+/// A moment: when a condition becomes true, or false, or a value changes; or when that has lasted for a time.
 struct Event {
     enum class Edge : std::uint8_t {
         true_now,  ///< becomes true, or is true from the beginning
@@ -66,7 +71,9 @@ struct Event {
     };
     Edge edge = Edge::true_now;
     Condition condition;
-    std::string text;  ///< as the scenario has it
+    std::optional<Condition> guard{};  ///< must be true beside it
+    Time span{0};                      ///< that it must last
+    std::string text;                  ///< as the scenario has it
 };
 
 /// Watches for an Event; must be shown every snapshot.
@@ -74,10 +81,16 @@ class EventWatch {
   public:
     explicit EventWatch(const Event& event) : event_(&event) {}
     bool happens(const Snapshot& snapshot, const Names& names);
+    /// When what lasts now will have lasted long enough.
+    std::optional<Time> due() const;
 
   private:
+    bool sets_in(const Snapshot& snapshot, const Names& names);
+    bool lasts(const Snapshot& snapshot, const Names& names) const;
+
     const Event* event_;
     std::optional<double> before_;
+    std::optional<Time> since_;
 };
 
 /// A register or command in words as conditions compare it: lower case, no blanks.

@@ -18,6 +18,12 @@ struct SetInput {
     unsigned index = 0;
     bool level = false;
 };
+/// Drops what rules have planned before.
+struct Cancel {
+    enum class What : std::uint8_t { input, motor, line, gateway, log, end, all };
+    What what = What::all;  ///< all but end
+    unsigned index = 0;     ///< of the input
+};
 struct ToggleInput {
     unsigned index = 0;
 };
@@ -84,8 +90,8 @@ struct End {};
 
 struct Action {
     Time after{0};  ///< since the moment that set it off
-    std::variant<action::SetInput, action::ToggleInput, action::CutLine, action::SpoilLine, action::Seed,
-                 action::FailMotor, action::PowerMotor, action::LoadMotor, action::MotorBrake,
+    std::variant<action::SetInput, action::ToggleInput, action::Cancel, action::CutLine, action::SpoilLine,
+                 action::Seed, action::FailMotor, action::PowerMotor, action::LoadMotor, action::MotorBrake,
                  action::StopMotor, action::FreeMotor, action::MotorSensor, action::MotorAnalogue,
                  action::MotorPulses, action::MotorSupply, action::MotorTemperature, action::BreakEncoder,
                  action::Gateway, action::Log, action::End>
@@ -106,7 +112,17 @@ struct EveryRule {
 struct WhenRule {
     Event event;
     bool once = false;
+    Time from{0};  ///< events before it, or after `until`, set nothing off
+    std::optional<Time> until;
     Actions actions;
+    int line = 0;
+};
+/// An input that does as the machine does, a while later; what goes back before that never shows.
+struct FollowRule {
+    unsigned input = 0;
+    Condition condition;
+    Time after{0};
+    Time back{0};  ///< when the condition is no longer true
     int line = 0;
 };
 
@@ -117,6 +133,7 @@ struct Expectation {
         always,  ///< it holds from `from` until `time`, or the end
         within,  ///< it holds at least once within `span` after each event
         after,   ///< it holds `span` after each event
+        during,  ///< it holds all the `span` after each event
         count,   ///< the event happens `least` to `most` times until `time`, or the end
     };
     Kind kind = Kind::at;
@@ -125,8 +142,9 @@ struct Expectation {
     Condition condition;
     Event event;
     std::optional<Time> time;
-    Time from{0};
+    Time from{0};  ///< of `always` and of events: what is before it counts for nothing
     Time span{0};
+    Time hold{0};  ///< the condition counts as true only after that time in which it was
     std::uint64_t least = 1;
     std::uint64_t most = UINT64_MAX;
 };
@@ -136,6 +154,7 @@ struct Scenario {
     std::vector<AtRule> at;
     std::vector<EveryRule> every;
     std::vector<WhenRule> when;
+    std::vector<FollowRule> follow;
     std::vector<Expectation> expectations;
     std::optional<Time> end;
 
@@ -144,7 +163,10 @@ struct Scenario {
 
 struct Mistake {
     int line = 0;
+    int column = 0;       ///< 0: of the whole line
     std::string message;  ///< what is wrong and what to write
+
+    std::string place() const;  ///< `12:5`
 };
 
 struct ParsedScenario {

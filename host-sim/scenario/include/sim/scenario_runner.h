@@ -76,11 +76,17 @@ class ScenarioRunner {
   private:
     struct Planned {
         const Action* action;
-        int line;
+        int line;             ///< of the rule that reacted; 0: it goes by the time
+        bool by_rule;         ///< else by a time of its own
+        std::uint64_t batch;  ///< what was planned together
     };
     struct Watched {
         EventWatch watch;
         bool done = false;
+    };
+    struct Followed {
+        std::optional<bool> wanted;  ///< what the condition says
+        std::optional<Time> due;     ///< when the input shows it
     };
     struct Judgement {
         explicit Judgement(const Expectation& wanted) : expectation(&wanted), watch(wanted.event) {}
@@ -90,18 +96,24 @@ class ScenarioRunner {
         std::uint64_t events = 0;
         std::uint64_t fulfilled = 0;
         std::vector<Time> deadlines;
+        std::optional<Time> since{};  ///< the condition has been true
     };
 
-    void plan(const Actions& actions, Time now, int line);
+    void plan(const Actions& actions, Time now, int line, bool by_rule);
     void plan_every(Time now);
+    bool follow(const Snapshot& snapshot);
+    void cancel(const action::Cancel& what, std::uint64_t batch);
     void guard_against_loops(Time now, int line);
     bool act(Time now);
-    void perform(const Action& action);
+    void perform(const Planned& planned);
     void judge(Judgement& judgement, const Snapshot& snapshot);
     void judge_at(Judgement& judgement, const Snapshot& snapshot);
     void judge_by(Judgement& judgement, const Snapshot& snapshot);
     void judge_always(Judgement& judgement, const Snapshot& snapshot);
     void judge_after_event(Judgement& judgement, const Snapshot& snapshot);
+    void judge_during(Judgement& judgement, const Snapshot& snapshot);
+    bool event_happens(Judgement& judgement, const Snapshot& snapshot) const;
+    bool holds(Judgement& judgement, const Snapshot& snapshot) const;
     void judge_count(Judgement& judgement, const Snapshot& snapshot);
     void judge_at_end(Judgement& judgement, const Snapshot& snapshot);
     void decide(Judgement& judgement, bool passed, Time now, std::string seen = {});
@@ -111,6 +123,8 @@ class ScenarioRunner {
     const Names& names_;
     Stage& stage_;
     std::multimap<Time, Planned> planned_;
+    std::uint64_t batches_ = 0;
+    std::vector<Followed> followed_;
     std::vector<Time> every_next_;
     std::vector<Watched> watches_;
     std::vector<Judgement> judgements_;

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "registers/mac.h"
+#include "registers/family.h"
 #include "sim/text.h"
 
 namespace nplc::sim {
@@ -46,12 +46,20 @@ struct Snapshot {
 inline constexpr unsigned kInputs = 6;
 inline constexpr unsigned kOutputs = 4;
 
+/// A unit of the machine, as the program's SCALE has it.
+struct MachineUnit {
+    std::string name;    ///< `mm`
+    double per_rev = 1;  ///< of the motor
+};
+
 /// What a program calls its steps and signals. Without names, `IN0`, `OUT0` and the step's number serve.
 struct Names {
     std::array<std::string, kInputs> inputs;
     std::array<std::string, kOutputs> outputs;
     std::map<std::uint8_t, std::string> steps;
     registers::Model motor = registers::Model::mac140;
+    const registers::DriveModel* drive = nullptr;  ///< of another family, in the motor's place
+    std::optional<MachineUnit> machine;
 
     std::string input(unsigned index) const;
     std::string output(unsigned index) const;

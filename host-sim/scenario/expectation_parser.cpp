@@ -1,0 +1,141 @@
+#include <fmt/format.h>
+
+#include "parser.h"
+
+namespace nplc::sim {
+namespace {
+
+using Kind = Expectation::Kind;
+
+}  // namespace
+
+Expectation ExpectationParser::expectation(std::optional<Time> at) {
+    Expectation result;
+    reader_.take("expect");
+    const std::size_t begin = at ? 0 : reader_.mark();
+    if (at) {
+        result.time = at;
+        held_condition(result);
+    } else if (reader_.take("always")) {
+        always(result, false);
+    } else if (reader_.take("never")) {
+        always(result, true);
+    } else if (reader_.take("eventually")) {
+        result.kind = Kind::by;
+        held_condition(result);
+        if (reader_.take("by")) result.time = reader_.duration("a time after by");
+    } else if (reader_.take("at")) {
+        at_time(result);
+        held_condition(result);
+    } else {
+        event_or_condition(result);
+    }
+    result.text = reader_.source_since(begin);
+    return result;
+}
+
+void ExpectationParser::held_condition(Expectation& result) {
+    result.condition = conditions_.condition();
+    result.hold = reader_.lasting();
+}
+
+void ExpectationParser::always(Expectation& result, bool never) {
+    result.condition = conditions_.condition();
+    if (never) {
+        result.condition = {.kind = Condition::Kind::negated,
+                            .value = {},
+                            .order = {},
+                            .parts = {std::move(result.condition)}};
+    }
+    all_the_time(result);
+}
+
+void ExpectationParser::all_the_time(Expectation& result) {
+    result.kind = Kind::always;
+    take_window(result);
+}
+
+void ExpectationParser::take_window(Expectation& result) {
+    const Window window = reader_.window();
+    result.from = window.from;
+    result.time = window.until;
+}
+
+void ExpectationParser::at_time(Expectation& result) {
+    if (!reader_.take("end")) result.time = reader_.duration("a time or end, such as expect at 3 s step = 0");
+}
+
+void ExpectationParser::event_or_condition(Expectation& result) {
+    Event event = conditions_.event();
+    if (event.edge != Event::Edge::true_now || starts_count()) {
+        result.event = std::move(event);
+        return count(result);
+    }
+    result.condition = std::move(event.condition);
+    result.hold = event.span;
+    if (reader_.take("at")) {
+        at_time(result);
+    } else if (reader_.take("by")) {
+        result.kind = Kind::by;
+        result.time = reader_.duration("a time after by");
+    } else if (reader_.take("within")) {
+        result.kind = Kind::within;
+        after_event(result);
+    } else if (reader_.starts_duration()) {
+        result.kind = Kind::after;
+        after_event(result);
+    } else if (result.hold != Time{0} && reader_.take("after")) {
+        result.kind = Kind::during;
+        result.span = result.hold;
+        result.hold = Time{0};
+        of_event(result);
+    } else if (reader_.is("from") || reader_.is("until")) {
+        if (result.hold != Time{0})
+            reader_.refuse_next("this has for and from or until; write one of them, or by and a time");
+        all_the_time(result);
+    }
+}
+
+void ExpectationParser::after_event(Expectation& result) {
+    result.span = reader_.duration("a time, such as within 200 ms after IN0 rises");
+    reader_.want("after", "after and what happens, such as within 200 ms after IN0 rises");
+    of_event(result);
+}
+
+void ExpectationParser::of_event(Expectation& result) {
+    result.event = conditions_.event();
+    take_window(result);
+}
+
+bool ExpectationParser::starts_count() const {
+    if (reader_.is("at")) return reader_.is("least", 1) || reader_.is("most", 1);
+    return reader_.peek().kind == Token::Kind::number && (reader_.is("times", 1) || reader_.is("time", 1));
+}
+
+void ExpectationParser::count(Expectation& result) {
+    result.kind = Kind::count;
+    if (reader_.take("at")) {
+        const bool least = reader_.take("least");
+        if (!least) reader_.want("most", "at least 3 times, or at most 3 times");
+        const std::uint64_t times = number_of_times();
+        (least ? result.least : result.most) = times;
+        if (!least) result.least = 0;
+    } else if (reader_.peek().kind == Token::Kind::number) {
+        result.least = result.most = number_of_times();
+    }
+    if (reader_.take("by")) {
+        result.time = reader_.duration("a time after by");
+    } else {
+        take_window(result);
+    }
+}
+
+std::uint64_t ExpectationParser::number_of_times() {
+    const double number = reader_.number("a number of times");
+    if (number < 0 || number != static_cast<double>(static_cast<std::uint32_t>(number)))
+        reader_.refuse("a number of times is a whole number, such as 3 times");
+    if (!reader_.take("times")) reader_.want("time", "times, such as 3 times");
+    return static_cast<std::uint64_t>(number);
+}
+
+}  // namespace nplc::sim
