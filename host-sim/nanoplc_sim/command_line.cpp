@@ -121,6 +121,8 @@ void add_run(arguments::App& parent, RunOptions& options) {
              }));
     app.add_option("--trace", options.csv, "write a trace as CSV")->type_name("T.csv");
     app.add_option("--vcd", options.vcd, "write a trace as VCD, for GTKWave")->type_name("T.vcd");
+    app.add_option("--junit", options.junit, "write the scenario's expectations as JUnit's XML")
+        ->type_name("T.xml");
     add_read(
         app, "--motor", "MODEL",
         "the motor (the program's own; MAC140 for a table without names, and for a MIDI drive's program)",
@@ -203,6 +205,9 @@ void check_run(const RunOptions& run) {
     if (run.program.empty() && !run.flash && !run.mactalk)
         throw InputError(
             "nanoplc-sim: run what? name a program, or --flash or --mactalk; see nanoplc-sim --help");
+    if (run.junit && !run.scenario)
+        throw InputError(
+            "nanoplc-sim: --junit without a scenario, whose expectations it writes; add --scenario S.scn");
     if (run.program.empty() && run.symbols)
         throw InputError("nanoplc-sim: --symbols without a table; name the table that they are for");
 }

@@ -51,6 +51,14 @@ struct Output {
         throw InputError(fmt::format("{} {}: this would overwrite the {} {}; name another file", option, path,
                                      what, input));
     }
+    void check_against(const Output& other) const {
+        const auto ours = OutputFile::written_for(path);
+        const auto theirs = OutputFile::written_for(other.path);
+        const auto is_ours = [&](const fs::path& file) { return touches(ours, file); };
+        if (!std::any_of(theirs.begin(), theirs.end(), is_ours)) return;
+        throw InputError(fmt::format("{} {} and {} {}: one would overwrite the other; name two files", option,
+                                     path, other.option, other.path));
+    }
 };
 
 void check(const Output& output, const RunOptions& options) {
@@ -216,18 +224,17 @@ Program stored_program() {
     return program;
 }
 
-/// Before anything is written: no trace may land on one of the run's own inputs or on the other trace, under
+/// Before anything is written: no output may land on one of the run's own inputs or on another output, under
 /// whatever name. Throws InputError.
 void check_outputs(const RunOptions& options) {
-    if (options.csv) check({"--trace", *options.csv}, options);
-    if (options.vcd) check({"--vcd", *options.vcd}, options);
-    if (!options.csv || !options.vcd) return;
-    const auto csv = OutputFile::written_for(*options.csv);
-    const auto vcd = OutputFile::written_for(*options.vcd);
-    if (!std::any_of(csv.begin(), csv.end(), [&](const fs::path& path) { return touches(vcd, path); }))
-        return;
-    throw InputError(fmt::format("--trace {} and --vcd {}: one would overwrite the other; name two files",
-                                 *options.csv, *options.vcd));
+    std::vector<Output> outputs;
+    if (options.csv) outputs.push_back({"--trace", *options.csv});
+    if (options.vcd) outputs.push_back({"--vcd", *options.vcd});
+    if (options.junit) outputs.push_back({"--junit", *options.junit});
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        check(outputs[i], options);
+        for (std::size_t j = 0; j < i; ++j) outputs[j].check_against(outputs[i]);
+    }
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ struct RunOptions {
     std::optional<std::string> scenario;
     std::optional<std::string> csv;
     std::optional<std::string> vcd;
+    std::optional<std::string> junit;
     std::optional<std::string> mactalk;  ///< endpoint of the user's port
     std::optional<std::string> flash;    ///< file that keeps the gateway's flash
     std::optional<Time> length;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "input_file.h"
+#include "junit.h"
 
 namespace nplc::sim {
 namespace {
@@ -107,6 +108,7 @@ Session::Session(const RunOptions& options, const Program& program, const Scenar
     }
     if (options.csv) csv_.emplace(*options.csv);
     if (options.vcd) vcd_.emplace(*options.vcd, program.names, identity(program));
+    if (options.junit) junit_.emplace(*options.junit);
     if (!length_ && !options.realtime && !scenario.can_end()) length_ = kDefaultLength;
     world_.on_log([this](const std::string& text) { timeline_.remark('"' + text + '"'); });
     runner_.on_failure([this](const Outcome& outcome, Time) {
@@ -236,6 +238,10 @@ bool Session::finish() {
     if (!options_.quiet) timeline_.observe(last_);
     if (csv_) csv_->finish(last_);
     if (vcd_) vcd_->finish(now());
+    if (junit_) {
+        junit_->write(junit_of(runner_.outcomes(), scenario_.file, program_.file, now()));
+        junit_->commit();
+    }
     summary();
     return runner_.failures() == 0;
 }
@@ -259,6 +265,7 @@ void Session::summary() {
     lines_in_words();
     if (csv_) fmt::print("trace: {}\n", *options_.csv);
     if (vcd_) fmt::print("trace: {}\n", *options_.vcd);
+    if (junit_) fmt::print("JUnit: {}\n", *options_.junit);
     judgements();
 }
 

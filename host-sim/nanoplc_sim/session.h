@@ -70,6 +70,7 @@ class Session {
     OrderAuditor auditor_;
     std::optional<CsvTrace> csv_;
     std::optional<VcdTrace> vcd_;
+    std::optional<OutputFile> junit_;
     std::optional<Time> length_;
     Snapshot last_;
     gateway::SafeReason reason_ = gateway::SafeReason::not_started;

@@ -207,7 +207,8 @@ std::string ScenarioRunner::seen_at(const Condition& condition, const Snapshot& 
 
 void ScenarioRunner::decide(Judgement& judgement, bool passed, Time now, std::string seen) {
     judgement.decided = true;
-    outcomes_.push_back({judgement.expectation->line, judgement.expectation->text, passed, std::move(seen)});
+    outcomes_.push_back(
+        {judgement.expectation->line, judgement.expectation->text, passed, std::move(seen), now});
     if (!passed && on_failure_) on_failure_(outcomes_.back(), now);
 }
 

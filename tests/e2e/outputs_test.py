@@ -67,6 +67,7 @@ class Outputs(program_case.ProgramCase):
             "fmt": (lambda out: [seqc, "fmt", SEQUENCE, "-o", out], "t.seq"),
             "trace": (lambda out: [*run, "--trace", out], "t.csv"),
             "vcd": (lambda out: [*run, "--vcd", out], "t.vcd"),
+            "junit": (lambda out: [*run, "--scenario", self.text("s.scn", "never ERROR\n"), "--junit", out], "t.xml"),
             "plot": (lambda out: [program("macreg"), "plot", recording, "-o", out], "t.svg"),
         }
 

@@ -96,13 +96,30 @@ class FrontPage(Readme):
         done = self.run_program(NANOPLC_SIM, "run", os.path.join(ROOT, EXAMPLE + ".seq"), "--scenario",
                                 os.path.join(ROOT, EXAMPLE + ".scn"), "--trace", "trace.csv", "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
-        drawing = [os.path.join(ROOT, "tools/plot_trace"), "trace.csv", "-o", "trace.svg",
-                   "--title", "pick_and_place.seq on a virtual MAC140",
-                   "--steps", "POWER_UP,Idle,Travel,Hold,Return,Fault,Cleared",
-                   "--names", "IN0=Start,IN1=Guard,IN2=Ack,OUT0=Grip,OUT3=Lamp"]
-        self.assertEqual(self.run_program(*drawing).returncode, 0)
-        drawn = read(os.path.join(self.folder.name, "trace.svg"))
-        self.assertTrue(drawn == read(EXAMPLE + ".svg"), "draw it anew: " + " ".join(drawing))
+        self.run_program(SEQC, "build", os.path.join(ROOT, EXAMPLE + ".seq"), "-o", "p.bin")
+        plot = [os.path.join(ROOT, "tools/plot_trace"), "trace.csv", "-o", "trace.svg",
+                "--title", "pick_and_place.seq on a virtual MAC140"]
+        named = ["--steps", "POWER_UP,Idle,Travel,Hold,Return,Fault,Cleared",
+                 "--names", "IN0=Start,IN1=Guard,IN2=Ack,OUT0=Grip,OUT3=Lamp"]
+        for drawing in (plot + ["--sym", "p.sym"], plot + named):
+            self.assertEqual(self.run_program(*drawing).returncode, 0)
+            drawn = read(os.path.join(self.folder.name, "trace.svg"))
+            self.assertTrue(drawn == read(EXAMPLE + ".svg"), "draw it anew: " + " ".join(drawing))
+        renamed = self.run_program(*plot, "--sym", "p.sym", "--names", "IN0=Go")
+        self.assertEqual(renamed.returncode, 0)
+        self.assertIn(">Go</text>", read(os.path.join(self.folder.name, "trace.svg")))
+
+    def test_no_picture_with_wrong_symbols(self):
+        trace = self.write("t.csv", "time_ms,step,timer,counter,inputs,outputs,inpos,error,command,p_ist,v_ist\n"
+                                    "0,0,0,0,0,0,0,0,,0,0\n1,0,0,0,0,0,0,0,,0,0\n")
+        for text, said in (("{", "bad.sym:1:2: this is not JSON"), ("[]", "bad.sym: no symbol file"),
+                           ('{"format": "nanoplc-symbols", "version": 2}', "bad.sym: no symbol file of version 1")):
+            done = self.run_program(os.path.join(ROOT, "tools/plot_trace"), trace, "-o", "no.svg", "--sym",
+                                    self.write("bad.sym", text))
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn(said, done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1)
+        self.assertFalse(os.path.exists(os.path.join(self.folder.name, "no.svg")))
 
     def test_the_drawing_is_of_this_table(self):
         self.run_program(SEQC, "build", os.path.join(ROOT, "tools/seqc/examples/indexing_table.seq"), "-o", "t.bin")

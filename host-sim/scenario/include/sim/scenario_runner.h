@@ -44,6 +44,7 @@ struct Outcome {
     std::string expectation;  ///< as the scenario has it
     bool passed = false;
     std::string seen;  ///< what was seen instead, and when
+    Time decided{0};
 };
 
 /// Rules that set each other off without end at one instant; the message names file and line.

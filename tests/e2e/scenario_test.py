@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+"""Scenarios as nanoplc-sim plays them: those in host-sim/scenario/README.md, and what is written about a run.
+
+usage: scenario_test.py NANOPLC_SIM README
+"""
+
+import os
+import re
+import subprocess
+import sys
+import unittest
+import xml.etree.ElementTree
+
+from program_case import ProgramCase
+
+PROGRAM = README = ""
+
+# Step 0: at once to step 1. Bytes by 001 sections 6.1.5 and 6.1.7.
+TABLE = bytes([0xC0, 0x00, 0x00, 0x01, 0x80, 0x01, 0x00, 0x00, 0x3F, 0, 0, 0, 0, 0, 0, 0])
+
+
+def blocks(kind):
+    with open(README, encoding="utf-8") as file:
+        return re.findall(rf"(?ms)^```{kind}\n(.*?)^```$", file.read())
+
+
+class Case(ProgramCase):
+    def setUp(self):
+        super().setUp()
+        self.table = self.write("t.bin", TABLE)
+
+    def write(self, name, content):
+        with open(self.path(name), "wb") as file:
+            file.write(content if isinstance(content, bytes) else content.encode())
+        return self.path(name)
+
+    def run_it(self, *arguments):
+        return subprocess.run([PROGRAM, "run", *arguments], cwd=self.folder.name, capture_output=True, text=True,
+                              timeout=120, check=False)
+
+    def refused(self, *arguments, says):
+        done = self.run_it(*arguments)
+        self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
+        self.assertIn(says, done.stderr)
+
+
+class Readme(Case):
+    def test_every_scenario_holds(self):
+        (program,) = blocks("seq")
+        self.write("station.seq", program)
+        scenarios = blocks("scn")
+        self.assertGreaterEqual(len(scenarios), 2)
+        for number, scenario in enumerate(scenarios):
+            with self.subTest(number):
+                done = self.run_it("station.seq", "--scenario", self.write("s.scn", scenario))
+                self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+
+
+class Junit(Case):
+    def test_junit(self):
+        scenario = self.write("s.scn", "end at 2 s\nexpect at 1 s step = 2\nnever ordered \"<\u00fc\x01&\" or step = 5\n")
+        done = self.run_it(self.table, "--scenario", scenario, "--junit", self.path("t.xml"))
+        self.assertEqual(done.returncode, 1)
+        suites = xml.etree.ElementTree.parse(self.path("t.xml")).getroot()
+        (suite,) = suites
+        for counted in (suites, suite):
+            self.assertEqual([counted.get(n) for n in ("tests", "failures", "errors", "time")], ["2", "1", "0", "2.000000"])
+        self.assertEqual(suite.get("name"), scenario)
+        failed, passed = suite
+        self.assertEqual(failed.attrib, {"classname": self.table, "name": "2: at 1 s step = 2", "file": scenario,
+                                         "line": "2", "time": "1.000000"})
+        self.assertEqual(failed[0].get("message"), "at 1000.000 ms step = 1")
+        self.assertIn("s.scn:2: expected: at 1 s step = 2; seen: at 1000.000 ms step = 1", failed[0].text)
+        self.assertEqual(passed.get("name"), '3: never ordered "<\u00fc?&" or step = 5')
+        self.assertEqual((len(passed), passed.get("time")), (0, "2.000000"))
+
+    def test_junit_that_cannot_be(self):
+        scenario = self.write("s.scn", "end at 1 s\n")
+        self.refused(self.table, "--junit", self.path("t.xml"), says="--junit without a scenario")
+        run = [self.table, "--scenario", scenario, "--junit"]
+        self.refused(*run, self.path("no/t"), says="no/t: cannot be written")
+        self.refused(*run, scenario, says="overwrite the scenario")
+        self.refused(*run, self.path("t"), "--trace", self.path("t"), says="name two files")
+
+
+if __name__ == "__main__":
+    README, PROGRAM = (os.path.abspath(sys.argv.pop()) for _ in range(2))
+    unittest.main()
