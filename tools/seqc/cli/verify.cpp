@@ -11,6 +11,7 @@
 #include "cli/input.h"
 #include "cli/json.h"
 #include "cli/subcommands.h"
+#include "cli/verify_emit.h"
 #include "sequencer/table.h"
 #include "verify/story.h"
 #include "views/line_time.h"
@@ -32,6 +33,8 @@ struct VerifyArguments {
     std::string assume = "driver";
     std::string stimulus;
     std::string scenario;
+    std::string emit;
+    std::string output;
     bool json = false;
 };
 
@@ -200,7 +203,20 @@ int write_courses(const verify::Report& report, const VerifyArguments& options, 
     return error.empty() ? kOk : file_problem(error);
 }
 
+/// What does not go together.
+std::string contradiction(const VerifyArguments& options) {
+    if (options.emit.empty()) return options.output.empty() ? "" : "-o goes with --emit";
+    if (options.json || !options.scenario.empty() || !options.stimulus.empty())
+        return "--emit decides nothing: it does not go with --json, --scenario or --stimulus";
+    if (options.assume != "any") {
+        return "--emit writes what --assume any asks, so say --assume any: the debounce time, the times of "
+               "orders and the lost link of --assume driver are not written for foreign checkers";
+    }
+    return "";
+}
+
 int run(const VerifyArguments& options) {
+    if (const std::string wrong = contradiction(options); !wrong.empty()) return file_problem(wrong);
     const Input input = read_for_view(options.table);
     if (input.exit_code != kOk) return kUsageOrFile;
     const auto loaded = sequencer::Table::load(input.table);
@@ -221,6 +237,7 @@ int run(const VerifyArguments& options) {
             return file_problem(fmt::format("{}:{}: {}", options.properties, reading.line, reading.error));
         properties.insert(properties.end(), reading.properties.begin(), reading.properties.end());
     }
+    if (!options.emit.empty()) return emit_question(options.emit, input, properties, options.output);
     const bool translated = input.symbols && input.symbols->drive != nullptr;
     verify::Options how;
     how.assume = options.assume == "any" ? Assume::any : Assume::driver;
@@ -258,6 +275,12 @@ void add_verify(arguments::App& app, int& exit_code) {
         .add_option("--scenario", options->scenario,
                     "The same as inputs for nanoplc-sim run; of further ones OUT-Name.scn")
         ->type_name("OUT.scn");
+    command
+        .add_option("--emit", options->emit,
+                    "Decide nothing: write the question of --assume any for Spin or Z3")
+        ->one_of({"promela", "smt2"});
+    command.add_option("-o,--output", options->output, "Where --emit writes, instead of standard output (-)")
+        ->type_name("FILE");
     command.footer(
         "Exit codes: 0 all properties proved, 1 one is broken, 4 none is broken and one is undecided,\n"
         "2 wrong usage, a program with errors, or a file that cannot be read, written or understood.");

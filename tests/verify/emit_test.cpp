@@ -1,0 +1,82 @@
+// What is written for foreign checkers, held against the manual's own example and bytes written by hand.
+#include "verify/emit.h"
+
+#include <gtest/gtest.h>
+
+namespace nplc::verify {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// IF INPUT0 AND NOT INPUT3 AND INPOS AND NOT ERROR (001 §6.1.5), whatever timer and counter are, in step 0:
+/// to step 2, outputs 5, timer 300. Then an end term.
+Bytes example() {
+    return {0xC0, 0x41, 0x49, 0x02, 0x80, 0x05, 0x2C, 0x01, 0x3F, 0, 0, 0, 0, 0, 0, 0};
+}
+
+std::vector<Property> properties(const std::string& text) {
+    const PropertyReading reading = read_properties(text, {});
+    EXPECT_EQ(reading.error, "");
+    return reading.properties;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+TEST(Emit, PromelaHasTheManualsExample) {
+    const Emission model = promela_of(example(), properties("PROPERTY P: NEVER step = 2 AND IN1;"));
+    EXPECT_TRUE(contains(model.text,
+                         "step == 0 ->\n         if :: in0 && !in3 && inpos && !error -> "
+                         "wrote = true; output_byte = 5; next_step = 2; timer_preset = 300 :: else fi;"));
+    EXPECT_TRUE(contains(model.text, "ltl p_P { [] !bad_P }"));
+    EXPECT_TRUE(contains(model.text, "#define bad_P (scanned && ((step == 2) && in1))"));
+    EXPECT_TRUE(contains(model.text, "if :: in1 = 0 :: in1 = 1 fi;"));  // only the property names it
+    EXPECT_FALSE(contains(model.text, "in2"));
+    EXPECT_TRUE(model.left_out.empty());
+}
+
+TEST(Emit, TimerAndCounterBitsThatAre0AskForZero) {
+    Bytes table = example();
+    table[0] = 0x00;
+    EXPECT_TRUE(contains(promela_of(table, properties("PROPERTY P: NEVER ERROR;")).text,
+                         "!timer_runs && counter == 0 && in0"));
+}
+
+TEST(Emit, WhatLinearTimeCannotSayIsLeftOutOfPromela) {
+    const auto asked = properties("PROPERTY A: NEVER IN0; PROPERTY B: ALWAYS POSSIBLE step = 0;");
+    EXPECT_EQ(promela_of(example(), asked).left_out, std::vector<std::string>{"B"});
+    EXPECT_TRUE(smt2_of(example(), asked).left_out.empty());
+}
+
+/// Step 0, timer not running, counter 0, of the image only ERROR's bit, which the property names: to step 2,
+/// timer running, outputs 5 written, counter kept.
+TEST(Emit, ClausesSayWhatAScanDoes) {
+    const Emission clauses = smt2_of(example(), properties("PROPERTY P: NEVER ERROR;"));
+    EXPECT_TRUE(contains(clauses.text,
+                         "(rule (Scan #b000000 #b0 #b1 #b00000000 #b000010 #b1 #b1 #b0101 #b00 #b0))\n"));
+    EXPECT_TRUE(contains(clauses.text,
+                         "(rule (Scan #b000000 #b0 #b1 #b10000000 #b000000 #b0 #b0 #b0000 #b00 #b0))\n"));
+    EXPECT_FALSE(contains(clauses.text, "(rule (Scan #b000000 #b0 #b1 #b10000000 #b000010"));
+    EXPECT_TRUE(contains(clauses.text, "(echo \"P\")\n(query Bad_P)\n"));
+}
+
+/// CLR_CNT before a preset before CNT_DWN; presets of 3 take two bits.
+TEST(Emit, CounterIsClearedPresetOrCountedDown) {
+    const auto counter_part = [](std::uint8_t output, std::uint8_t preset) {
+        const Bytes table = {0xC0, 0, 0, 0x7E, 0x80, output, preset, 0,  // step 0, no switch, counter
+                             0xC1, 0, 0, 0x7E, 0x80, 0,      3,      0,  // so that there are two bits
+                             0x3F, 0, 0, 0,    0,    0,      0,      0};
+        const std::string text = smt2_of(table, {}).text;
+        const std::string scan = "(rule (Scan #b000000 #b0 #b0 #b00000000 #b000000 #b0 #b1 #b0000 ";
+        const std::size_t at = text.find(scan);
+        return at == std::string::npos ? std::string() : text.substr(at + scan.size(), 9);
+    };
+    EXPECT_EQ(counter_part(0xC0, 3), "#b01 #b00");
+    EXPECT_EQ(counter_part(0x80, 3), "#b01 #b11");
+    EXPECT_EQ(counter_part(0x80, 0), "#b10 #b00");
+    EXPECT_EQ(counter_part(0x00, 0), "#b00 #b00");
+}
+
+}  // namespace
+}  // namespace nplc::verify

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/input.h"
+#include "verify/property.h"
+
+namespace nplc::seqc::cli {
+
+/// `verify --emit`: the question of --assume any for a foreign checker, to a file or standard output.
+int emit_question(const std::string& language, const Input& input,
+                  const std::vector<verify::Property>& properties, const std::string& output);
+
+}  // namespace nplc::seqc::cli

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "verify/property.h"
+
+/// A table and its properties as the question of a foreign checker, under `any`. Written from 001 §6.1 alone:
+/// nothing here is shared with the explorer, so that the two can be held against each other.
+namespace nplc::verify {
+
+struct Emission {
+    std::string text;
+    std::vector<std::string> left_out;  ///< names of properties that the language cannot state
+};
+
+/// For Spin: a model with one `ltl p_NAME` a property.
+Emission promela_of(std::span<const std::uint8_t> table, const std::vector<Property>& properties);
+/// For Z3's Datalog engine: Horn clauses with one `query` a property.
+Emission smt2_of(std::span<const std::uint8_t> table, const std::vector<Property>& properties);
+
+}  // namespace nplc::verify
