@@ -18,6 +18,20 @@ MidiDriveOptions complete(MidiDriveOptions options) {
     return options;
 }
 
+MidiModule::Input input_of(action::DriveInput input) {
+    switch (input) {
+        case action::DriveInput::upper_stop:
+            return MidiModule::Input::upper_stop;
+        case action::DriveInput::lower_stop:
+            return MidiModule::Input::lower_stop;
+        case action::DriveInput::reference:
+            return MidiModule::Input::reference;
+        case action::DriveInput::security:
+            return MidiModule::Input::security;
+    }
+    return MidiModule::Input::security;
+}
+
 }  // namespace
 
 std::unique_ptr<VirtualDrive> make_midi_drive(const VirtualDriveOptions& options, const LineFaults& faults) {
@@ -67,16 +81,25 @@ std::string MidiVirtual::note(const motor::AnyDriver& driver) const {
 }
 
 void MidiVirtual::sample() {
-    const std::int32_t now = midi::counts_of_increments(options_.model, drive_.module().position());
+    const std::int32_t now = shaft();
     speed_ = now - before_;
     before_ = now;
+}
+
+std::int32_t MidiVirtual::shaft() const {
+    return midi::counts_of_increments(options_.model, static_cast<std::int32_t>(drive_.module().shaft()));
+}
+
+std::int64_t MidiVirtual::increments_of(std::int64_t counts) const {
+    const registers::Scale scale = registers::scale_of(registers::Model::mac140);
+    return counts * midi::facts_of(options_.model).increments_per_rev / scale.counts_per_rev;
 }
 
 void MidiVirtual::fill(Snapshot& snapshot) const {
     const MidiModule& module = drive_.module();
     snapshot.p_ist = midi::counts_of_increments(options_.model, module.position());
     snapshot.v_ist = speed_;
-    snapshot.shaft = snapshot.p_ist;
+    snapshot.shaft = shaft();
     snapshot.torque = kWholeTorque * module.torque() / options_.module.imax;
 }
 
@@ -93,6 +116,22 @@ bool MidiVirtual::fail() {
 
 bool MidiVirtual::load(int torque) {
     drive_.module().set_load(torque * options_.module.imax / kWholeTorque);
+    return true;
+}
+
+bool MidiVirtual::stop(const action::StopMotor& stop) {
+    if (stop.torque_per_count != 0) return false;
+    drive_.module().stop_shaft(stop.above, increments_of(stop.counts));
+    return true;
+}
+
+bool MidiVirtual::set_input(const action::SetDriveInput& input) {
+    drive_.module().set_input(input_of(input.input), input.active);
+    return true;
+}
+
+bool MidiVirtual::connect(const action::DriveSwitch& connected) {
+    drive_.module().connect(input_of(connected.input), connected.on_above, increments_of(connected.counts));
     return true;
 }
 

@@ -30,6 +30,18 @@ store::SettingValues initial_settings(const WorldOptions& options) {
     return values;
 }
 
+void store(MacMotor& motor, const std::vector<StoredRegister>& registers) {
+    if (registers.empty()) return;
+    MotorMemory flash = motor.stored();
+    for (const StoredRegister& one : registers) {
+        const registers::Register* reg = registers::find(motor.model(), one.number);
+        const bool wide = is_mac800(motor.model()) || (reg != nullptr && registers::is_32_bit(reg->format));
+        flash.write(one.number, one.bits, wide);
+    }
+    motor.set_stored(flash);
+    motor.power_cycle();
+}
+
 }  // namespace
 
 World::World(std::vector<std::uint8_t> table, const WorldOptions& options)
@@ -42,6 +54,7 @@ World::World(std::vector<std::uint8_t> table, const WorldOptions& options)
       next_sample_(mac_.sample_period()) {
     line_.to_motor().set_faults(options.faults);
     line_.from_motor().set_faults(options.faults);
+    store(mac_, options.registers);
     if (options.drive) drive_ = make_virtual_drive(*options.drive, options.faults);
     if (drive_) {
         motor_powered_ = false;
@@ -198,7 +211,7 @@ void World::sample_motor() {
         return drive_->sample();
     }
     next_sample_ += mac_.sample_period();
-    if (!motor_powered_) return;
+    if (!motor_powered_) return mac_.coast();
     mac_.sample();
     if (std::exchange(motor_fails_, false)) mac_.overload();
 }

@@ -41,7 +41,10 @@ void World::power_motor(bool on) {
 }
 
 void World::stop_motor(const action::StopMotor& stop) {
-    if (drive_) return drive_has_no("a mechanical stop");
+    if (drive_) {
+        if (!drive_->stop(stop)) drive_has_no("a mechanical stop of that kind");
+        return;
+    }
     Load& load = mac_.plant().load();
     const std::int64_t shaft = mac_.plant().counts();
     const std::int64_t place = stop.above ? std::max(stop.counts, shaft) : std::min(stop.counts, shaft);
@@ -51,6 +54,7 @@ void World::stop_motor(const action::StopMotor& stop) {
 }
 
 void World::free_motor() {
+    if (drive_) return drive_->free();
     mac_.plant().load().low_stop.reset();
     mac_.plant().load().high_stop.reset();
 }
@@ -58,6 +62,14 @@ void World::free_motor() {
 void World::connect_sensor(const action::MotorSensor& sensor) {
     if (drive_) return drive_has_no("a home sensor");
     mac_.terminals().connect({.counts = sensor.counts, .on_above = sensor.on_above});
+}
+
+void World::set_drive_input(const action::SetDriveInput& input) {
+    if (drive_ && !drive_->set_input(input)) drive_has_no("an input of that kind");
+}
+
+void World::connect_switch(const action::DriveSwitch& connected) {
+    if (drive_ && !drive_->connect(connected)) drive_has_no("an input of that kind");
 }
 
 void World::set_analogue(double volts) {

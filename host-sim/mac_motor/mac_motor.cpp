@@ -102,6 +102,12 @@ void MacMotor::sample() {
     recorder_.end_sample();
 }
 
+void MacMotor::coast() {
+    servo_.plant().hold(state_.is_mac800());
+    state_.memory.set(cell::V_IST, servo_.coast());
+    state_.memory.set(cell::VF_OUT, 0);
+}
+
 void MacMotor::measure() {
     InnerWatcher* watcher = recorder_.begin_sample();
     servo_.break_encoder(state_.is_mac800() && inputs_.surroundings.encoder_broken);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/bounds.h"
 #include "sim/motor_inputs.h"
@@ -63,6 +64,13 @@ void Servo::power_up(MotorMemory& memory) {
     show_sums(memory);
     show_currents(memory);
     show_supply(memory);
+}
+
+std::int32_t Servo::coast() {
+    plant_.take_load();
+    for (int n = 0; n < steps_of(depth_); ++n) plant_.step(0);
+    const std::int64_t before = std::exchange(last_counts_, plant_.counts());
+    return static_cast<std::int32_t>(last_counts_ - before);
 }
 
 /// Coefficients are worked out anew only when one of their registers was written.

@@ -36,6 +36,7 @@ void MidiModule::advance(Time to) {
         ticks_ = std::max(ticks_, *next);
         next.reset();
         drags ? drag() : step();
+        look_at_switches();
     }
     ticks_ = std::max(ticks_, until);
 }
@@ -76,6 +77,8 @@ void MidiModule::set_address(std::uint8_t address) {
 }
 
 void MidiModule::power_off() {
+    if (!on_) return;
+    run_out();
     cut_power();
     on_ = false;
 }
@@ -100,6 +103,24 @@ void MidiModule::remember() {
 }
 
 void MidiModule::set_input(Input which, bool active) {
+    switches_[index(which)].reset();
+    change_input(which, active);
+}
+
+void MidiModule::connect(Input input, bool on_above, std::int64_t at) {
+    switches_[index(input)] = Switch{at, on_above};
+    look_at_switches();
+}
+
+void MidiModule::look_at_switches() {
+    for (const Input input : {Input::upper_stop, Input::lower_stop, Input::reference, Input::security}) {
+        const std::optional<Switch>& connected = switches_[index(input)];
+        if (connected)
+            change_input(input, connected->on_above ? shaft_ > connected->at : shaft_ < connected->at);
+    }
+}
+
+void MidiModule::change_input(Input which, bool active) {
     bool& level = inputs_[index(which)];
     const bool released = level && !active;
     if (level == active) return;

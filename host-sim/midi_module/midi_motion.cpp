@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdlib>
 
 #include "registers/midi_scale.h"
@@ -17,6 +18,8 @@ constexpr std::int64_t kFraction = 1 << 20;
 /// Revolutions a second^2 of the whole holding torque on the rotor alone: 6 Nm / 2.7e-4 kg m^2 / 2 pi, and 9
 /// Nm / 4.05e-4 kg m^2 of a MAC34-2 are the same (003 §III). R: of a MAC23 too.
 constexpr std::int64_t kFullAcceleration = 3'537;
+/// R: of that the friction, as the virtual JVL motors have it, which slows down a shaft without supply.
+constexpr std::int64_t kFriction = 5, kWhole = 1'023;
 /// R: braking that the supply cannot take is cut for 5 ms.
 constexpr std::int64_t kRelease = std::int64_t{midi::kTicksPerSecond} / 200;
 
@@ -143,8 +146,33 @@ bool MidiModule::adjusts() const {
     return powered_ && mode_ == Mode::position && !profile_.running() && position_ != goal_;
 }
 
-bool MidiModule::can_turn() const {
-    return powered_ && !held_ && torque() > std::abs(load_);
+bool MidiModule::can_turn(int direction) const {
+    return powered_ && !held_ && !at_end(direction) && torque() > std::abs(load_);
+}
+
+bool MidiModule::at_end(int direction) const {
+    return direction > 0 ? ends_.high && shaft_ >= *ends_.high : ends_.low && shaft_ <= *ends_.low;
+}
+
+void MidiModule::stop_shaft(bool above, std::int64_t at) {
+    (above ? ends_.high : ends_.low) = above ? std::max(at, shaft_) : std::min(at, shaft_);
+}
+
+/// The supply is gone: the shaft goes on as fast as it is.
+void MidiModule::run_out() {
+    const bool turns = mode_ == Mode::coast || (profile_.running() && !pause_ && can_turn(direction_));
+    const Ticks interval = mode_ == Mode::coast ? coast_interval_ : profile_.last_interval();
+    if (!turns || interval <= 0) return;
+    drag_speed_ = direction_ * kDragStep * kFraction / interval;
+    drag_rest_ = 0;
+    if (!next_drag_) next_drag_ = ticks_ + kDragStep;
+}
+
+void MidiModule::slow_down() {
+    const std::int64_t full = kFullAcceleration * midi::facts_of(model_).increments_per_rev;
+    const std::int64_t loss = full * kFriction * kFraction / kWhole / kDragSteps / kDragSteps;
+    drag_speed_ = drag_speed_ > 0 ? std::max<std::int64_t>(drag_speed_ - loss, 0)
+                                  : std::min<std::int64_t>(drag_speed_ + loss, 0);
 }
 
 void MidiModule::set_load(std::int32_t torque) {
@@ -156,15 +184,18 @@ void MidiModule::set_load(std::int32_t torque) {
 /// standby, and by nothing with power off. R: what pulls more gives it the acceleration of the rest; a shaft
 /// that is held again stands at once.
 void MidiModule::drag() {
-    if (load_ != 0) next_drag_ = ticks_ + kDragStep;
     const std::int32_t beyond = std::abs(load_) - torque();
-    if (!on_ || held_ || mode_ == Mode::coast || beyond <= 0 || load_ == 0) {
+    const bool is_held = held_ || mode_ == Mode::coast || (powered_ && beyond <= 0);
+    if (is_held) {
         drag_speed_ = drag_rest_ = 0;
-        return;
+    } else if (load_ == 0) {
+        slow_down();
+    } else {
+        const std::int64_t full = kFullAcceleration * midi::facts_of(model_).increments_per_rev;
+        const std::int64_t gain = full * beyond * kFraction / options_.imax / kDragSteps / kDragSteps;
+        drag_speed_ += load_ > 0 ? gain : -gain;
     }
-    const std::int64_t full = kFullAcceleration * midi::facts_of(model_).increments_per_rev;
-    const std::int64_t gain = full * beyond * kFraction / options_.imax / kDragSteps / kDragSteps;
-    drag_speed_ += load_ > 0 ? gain : -gain;
+    if (load_ != 0 || drag_speed_ != 0) next_drag_ = ticks_ + kDragStep;
     drag_rest_ += drag_speed_;
     const std::int64_t whole = drag_rest_ / kFraction;
     drag_rest_ -= whole * kFraction;
@@ -172,6 +203,12 @@ void MidiModule::drag() {
 }
 
 void MidiModule::turn_shaft(std::int32_t increments) {
+    const std::int64_t to = std::clamp(shaft_ + increments, ends_.low.value_or(shaft_ + increments),
+                                       ends_.high.value_or(shaft_ + increments));
+    if (to != shaft_ + increments) drag_speed_ = drag_rest_ = 0;
+    increments = static_cast<std::int32_t>(to - shaft_);
+    shaft_ = to;
+    if (!on_) return;
     position_ = wrapped(std::int64_t{position_} + increments);
     if (mode_ == Mode::idle) set_point_ = goal_ = position_;
     if (adjusts() && !next_step_) schedule(Ticks{memory_.unstall} * midi::kTicksPerLongPeriod);
@@ -204,12 +241,13 @@ bool MidiModule::blocked(int direction) {
 
 void MidiModule::turn(int direction) {
     position_ = wrapped(std::int64_t{position_} + direction);
+    shaft_ += direction;
 }
 
 void MidiModule::step() {
     if (mode_ == Mode::coast) {
         if (!braking_is_cut()) return stop_hard();
-        turn(direction_);
+        if (!at_end(direction_)) turn(direction_);
         set_point_ = goal_ = position_;
         return schedule(coast_interval_);
     }
@@ -221,7 +259,7 @@ void MidiModule::step_profile() {
     if (!pause_ && blocked(direction_)) return stop_hard();
     if (!pause_) {
         set_point_ = wrapped(std::int64_t{set_point_} + direction_);
-        const bool follows = can_turn();
+        const bool follows = can_turn(direction_);
         stalled_ = !follows;
         if (follows) turn(direction_);
         if (!follows && mode_ == Mode::run) set_point_ = position_;
@@ -251,7 +289,7 @@ bool MidiModule::brake() {
 void MidiModule::step_adjusting() {
     const int direction = goal_ > position_ ? 1 : -1;
     if (blocked(direction)) return stop_hard();
-    if (can_turn()) turn(direction);
+    if (can_turn(direction)) turn(direction);
     if (adjusts()) return schedule(Ticks{memory_.unstall} * midi::kTicksPerLongPeriod);
     remember();
 }

@@ -249,6 +249,7 @@ int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted
                    program.file, registers::name_of(program.names.motor), registers::name_of(*options.motor));
     }
     if (options.motor) program.names.motor = *options.motor;
+    program.names.drive = options.drive;
     if (options.drive != nullptr && program.names.motor == registers::Model::mac800)
         throw InputError(
             fmt::format("{}: is for a MAC800, whose registers a {} drive does not have; write it "

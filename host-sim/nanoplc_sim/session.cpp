@@ -13,8 +13,10 @@ namespace {
 
 constexpr Time kDefaultLength = std::chrono::seconds{10};
 
-WorldOptions world_options(const RunOptions& options, const Names& names, ports::Storage* storage) {
+WorldOptions world_options(const RunOptions& options, const Names& names, const Scenario& scenario,
+                           ports::Storage* storage) {
     WorldOptions world;
+    world.registers = scenario.registers;
     world.motor = names.motor;
     world.storage = storage;
     world.baud = options.jvl_baud();
@@ -94,7 +96,7 @@ Session::Session(const RunOptions& options, const Program& program, const Scenar
       scenario_(scenario),
       palette_(palette),
       timeline_(program.names, palette),
-      world_(program.table, world_options(options, program.names, storage)),
+      world_(program.table, world_options(options, program.names, scenario, storage)),
       runner_(scenario, program.names, world_),
       auditor_(options.old_register_codes ? protocol::fastmac::RegisterCode::older_example
                                           : protocol::fastmac::RegisterCode::format_list),

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+
+#include "registers/convert.h"
+#include "registers/details.h"
 
 namespace nplc::sim {
 namespace {
@@ -14,7 +18,8 @@ constexpr std::string_view kActions =
 
 constexpr std::string_view kMotor =
     "motor error, motor load, motor brake, motor power, motor stop, motor sensor, motor analogue, motor "
-    "pulses, motor steps, motor supply, motor logic, motor temperature or motor encoder";
+    "pulses, motor steps, motor supply, motor logic, motor temperature, motor encoder, motor upper_stop, "
+    "motor lower_stop, motor reference or motor security";
 
 }  // namespace
 
@@ -154,24 +159,121 @@ void ActionParser::log(Actions& list, Time after) {
     add(list, after, action::Log{std::string(reader_.next().text)});
 }
 
+void ActionParser::needs(DrivePart part) const {
+    const std::string why = why_without(part, conditions_.names());
+    if (!why.empty()) reader_.refuse(why);
+}
+
 void ActionParser::motor(Actions& list, Time after) {
     if (reader_.take("error")) return add(list, after, action::FailMotor{});
     if (reader_.take("load")) return add(list, after, motor_load());
-    if (reader_.take("brake")) return add(list, after, motor_brake());
-    if (reader_.take("power")) return add(list, after, motor_power());
+    if (reader_.take("power")) return motor_power(list, after);
     if (reader_.take("stop")) return motor_stop(list, after);
-    if (reader_.take("sensor")) return add(list, after, motor_sensor());
-    if (reader_.take("analogue")) return add(list, after, motor_analogue());
-    if (reader_.take("pulses")) return add(list, after, motor_pulses(false));
-    if (reader_.take("steps")) return add(list, after, motor_pulses(true));
     if (reader_.take("supply")) return add(list, after, motor_supply(false));
-    if (reader_.take("logic")) return add(list, after, motor_supply(true));
-    if (reader_.take("temperature")) return add(list, after, motor_temperature());
-    if (reader_.take("encoder")) {
-        reader_.want("broken", "motor encoder broken");
-        return add(list, after, action::BreakEncoder{});
-    }
+    if (drive_input(list, after) || motor_surroundings(list, after)) return;
+    if (reader_.is(":=", 1))
+        reader_.refuse_next(
+            "a register is stored before the run begins; write such as motor HW_SETUP := NOFILT alone in a "
+            "line");
     reader_.fail(kMotor);
+}
+
+/// What only some drives have.
+bool ActionParser::motor_surroundings(Actions& list, Time after) {
+    const auto take = [this](std::string_view word, DrivePart part) {
+        if (!reader_.take(word)) return false;
+        needs(part);
+        return true;
+    };
+    if (take("brake", DrivePart::brake)) {
+        add(list, after, motor_brake());
+    } else if (take("sensor", DrivePart::analogue_input)) {
+        add(list, after, motor_sensor());
+    } else if (take("analogue", DrivePart::analogue_input)) {
+        add(list, after, motor_analogue());
+    } else if (take("pulses", DrivePart::pulse_input)) {
+        add(list, after, motor_pulses(false));
+    } else if (take("steps", DrivePart::pulse_input)) {
+        add(list, after, motor_pulses(true));
+    } else if (take("logic", DrivePart::logic_supply)) {
+        add(list, after, motor_supply(true));
+    } else if (take("temperature", DrivePart::temperature)) {
+        add(list, after, motor_temperature());
+    } else if (take("encoder", DrivePart::encoder)) {
+        reader_.want("broken", "motor encoder broken");
+        add(list, after, action::BreakEncoder{});
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/// reference on, upper_stop on above 20 rev
+bool ActionParser::drive_input(Actions& list, Time after) {
+    using Input = action::DriveInput;
+    constexpr std::array<std::pair<std::string_view, Input>, 4> kWords{{{"upper_stop", Input::upper_stop},
+                                                                        {"lower_stop", Input::lower_stop},
+                                                                        {"reference", Input::reference},
+                                                                        {"security", Input::security}}};
+    const auto found = std::find_if(kWords.begin(), kWords.end(),
+                                    [this](const auto& known) { return reader_.take(known.first); });
+    if (found == kWords.end()) return false;
+    needs(DrivePart::inputs);
+    const Input input = found->second;
+    const bool active = conditions_.level();
+    if (reader_.is("above") || reader_.is("below")) {
+        const bool above = above_or_below("above or below");
+        add(list, after, action::DriveSwitch{input, above == active, conditions_.place()});
+    } else {
+        add_for(list, after, action::SetDriveInput{input, active}, action::SetDriveInput{input, !active});
+    }
+    return true;
+}
+
+StoredRegister ActionParser::stored_register() {
+    needs(DrivePart::registers);
+    const registers::Model model = conditions_.names().motor;
+    const Token name = reader_.next();
+    const registers::Register* reg = registers::find(model, name.text);
+    if (reg == nullptr)
+        reader_.refuse(fmt::format("a {} has no register {}; registers are called as in the manual",
+                                   registers::name_of(model), name.text));
+    if (reg->access != registers::Access::read_write)
+        reader_.refuse(fmt::format("{} is what the motor itself counts or shows; its flash does not hold it",
+                                   reg->name));
+    reader_.want(":=", ":= and the value");
+    if (reader_.at_end()) reader_.fail("a value such as 12, 16#1F, 5 rev or names of bits");
+    return {reg->number, stored_value(*reg, model)};
+}
+
+std::uint32_t ActionParser::stored_value(const registers::Register& reg, registers::Model model) {
+    if (reader_.peek().kind == Token::Kind::word) return stored_bits(reg, model);
+    const std::size_t begin = reader_.mark();
+    const registers::Parsed value = registers::parse(reader_.rest(), reg, model);
+    if (value.error == registers::TextError::none) return registers::bits_of(reg.format, value.raw);
+    reader_.refuse_at(
+        begin, fmt::format("{} takes {} to {}, in its own steps or with a unit as macreg takes it", reg.name,
+                           reg.min, reg.max));
+}
+
+std::uint32_t ActionParser::stored_bits(const registers::Register& reg, registers::Model model) {
+    std::uint32_t bits = 0;
+    while (!reader_.at_end()) {
+        const Token word = reader_.next();
+        const registers::Field* field = registers::field_of(model, reg.number, word.text);
+        if (field == nullptr || field->width != 1) {
+            std::string known;
+            for (const registers::Field& one : registers::fields_of(model, reg.number)) {
+                if (one.width == 1) known += (known.empty() ? "" : ", ") + std::string(one.name);
+            }
+            reader_.refuse(known.empty()
+                               ? fmt::format("{} has no named bits; write a number", reg.name)
+                               : fmt::format("\"{}\" is no bit of {}; write some of {}, or a number",
+                                             word.text, reg.name, known));
+        }
+        bits |= registers::mask_of(*field);
+    }
+    return bits;
 }
 
 int ActionParser::whole(std::string_view what, double least, double most, std::string_view mistake) {
@@ -192,10 +294,10 @@ action::MotorBrake ActionParser::motor_brake() {
                   "a brake is a whole number 0 to 10000, 1023 being the motor's full torque")};
 }
 
-action::PowerMotor ActionParser::motor_power() {
-    if (reader_.take("off")) return {false};
-    reader_.want("on", "motor power off, or motor power on");
-    return {true};
+void ActionParser::motor_power(Actions& list, Time after) {
+    const bool off = reader_.take("off");
+    if (!off) reader_.want("on", "motor power off, or motor power on");
+    add_for(list, after, action::PowerMotor{!off}, action::PowerMotor{off});
 }
 
 bool ActionParser::above_or_below(std::string_view example) {
@@ -215,6 +317,7 @@ void ActionParser::motor_stop(Actions& list, Time after) {
 }
 
 double ActionParser::spring() {
+    needs(DrivePart::spring);
     const double torque = reader_.number("a torque, such as spring 2000 per rev");
     if (torque < 1 || torque > 1e6)
         reader_.refuse("a spring is 1 to 1000000 per rev, 1023 being the motor's full torque");

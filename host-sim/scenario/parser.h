@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "drive_parts.h"
 #include "sim/condition.h"
 #include "sim/scenario.h"
 #include "sim/text.h"
@@ -50,11 +51,14 @@ class Reader {
     [[noreturn]] void fail(std::string_view what_to_write) const;
     /// Throws with the place of the token read last, or of the next one.
     [[noreturn]] void refuse(const std::string& message) const;
-    [[noreturn]] void refuse_next(const std::string& message) const;
+    [[noreturn]] void refuse_next(const std::string& message) const { refuse_at(position_, message); }
+    [[noreturn]] void refuse_at(std::size_t mark, const std::string& message) const;
     /// With the place of the time read last.
     [[noreturn]] void refuse_time(const std::string& message) const;
 
     std::size_t mark() const { return position_; }
+    /// What is left of the line, which is read with it.
+    std::string_view rest();
     /// The source from the token at `mark` to the one read last.
     std::string source_since(std::size_t mark) const;
 
@@ -153,6 +157,8 @@ class ActionParser {
 
     /// [after TIME] ACTION {, [after TIME] ACTION}; times add up.
     Actions actions();
+    /// HW_SETUP := XPRINP NOFILT, after `motor`.
+    StoredRegister stored_register();
 
   private:
     template <class What>
@@ -176,9 +182,15 @@ class ActionParser {
     void line_direction(action::SpoilLine& spoil);
     bool fault(action::SpoilLine& spoil);
     void motor(Actions& list, Time after);
+    bool motor_surroundings(Actions& list, Time after);
+    bool drive_input(Actions& list, Time after);
+    /// Throws if the drive has no such part.
+    void needs(DrivePart part) const;
     action::LoadMotor motor_load();
     action::MotorBrake motor_brake();
-    action::PowerMotor motor_power();
+    void motor_power(Actions& list, Time after);
+    std::uint32_t stored_value(const registers::Register& reg, registers::Model model);
+    std::uint32_t stored_bits(const registers::Register& reg, registers::Model model);
     void motor_stop(Actions& list, Time after);
     double spring();
     action::MotorSensor motor_sensor();

@@ -34,6 +34,11 @@ class LineParser {
         if (reader_.take("once")) return when(true);
         if (reader_.is("expect") || reader_.is("always") || reader_.is("never")) return expect();
         if (reader_.take("end")) return end();
+        if (reader_.is("motor") && reader_.is(":=", 2)) {
+            reader_.next();
+            scenario_.registers.push_back(actions_.stored_register());
+            return;
+        }
         if (reader_.is("follows", 1)) return follows();
         if (reader_.is("appears", 1)) return comes(true);
         if (reader_.is("disappears", 1)) return comes(false);

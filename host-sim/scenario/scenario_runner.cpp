@@ -176,6 +176,8 @@ void ScenarioRunner::perform(const Planned& planned) {
         void operator()(const action::StopMotor& a) const { self.stage_.stop_motor(a); }
         void operator()(const action::FreeMotor&) const { self.stage_.free_motor(); }
         void operator()(const action::MotorSensor& a) const { self.stage_.connect_sensor(a); }
+        void operator()(const action::SetDriveInput& a) const { self.stage_.set_drive_input(a); }
+        void operator()(const action::DriveSwitch& a) const { self.stage_.connect_switch(a); }
         void operator()(const action::MotorAnalogue& a) const { self.stage_.set_analogue(a.volts); }
         void operator()(const action::MotorPulses& a) const { self.stage_.set_pulses(a); }
         void operator()(const action::MotorSupply& a) const { self.stage_.set_supply(a); }

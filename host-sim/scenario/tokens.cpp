@@ -158,8 +158,14 @@ void Reader::refuse_time(const std::string& message) const {
     throw LineMistake{message, tokens_[time_at_].begin};
 }
 
-void Reader::refuse_next(const std::string& message) const {
-    throw LineMistake{message, peek().begin};
+void Reader::refuse_at(std::size_t mark, const std::string& message) const {
+    throw LineMistake{message, tokens_[std::min(mark, tokens_.size() - 1)].begin};
+}
+
+std::string_view Reader::rest() {
+    const std::size_t begin = peek().begin;
+    position_ = tokens_.size() - 1;
+    return trim(line_.substr(begin, tokens_[position_ == 0 ? 0 : position_ - 1].end - begin));
 }
 
 std::string Reader::source_since(std::size_t mark) const {

@@ -20,8 +20,9 @@ TABLE = bytes([0xC0, 0x00, 0x00, 0x01, 0x80, 0x01, 0x00, 0x00, 0x3F, 0, 0, 0, 0,
 
 
 def blocks(kind):
+    """Options that stand behind the kind, and the text."""
     with open(README, encoding="utf-8") as file:
-        return re.findall(rf"(?ms)^```{kind}\n(.*?)^```$", file.read())
+        return re.findall(rf"(?ms)^```{kind}([^\n]*)\n(.*?)^```$", file.read())
 
 
 class Case(ProgramCase):
@@ -46,13 +47,13 @@ class Case(ProgramCase):
 
 class Readme(Case):
     def test_every_scenario_holds(self):
-        (program,) = blocks("seq")
+        ((_, program),) = blocks("seq")
         self.write("station.seq", program)
         scenarios = blocks("scn")
-        self.assertGreaterEqual(len(scenarios), 2)
-        for number, scenario in enumerate(scenarios):
+        self.assertGreaterEqual(len(scenarios), 3)
+        for number, (options, scenario) in enumerate(scenarios):
             with self.subTest(number):
-                done = self.run_it("station.seq", "--scenario", self.write("s.scn", scenario))
+                done = self.run_it("station.seq", "--scenario", self.write("s.scn", scenario), *options.split())
                 self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
 
 

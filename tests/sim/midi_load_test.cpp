@@ -109,6 +109,73 @@ TEST(MidiLoad, WithPowerOffNothingHolds) {
     EXPECT_EQ(bench->position(), held);
 }
 
+// 240 rpm are 40,000 increments a second (period 48000 / 240 = 200). R: friction is 5 of 1023 of the holding
+// torque, which is 3537 rev/s^2 = 35.4e6 increments/s^2: 172,874 increments/s^2. It stands after 0.231 s,
+// 40,000^2 / 2 / 172,874 = 4,628 increments farther.
+TEST(MidiLoad, WithoutSupplyTheShaftRunsOutUncounted) {
+    for (const int direction : {1, -1}) {
+        MidiBench bench;
+        ASSERT_TRUE(bench.order(midi::RUN, direction < 0 ? std::int32_t{midi::kTurnsLeft} : 0, 200));
+        bench.pass(seconds{5});
+        const std::int32_t position = bench->position();
+        const std::int64_t shaft = bench->shaft();
+        EXPECT_EQ(shaft, position);
+        bench->power_off();
+        bench.pass(milliseconds{200});
+        EXPECT_NEAR(static_cast<double>(direction * (bench->shaft() - shaft)), 4'543,
+                    30);  // 4628 - 172874 / 2 x 0.0314^2
+        bench.pass(seconds{1});
+        EXPECT_NEAR(static_cast<double>(direction * (bench->shaft() - shaft)), 4'628, 30);
+        EXPECT_EQ(bench->position(), position);
+        const std::int64_t rest = bench->shaft();
+        bench->power_on();
+        bench.pass(seconds{3});
+        EXPECT_EQ(bench->position(), position) << "as it was stored";
+        ASSERT_TRUE(bench.order(midi::GO_TO, position + 1000));
+        bench.run_out();
+        EXPECT_EQ(bench->shaft(), rest + 1000);
+    }
+}
+
+TEST(MidiLoad, AMechanicalEndHoldsTheShaft) {
+    MidiBench bench;
+    bench->stop_shaft(true, 500);
+    ASSERT_TRUE(bench.order(midi::GO_TO, 1000));
+    bench.pass(seconds{2});
+    EXPECT_EQ(bench->position(), 500);
+    EXPECT_TRUE(bench->busy());
+    bench->set_load(2 * kWhole);
+    bench.pass(seconds{1});
+    EXPECT_EQ(bench->position(), 500);
+    bench->set_load(0);
+    bench->stop_shaft(true, 0);  // it is beyond that
+    bench.pass(seconds{1});
+    EXPECT_EQ(bench->position(), 500);
+    bench->free_shaft();
+    bench.run_out();
+    EXPECT_EQ(bench->position(), 1000);
+}
+
+// 003 §IV: an end-stop ends motion in its own direction only; the reference input sets 0 where it goes
+// inactive, turning clockwise.
+TEST(MidiLoad, SwitchesAtTheAxis) {
+    MidiBench bench;
+    ASSERT_TRUE(bench.order(midi::END_STOPS, 1));
+    ASSERT_TRUE(bench.order(midi::REFERENCE, 1));
+    bench->connect(Input::reference, false, 700);
+    bench->connect(Input::upper_stop, true, 3000);
+    EXPECT_TRUE(bench->input(Input::reference));
+    ASSERT_TRUE(bench.order(midi::GO_TO, 20'000));
+    bench.run_out();
+    EXPECT_EQ(bench->shaft(), 3001);
+    EXPECT_EQ(bench->position(), 3001 - 700);
+    EXPECT_EQ(bench.ask(midi::GET_STATUS) & midi::kAtUpperInput, midi::kAtUpperInput);
+    EXPECT_FALSE(bench->input(Input::reference));
+    ASSERT_TRUE(bench.order(midi::GO_TO, 0));
+    bench.run_out();
+    EXPECT_EQ(bench->shaft(), 700);
+}
+
 TEST(MidiLoad, AShaftThatIsHeldByHandIsNotDragged) {
     MidiBench bench = at_rest(kWhole, false);
     bench->hold_shaft(true);

@@ -16,13 +16,17 @@ Names program_names() {
     return names;
 }
 
-ParsedScenario parse(const std::string& text) {
-    return parse_scenario(text, "x.scn", program_names());
+ParsedScenario parse(const std::string& text, std::string_view motor = "MAC140") {
+    Names names = program_names();
+    const registers::DriveModel* model = registers::find_drive(motor);
+    names.motor = model->map;
+    if (model->family->is_translated()) names.drive = model;
+    return parse_scenario(text, "x.scn", names);
 }
 
 /// The one mistake of a one-line scenario.
-std::string mistake(const std::string& line) {
-    const ParsedScenario parsed = parse(line);
+std::string mistake(const std::string& line, std::string_view motor = "MAC140") {
+    const ParsedScenario parsed = parse(line, motor);
     return parsed.mistakes.size() == 1 ? parsed.mistakes.front().message : "(no mistake)";
 }
 
@@ -103,7 +107,10 @@ TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
         expect never ERROR
         end when step = Idle after 1 s
         end at 10 s
-    )scn");
+        motor HW_SETUP := XPRINP NOFILT
+        motor FLWERRMAX := 0.5 rev
+    )scn",
+                                        "MAC800");
     for (const Mistake& found : parsed.mistakes) ADD_FAILURE() << found.line << ": " << found.message;
     EXPECT_EQ(parsed.scenario.expectations.size(), 26U);
     EXPECT_EQ(parsed.scenario.when.size(), 14U);
@@ -151,6 +158,23 @@ TEST(ScenarioParser, UnitsOfTheMachineBecomeCounts) {
     const auto& action = std::get<action::StopMotor>(stop.scenario.at.at(0).actions.at(0).what);
     EXPECT_EQ(action.counts, 90'112);
     EXPECT_NEAR(action.torque_per_count, 200 / 819.2, 1e-12);
+}
+
+TEST(ScenarioParser, WhatIsSeenHasTheUnitOfTheMachine) {
+    Names names;
+    names.machine = {"mm", 5};
+    const ParsedScenario parsed =
+        parse_scenario("expect P_IST = 80 mm +- 0.1 mm", "x.scn", names);  // 65536 counts, +- 81.92
+    ASSERT_TRUE(parsed.mistakes.empty());
+    const Condition& condition = parsed.scenario.expectations[0].condition;
+    const auto at = [](std::int32_t counts) {
+        Snapshot snapshot;
+        snapshot.p_ist = counts;
+        return snapshot;
+    };
+    EXPECT_TRUE(condition.holds(at(65'617), names));
+    EXPECT_FALSE(condition.holds(at(65'618), names));
+    EXPECT_EQ(condition.seen(at(65'618), names), "P_IST = 80.1001 mm");  // 82 x 5 / 4096 = 0.100098
 }
 
 /// `column: message` of the one mistake of a line.
@@ -252,15 +276,15 @@ TEST(ScenarioParser, MistakesSayWhatIsWrongAndWhatToWrite) {
         mistake("motor stpo none"),
         "\"stpo\" is out of place; write motor error, motor load, motor brake, motor power, motor stop, "
         "motor sensor, motor analogue, motor pulses, motor steps, motor supply, motor logic, motor "
-        "temperature or motor encoder");
+        "temperature, motor encoder, motor upper_stop, motor lower_stop, motor reference or motor security");
     EXPECT_EQ(mistake("motor supply 20"),
               "the line ends too early; write its unit, such as motor supply 20 V");
     EXPECT_EQ(mistake("motor supply -1 V"), "a supply is 0 V to 600 V");
-    EXPECT_EQ(mistake("motor logic 601 V"), "a supply is 0 V to 600 V");
-    EXPECT_EQ(mistake("motor temperature 0.5"),
+    EXPECT_EQ(mistake("motor logic 601 V", "MAC800"), "a supply is 0 V to 600 V");
+    EXPECT_EQ(mistake("motor temperature 0.5", "MAC800"),
               "a temperature is a whole number -40 to 200, in degrees Celsius");
-    EXPECT_EQ(mistake("motor encoder"), "the line ends too early; write motor encoder broken");
-    EXPECT_EQ(mistake("motor steps 5 per min"),
+    EXPECT_EQ(mistake("motor encoder", "MAC800"), "the line ends too early; write motor encoder broken");
+    EXPECT_EQ(mistake("motor steps 5 per min", "MAC800"),
               "\"min\" is out of place; write per s, such as motor steps 5000 per s");
     EXPECT_EQ(
         mistake("motor stop -2 rev"),
@@ -285,13 +309,15 @@ TEST(ScenarioParser, MistakesSayWhatIsWrongAndWhatToWrite) {
     EXPECT_EQ(mistake("motor analogue 12 V"), "the analogue input takes -10 V to 10 V");
     EXPECT_EQ(mistake("motor analogue 5"),
               "the line ends too early; write its unit, such as motor analogue 7.5 V");
-    EXPECT_EQ(mistake("motor pulses 5000"),
+    EXPECT_EQ(mistake("motor pulses 5000", "MAC800"),
               "the line ends too early; write per s, such as motor pulses 5000 per s");
-    EXPECT_EQ(mistake("motor pulses 0.5 per s"), "pulses are a whole number -1000000 to 1000000 per s");
+    EXPECT_EQ(mistake("motor pulses 0.5 per s", "MAC800"),
+              "pulses are a whole number -1000000 to 1000000 per s");
     EXPECT_EQ(mistake("motor load 99999999999"),
               "a load is a whole number -10000 to 10000, 1023 being the motor's full torque");
-    EXPECT_EQ(mistake("motor brake"), "the line ends too early; write a torque, such as motor brake 300");
-    EXPECT_EQ(mistake("motor brake -300"),
+    EXPECT_EQ(mistake("motor brake", "MAC800"),
+              "the line ends too early; write a torque, such as motor brake 300");
+    EXPECT_EQ(mistake("motor brake -300", "MAC800"),
               "a brake is a whole number 0 to 10000, 1023 being the motor's full torque");
     EXPECT_EQ(mistake("at 1 s IN0 := 1 IN1 := 1"),
               "\"IN1\" is out of place; write one statement in a line, actions separated by commas");

@@ -15,8 +15,10 @@ using namespace std::chrono_literals;
 /// A machine without any behaviour: the test says what its values are.
 class Bench final : public Stage {
   public:
-    explicit Bench(const std::string& text)
-        : parsed_(parse_scenario(text, "x.scn", names_)), runner_(parsed_.scenario, names_, *this) {
+    explicit Bench(const std::string& text, const Names& names = {})
+        : names_(names),
+          parsed_(parse_scenario(text, "x.scn", names_)),
+          runner_(parsed_.scenario, names_, *this) {
         for (const Mistake& mistake : parsed_.mistakes)
             ADD_FAILURE() << mistake.line << ": " << mistake.message;
     }
@@ -69,6 +71,13 @@ class Bench final : public Stage {
     void connect_sensor(const action::MotorSensor& sensor) override {
         did((sensor.on_above ? "sensor above " : "sensor below ") + std::to_string(sensor.counts));
     }
+    void set_drive_input(const action::SetDriveInput& a) override {
+        did("drive input " + std::to_string(static_cast<int>(a.input)) + (a.active ? " on" : " off"));
+    }
+    void connect_switch(const action::DriveSwitch& a) override {
+        did("switch " + std::to_string(static_cast<int>(a.input)) + (a.on_above ? " above " : " below ") +
+            std::to_string(a.counts));
+    }
     void set_analogue(double volts) override { did("analogue " + std::to_string(std::lround(10 * volts))); }
     void set_pulses(const action::MotorPulses& a) override {
         did((a.with_direction ? "steps " : "pulses ") + std::to_string(a.per_second));
@@ -102,11 +111,19 @@ TEST(ScenarioRunner, ActsAtItsTimes) {
     EXPECT_EQ(bench.done, (Done{"0: seed 7", "10: IN0=1", "20: IN1=1", "25: IN1=0", "40: IN0=0", "50: cut"}));
 }
 
-// 4096 counts a revolution; 2048 of torque a revolution is 0.5 a count.
+Names names_with(std::string_view motor) {
+    const registers::DriveModel* model = registers::find_drive(motor);
+    Names names;
+    names.motor = model->map;
+    if (model->family->is_translated()) names.drive = model;
+    return names;
+}
+
+// 8000 counts a revolution; 2000 of torque a revolution is 0.25 a count.
 TEST(ScenarioRunner, DrivesThePlantAroundTheMotor) {
     Bench bench(R"scn(
         motor stop below -2 rev
-        motor stop above 500 counts spring 2048 per rev
+        motor stop above 500 counts spring 2000 per rev
         motor stop none
         motor sensor on below -1 rev
         motor sensor off below 0.5 rev
@@ -119,12 +136,27 @@ TEST(ScenarioRunner, DrivesThePlantAroundTheMotor) {
         motor encoder broken
         motor load -80
         motor brake 300
-    )scn");
+    )scn",
+                names_with("MAC800"));
     bench.run_to(1ms);
-    EXPECT_EQ(bench.done, (Done{"0: stop below -8192 spring 0", "0: stop above 500 spring 500", "0: free",
-                                "0: sensor below -4096", "0: sensor above 2048", "0: analogue -75",
+    EXPECT_EQ(bench.done, (Done{"0: stop below -16000 spring 0", "0: stop above 500 spring 250", "0: free",
+                                "0: sensor below -8000", "0: sensor above 4000", "0: analogue -75",
                                 "0: pulses -5000", "0: steps 300", "0: supply 205", "0: logic 150",
                                 "0: temperature -10", "0: encoder", "0: load -80", "0: brake 300"}));
+}
+
+// Upper stop 0, lower stop 1, reference 2, security 3; 4096 counts a revolution.
+TEST(ScenarioRunner, DrivesTheInputsOfAMidiModule) {
+    Bench bench(R"scn(
+        at 1 ms motor upper_stop on for 2 ms, motor security 1
+        at 5 ms motor reference on below 0 rev, motor lower_stop off above -2 rev, motor upper_stop on above 8192
+        at 6 ms motor power off for 1 ms
+    )scn",
+                names_with("MAC34-1"));
+    bench.run_to(10ms);
+    EXPECT_EQ(bench.done, (Done{"1: drive input 0 on", "1: drive input 3 on", "3: drive input 0 off",
+                                "5: switch 2 below 0", "5: switch 1 below -8192", "5: switch 0 above 8192",
+                                "6: off", "7: on"}));
 }
 
 TEST(ScenarioRunner, LooksAtShaftAndTorque) {
@@ -452,23 +484,6 @@ TEST(ScenarioRunner, WhatIsSeenHasTheUnitAskedFor) {
     EXPECT_EQ(seen("P_IST = 0"), "at 1.000 ms P_IST = 8100");
     EXPECT_EQ(seen("V_IST = 0 +- 1 rpm"), "at 1.000 ms V_IST = -236.5112 rpm");
     EXPECT_EQ(seen("TORQUE < 50 %"), "at 1.000 ms TORQUE = 50.0489 %");
-}
-
-TEST(ScenarioRunner, WhatIsSeenHasTheUnitOfTheMachine) {
-    Names names;
-    names.machine = {"mm", 5};
-    const ParsedScenario parsed =
-        parse_scenario("expect P_IST = 80 mm +- 0.1 mm", "x.scn", names);  // 65536 counts, +- 81.92
-    ASSERT_TRUE(parsed.mistakes.empty());
-    const Condition& condition = parsed.scenario.expectations[0].condition;
-    const auto at = [](std::int32_t counts) {
-        Snapshot snapshot;
-        snapshot.p_ist = counts;
-        return snapshot;
-    };
-    EXPECT_TRUE(condition.holds(at(65'617), names));
-    EXPECT_FALSE(condition.holds(at(65'618), names));
-    EXPECT_EQ(condition.seen(at(65'618), names), "P_IST = 80.1001 mm");  // 82 x 5 / 4096 = 0.100098
 }
 
 }  // namespace

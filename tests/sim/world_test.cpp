@@ -306,6 +306,50 @@ TEST_F(WorldRun, AMotorWithoutPowerIsSilent) {
     EXPECT_TRUE(world_.take_snapshot().link_up);
 }
 
+// 240 rpm are 4 rev/s x 4096 / 520.8333 = 31.46 counts a sample; friction of 5 of 1023 takes 5 / 1023 x 3500
+// / 16 = 1.07 counts/sample^2 off a bare motor (1.09 with the current loop's share): 29 samples of 1.92 ms
+// and 31.46^2 / 2 / 1.08 = 458 counts.
+TEST_F(WorldRun, AMotorWithoutPowerRunsOut) {
+    const std::vector<Term> terms{write(0, registers::V1, false, 503),
+                                  with_command(term(0, 0, 0, 1, 0), 0x28)};
+    std::vector<std::uint8_t> bytes;
+    for (const Term& one : terms) {
+        const auto encoded = encode(one);
+        bytes.insert(bytes.end(), encoded.begin(), encoded.end());
+    }
+    bytes.insert(bytes.end(), {0x3F, 0, 0, 0, 0, 0, 0, 0});
+    World world(bytes, {});
+    const auto run = [&](Time time) {
+        const Time end = world.now() + time;
+        while (world.now() < end) world.step(end);
+        return world.take_snapshot();
+    };
+    const Snapshot running = run(1s);
+    EXPECT_NEAR(running.v_ist, 31, 1);
+    world.power_motor(false);
+    EXPECT_GT(run(40ms).v_ist, 5);
+    const Snapshot out = run(25ms);
+    EXPECT_EQ(out.v_ist, 0);
+    EXPECT_EQ(out.torque, 0);
+    EXPECT_NEAR(static_cast<double>(out.shaft - running.shaft), 458, 20);
+    EXPECT_EQ(out.p_ist, running.p_ist) << "nobody counts";
+    EXPECT_EQ(run(1s).shaft, out.shaft);
+    world.load_motor(100);
+    EXPECT_GT(run(100ms).shaft, out.shaft + 1000) << "nothing holds it";
+}
+
+// 004 HW_SETUP: XPRINP is the format of the pulse input, INVXDIR its sign. 77,000 pulses a second at 770 Hz.
+TEST(World, HwSetupIsGivenFromTheStart) {
+    WorldOptions options;
+    options.motor = registers::Model::mac800;
+    options.registers = {{.number = 39, .bits = 0x50}};
+    World world(table(), options);
+    world.set_pulses({.per_second = 7'700, .with_direction = true});
+    while (world.now() < 20ms) world.step(20ms);
+    EXPECT_EQ(world.mac().read(39), 0x50);
+    EXPECT_NEAR(world.mac().read(163), -10, 1);
+}
+
 TEST_F(WorldRun, AMotorMayBeOffForLessThanACharacter) {
     run_to(500ms);
     world_.power_motor(false);

@@ -55,6 +55,10 @@ class VirtualDrive {
     // What the world does to a drive. False: it has none of this.
     virtual bool fail() { return false; }
     virtual bool load(int /*torque*/) { return false; }  ///< 1023 = full
+    virtual bool stop(const action::StopMotor&) { return false; }
+    virtual void free() {}
+    virtual bool set_input(const action::SetDriveInput&) { return false; }
+    virtual bool connect(const action::DriveSwitch&) { return false; }
     virtual bool set_supply(double /*volts*/) { return false; }
     virtual bool set_temperature(int /*celsius*/) { return false; }
     virtual bool break_encoder() { return false; }

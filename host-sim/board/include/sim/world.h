@@ -41,6 +41,7 @@ struct WorldOptions {
     gateway::Settings gateway{};  ///< where nothing is stored
     std::uint32_t user_baud =
         19'200;  ///< where nothing is stored; whoever talks there has the gateway's rate
+    std::vector<StoredRegister> registers{};  ///< in the JVL motor's flash, beside what comes from the box
     bool motor_mactalk_wired = false;   ///< the motor's own MacTalk port, to the gateway's second user port
     ports::Storage* storage = nullptr;  ///< for tables and settings; the board's own without it
     Polling polling = Polling::steadily;
@@ -128,6 +129,8 @@ class World final : public Stage, private gateway::Observer {
     void stop_motor(const action::StopMotor& stop) override;
     void free_motor() override;
     void connect_sensor(const action::MotorSensor& sensor) override;
+    void set_drive_input(const action::SetDriveInput& input) override;
+    void connect_switch(const action::DriveSwitch& connected) override;
     void set_analogue(double volts) override;
     void set_pulses(const action::MotorPulses& pulses) override;
     void set_supply(const action::MotorSupply& supply) override;

@@ -49,6 +49,10 @@ class MacMotor final : private LinkTarget, private MacTalkTarget {
     /// One outer sample: shaft, encoder, profile, regulator, flags, monitoring (001 §4).
     [[gnu::flatten]] void sample();
 
+    /// The same without supply: the shaft runs out, or follows its load; V_IST shows it, and P_IST does not
+    /// count it. A holding brake holds.
+    void coast();
+
     /// The user interface, see FastMacSlave. Dead if CNTRL_BITS chose another use of the pins at power-up.
     void receive(std::uint8_t byte, bool framing_error, base::Instant now);
     std::optional<std::uint8_t> transmit(base::Instant now);

@@ -44,6 +44,9 @@ class Servo {
     /// regulator forgets what it was at.
     [[gnu::flatten]] Result carry_out(const Drive& drive, MotorMemory& memory);
 
+    /// An outer sample without supply: the shaft runs out. Answers its counts.
+    std::int32_t coast();
+
     /// As after power-up: windings shorted, IA_OFFSET ... found. The shaft stays where it is.
     void power_up(MotorMemory& memory);
     /// Profile and shaft are at the same place and run at `velocity`, 1/16 counts/sample, in the next sample.

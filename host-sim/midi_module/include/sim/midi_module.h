@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -65,6 +66,7 @@ class MidiModule {
     // The world around it.
     void power_off();
     void power_on();
+    /// For good: takes a switch off.
     void set_input(Input input, bool active);
     bool input(Input input) const { return inputs_[index(input)]; }
     void set_supply(std::int32_t millivolts);
@@ -74,6 +76,11 @@ class MidiModule {
     void connect_encoder(bool connected);
     void overload_amplifier() { trip(registers::midi::kAmplifierTrip); }
     void hold_shaft(bool held) { held_ = held; }
+    /// A mechanical end, in increments of shaft(); one that the shaft is beyond holds it where it is.
+    void stop_shaft(bool above, std::int64_t at);
+    void free_shaft() { ends_ = {}; }
+    /// A switch at an input: active on one side of a place, in increments of shaft().
+    void connect(Input input, bool on_above, std::int64_t at);
     /// A constant pull in steps of TORQUE, positive clockwise. Below the motor's torque it only has to be
     /// overcome; above it, it drags the shaft.
     void set_load(std::int32_t torque);
@@ -83,6 +90,8 @@ class MidiModule {
     bool is_can() const { return options_.can; }
     bool is_on() const { return on_; }
     std::int32_t position() const { return position_; }
+    /// Increments that the shaft has really turned, whatever the position was set to.
+    std::int64_t shaft() const { return shaft_; }
     bool moving() const;
     bool powered() const { return powered_; }
     std::uint8_t torque() const;  ///< what the motor has now, of Imax
@@ -144,8 +153,13 @@ class MidiModule {
     void step_adjusting();
     void turn(int direction);
     bool adjusts() const;
-    bool can_turn() const;
+    bool can_turn(int direction) const;
+    bool at_end(int direction) const;
+    void look_at_switches();
+    void change_input(Input which, bool active);
+    void run_out();
     void drag();
+    void slow_down();
     bool is_over_release(std::int32_t millivolts) const;
     bool braking_is_cut() const;
     bool blocked(int direction);
@@ -163,7 +177,18 @@ class MidiModule {
     bool wants_restart_ = false;
     bool factory_reset_ = false;
 
+    struct Switch {
+        std::int64_t at;
+        bool on_above;
+    };
+    struct Ends {
+        std::optional<std::int64_t> low, high;
+    };
+
     bool inputs_[4] = {};
+    std::array<std::optional<Switch>, 4> switches_;
+    Ends ends_;
+    std::int64_t shaft_ = 0;
     bool reference_enabled_ = false;
     std::int32_t supply_;
     std::int32_t regeneration_ = 0;
@@ -171,7 +196,7 @@ class MidiModule {
     bool encoder_ = true;
     bool held_ = false;
     std::int32_t load_ = 0;
-    std::optional<Ticks> next_drag_;  ///< while there is a load
+    std::optional<Ticks> next_drag_;  ///< while there is a load, or the shaft runs out
     std::int64_t drag_speed_ = 0;     ///< of a shaft that slips, increments a step of it, x 2^20
     std::int64_t drag_rest_ = 0;      ///< less than an increment, x 2^20
 

@@ -65,6 +65,18 @@ struct MotorSensor {
     bool on_above = true;  ///< else below
     std::int64_t counts = 0;
 };
+/// An input of a MIDI module.
+enum class DriveInput : std::uint8_t { upper_stop, lower_stop, reference, security };
+struct SetDriveInput {
+    DriveInput input = DriveInput::upper_stop;
+    bool active = false;
+};
+/// A switch at it: active on one side of a place.
+struct DriveSwitch {
+    DriveInput input = DriveInput::upper_stop;
+    bool on_above = true;  ///< else below
+    std::int64_t counts = 0;
+};
 struct MotorAnalogue {
     double volts = 0;
 };
@@ -92,9 +104,9 @@ struct Action {
     Time after{0};  ///< since the moment that set it off
     std::variant<action::SetInput, action::ToggleInput, action::Cancel, action::CutLine, action::SpoilLine,
                  action::Seed, action::FailMotor, action::PowerMotor, action::LoadMotor, action::MotorBrake,
-                 action::StopMotor, action::FreeMotor, action::MotorSensor, action::MotorAnalogue,
-                 action::MotorPulses, action::MotorSupply, action::MotorTemperature, action::BreakEncoder,
-                 action::Gateway, action::Log, action::End>
+                 action::StopMotor, action::FreeMotor, action::MotorSensor, action::SetDriveInput,
+                 action::DriveSwitch, action::MotorAnalogue, action::MotorPulses, action::MotorSupply,
+                 action::MotorTemperature, action::BreakEncoder, action::Gateway, action::Log, action::End>
         what;
 };
 using Actions = std::vector<Action>;
@@ -149,8 +161,15 @@ struct Expectation {
     std::uint64_t most = UINT64_MAX;
 };
 
+/// What the motor's flash holds when it is switched on.
+struct StoredRegister {
+    std::uint8_t number = 0;
+    std::uint32_t bits = 0;
+};
+
 struct Scenario {
     std::string file;
+    std::vector<StoredRegister> registers;
     std::vector<AtRule> at;
     std::vector<EveryRule> every;
     std::vector<WhenRule> when;

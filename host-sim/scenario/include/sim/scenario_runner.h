@@ -27,6 +27,8 @@ class Stage {
     virtual void stop_motor(const action::StopMotor& stop) = 0;
     virtual void free_motor() = 0;
     virtual void connect_sensor(const action::MotorSensor& sensor) = 0;
+    virtual void set_drive_input(const action::SetDriveInput& input) = 0;
+    virtual void connect_switch(const action::DriveSwitch& connected) = 0;
     virtual void set_analogue(double volts) = 0;
     virtual void set_pulses(const action::MotorPulses& pulses) = 0;
     virtual void set_supply(const action::MotorSupply& supply) = 0;
