@@ -86,7 +86,7 @@ MODULES = [
          "mactalk_client", "command_line", "whole_files"),
     ),
     Module("tools/registers_reference", "registers_reference", ("base", "registers")),
-    Module("tools/verify", "verify", ("base", "sequencer")),
+    Module("tools/verify", "verify", ("base", "sequencer", "protocol", "registers")),
     Module("tools/seqc", "seqc", ("arguments", "base", "sequencer", "protocol", "registers", "host", "intel_hex",
                                     "spelling", "verify", "whole_files")),
     Module(

@@ -10,6 +10,7 @@ SPECIAL = {
     "space, tab, LF, CR, form feed or vertical tab": r"[ \t\n\r\f\v]",
     "all up to the end of the line": r"[^\n]*",
     "all up to the first": r"(?s:.*?)",
+    "any characters but ' and the end of the line": r"[^'\n]*",
 }
 NO_NAMES_EXCEPT = {"BOOL", "Q"}
 

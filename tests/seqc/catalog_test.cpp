@@ -40,6 +40,7 @@ TEST(Catalog, HoldsWhatTheSourcesCanSayAndNothingElse) {
     std::set<std::string> in_table;
     for (const CodeRow& row : kCodes) in_table.emplace(row.code);
     EXPECT_EQ(explained, in_table);
+    std::erase_if(explained, [](const std::string& code) { return code.starts_with("V"); });
     EXPECT_EQ(explained, codes_in_sources());
 }
 
@@ -62,7 +63,7 @@ TEST(Catalog, IsInOrderAndWhole) {
 // gives it, the compiler would be mended instead; verify_test.cpp feeds the check wrong bytes by hand.
 TEST(Catalog, WrongProgramsGiveTheirCodeAndNoOther) {
     for (const Explanation& info : explanations()) {
-        if (info.code == "E099") continue;
+        if (info.code == "E099" || info.code.starts_with("V")) continue;
         const std::string source = whole_program(info.wrong);
         const Compilation result = compile(source);
         EXPECT_EQ(test::codes(result), info.code) << test::shown(result, source);
@@ -72,7 +73,7 @@ TEST(Catalog, WrongProgramsGiveTheirCodeAndNoOther) {
 
 TEST(Catalog, RightProgramsGiveNothing) {
     for (const Explanation& info : explanations()) {
-        if (info.code == "E099") continue;
+        if (info.code == "E099" || info.code.starts_with("V")) continue;
         const std::string source = whole_program(info.right);
         const Compilation result = compile(source);
         EXPECT_TRUE(result.ok) << info.code;

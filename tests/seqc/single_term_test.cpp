@@ -6,7 +6,7 @@
 namespace nplc::seqc {
 namespace {
 
-std::string around(const std::string& inside, const std::string& outside = {}) {
+std::string in_program(const std::string& inside, const std::string& outside = {}) {
     return "PROGRAM P MOTOR MAC140; VAR_INPUT Start AT IN0 : BOOL; END_VAR VAR_OUTPUT Grip AT OUT1 : BOOL; "
            "END_VAR\n"
            "STEP S: OWN ERROR; " +
@@ -16,7 +16,7 @@ std::string around(const std::string& inside, const std::string& outside = {}) {
 
 /// The bytes of the term inside step S, which is number 1: the third of the table.
 std::string inside(const std::string& term) {
-    const std::string source = around(term);
+    const std::string source = in_program(term);
     const Compilation result = compile(source);
     EXPECT_TRUE(result.ok) << test::shown(result, source);
     return test::term_text(result.table, 2);
@@ -24,7 +24,7 @@ std::string inside(const std::string& term) {
 
 /// Codes of what is wrong with it.
 std::string wrong(const std::string& term) {
-    const std::string source = around(term);
+    const std::string source = in_program(term);
     const Compilation result = compile(source);
     EXPECT_FALSE(result.ok) << source;
     return test::codes(result);
@@ -60,10 +60,10 @@ TEST(SingleTerm, Statements) {
 }
 
 TEST(SingleTerm, OutsideOfStepsItFollowsAllOthers) {
-    const Compilation result = compile(around("TERM IF TRUE THEN OUT OUT0; END_IF;",
-                                              "TERM T: IF IN0 THEN NEXT := S; END_IF;\n"
-                                              "TERM 16#C1, 0, 0, 16#3E, 16#80, 4, 0, 0;\n"
-                                              "TERM S: IF IN1 THEN OUT OUT3; END_IF;\n"));
+    const Compilation result = compile(in_program("TERM IF TRUE THEN OUT OUT0; END_IF;",
+                                                  "TERM T: IF IN0 THEN NEXT := S; END_IF;\n"
+                                                  "TERM 16#C1, 0, 0, 16#3E, 16#80, 4, 0, 0;\n"
+                                                  "TERM S: IF IN1 THEN OUT OUT3; END_IF;\n"));
     ASSERT_TRUE(result.ok);
     // 0 power-up, 1 and 2 of S, 3 of T
     EXPECT_EQ(test::term_text(result.table, 4), "C2 01 01 01 80 00 00 00");
@@ -73,7 +73,7 @@ TEST(SingleTerm, OutsideOfStepsItFollowsAllOthers) {
 }
 
 TEST(SingleTerm, TermsMayHoldTogether) {
-    const std::string source = around(
+    const std::string source = in_program(
         "TERM IF IN0 THEN STOP; NEXT := T; END_IF; TERM IF IN1 THEN POSITION(P1); NEXT := S; END_IF; "
         "TERM IF IN0 THEN VELOCITY(A1); END_IF;");
     EXPECT_TRUE(compile(source).ok);
@@ -106,18 +106,18 @@ TEST(SingleTerm, WhatOneTermCannotHoldIsAnError) {
     EXPECT_EQ(wrong("TERM T: IF IN0 THEN NEXT := T; END_IF;"), "E092");
     EXPECT_EQ(wrong("TERM IF IN0 NEXT := T; END_IF;"), "E010");
     EXPECT_EQ(wrong("TERM IF IN0 THEN NEXT := T;"), "E012");
-    EXPECT_EQ(test::codes(compile(around("", "TERM IF IN0 THEN NEXT := T; END_IF;"))), "E094");
-    EXPECT_EQ(test::codes(compile(around("", "TERM Q: IF IN0 THEN NEXT := T; END_IF;"))), "E021");
-    EXPECT_EQ(test::codes(compile(around("TERM S: IF IN0 THEN NEXT := T; END_IF;"))), "");
+    EXPECT_EQ(test::codes(compile(in_program("", "TERM IF IN0 THEN NEXT := T; END_IF;"))), "E094");
+    EXPECT_EQ(test::codes(compile(in_program("", "TERM Q: IF IN0 THEN NEXT := T; END_IF;"))), "E021");
+    EXPECT_EQ(test::codes(compile(in_program("TERM S: IF IN0 THEN NEXT := T; END_IF;"))), "");
 }
 
 TEST(SingleTerm, ItsNextCountsAsAWayToAStep) {
     const std::string lost = "STEP U: OWN ERROR; NEXT := S; END_STEP";
-    EXPECT_EQ(test::codes(compile(around("", lost))), "W005");
-    EXPECT_EQ(test::codes(compile(around("TERM IF IN0 THEN NEXT := U; END_IF;", lost))), "");
-    EXPECT_EQ(test::codes(compile(around("TERM 16#C1, 0, 0, 3, 16#80, 0, 0, 0;", lost))), "");
-    EXPECT_EQ(test::codes(compile(around("", lost + " TERM T: IF IN0 THEN NEXT := U; END_IF;"))), "");
-    EXPECT_EQ(test::codes(compile(around("", lost + " TERM U: IF IN0 THEN NEXT := U; END_IF;"))), "W005");
+    EXPECT_EQ(test::codes(compile(in_program("", lost))), "W005");
+    EXPECT_EQ(test::codes(compile(in_program("TERM IF IN0 THEN NEXT := U; END_IF;", lost))), "");
+    EXPECT_EQ(test::codes(compile(in_program("TERM 16#C1, 0, 0, 3, 16#80, 0, 0, 0;", lost))), "");
+    EXPECT_EQ(test::codes(compile(in_program("", lost + " TERM T: IF IN0 THEN NEXT := U; END_IF;"))), "");
+    EXPECT_EQ(test::codes(compile(in_program("", lost + " TERM U: IF IN0 THEN NEXT := U; END_IF;"))), "W005");
 }
 
 std::string numbered(const std::string& a, const std::string& b, const std::string& c) {

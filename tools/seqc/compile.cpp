@@ -8,6 +8,7 @@
 #include "semantics/scope.h"
 #include "seqc/seqc.h"
 #include "syntax/lexer.h"
+#include "syntax/names.h"
 #include "syntax/parser.h"
 
 namespace nplc::seqc {
@@ -78,6 +79,20 @@ bool stands_without_the_rest(const Diagnostic& d) {
            (phase == Phase::names || phase == Phase::motor || phase == Phase::commands);
 }
 
+void collect_allowances(const ast::Program& program, const Plan& plan, Compilation& result) {
+    const auto collect = [&](const ast::Step& step) {
+        for (const ast::Allowance& allowance : step.allowances) {
+            for (const StepPlan& planned : plan.steps) {
+                if (same_name(planned.name, step.name.text))
+                    result.allowances.push_back(
+                        {planned.number, upper(allowance.code.text), std::string(allowance.reason.text)});
+            }
+        }
+    };
+    for (const ast::Step& step : program.steps) collect(step);
+    if (program.power_up) collect(*program.power_up);
+}
+
 void merge(Report& report, Report& checks, bool all) {
     if (checks.has_more()) report.note_more();
     for (Diagnostic& d : checks.take()) {
@@ -105,6 +120,7 @@ Compilation compile(std::string_view source) {
     if (!plan.steps.empty() && plan.steps.front().number == 0)
         result.symbols.steps[0] = plan.steps.front().name;
     for (const StepPlan& step : plan.steps) result.steps.push_back({step.number, step.span, step.outputs});
+    collect_allowances(program, plan, result);
     std::sort(result.steps.begin(), result.steps.end(),
               [](const StepOrigin& a, const StepOrigin& b) { return a.number < b.number; });
     if (syntax_sound && !checks.has_errors()) check_fewest_terms(plan, program.name.span, checks);

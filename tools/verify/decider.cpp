@@ -11,10 +11,6 @@ namespace {
 
 constexpr std::size_t kMostTimedStates = 400'000;
 
-std::string out_of_bounds(const Explorer& explorer) {
-    return fmt::format("{} states were explored, and there are more", explorer.size());
-}
-
 constexpr const char* kNoTimes =
     "there is a course that breaks it but for the times that an input stays as it is; neither these times "
     "nor "
@@ -27,10 +23,15 @@ constexpr const char* kNotSurely =
 
 }  // namespace
 
+std::string out_of_bounds(const Explorer& explorer) {
+    return fmt::format("{} states were explored, and there are more", explorer.size());
+}
+
 Decider::Decider(const sequencer::Table& table, const Machine& machine, const Options& options,
                  std::vector<Target> targets)
     : table_(table), machine_(machine), options_(options), targets_(std::move(targets)) {
-    coarse_ = std::make_unique<Explorer>(machine, Precision{.most_states = options.most_states});
+    coarse_ = std::make_unique<Explorer>(
+        machine, Precision{.knows_lost_link = true, .keeps_edges = true, .most_states = options.most_states});
     coarse_->explore(targets_);
 }
 
@@ -87,22 +88,18 @@ Decider::Finding Decider::missed_deadline(const Property& property) const {
 }
 
 const std::vector<bool>& Decider::ways_to(const Target& target) {
-    if (!ways_) {
-        ways_ = std::make_unique<Explorer>(
-            machine_,
-            Precision{.knows_lost_link = true, .keeps_edges = true, .most_states = options_.most_states});
-        ways_->explore({});
-        first_back_.assign(ways_->size() + 1, 0);
-        for (const auto& edge : ways_->edges()) ++first_back_[edge.second + 1];
+    if (back_.empty()) {
+        first_back_.assign(coarse_->size() + 1, 0);
+        for (const auto& edge : coarse_->edges()) ++first_back_[edge.to + 1];
         for (std::size_t i = 1; i < first_back_.size(); ++i) first_back_[i] += first_back_[i - 1];
-        back_.resize(ways_->edges().size());
+        back_.resize(coarse_->edges().size());
         std::vector<std::uint32_t> next(first_back_.begin(), first_back_.end());
-        for (const auto& edge : ways_->edges()) back_[next[edge.second]++] = edge.first;
+        for (const auto& edge : coarse_->edges()) back_[next[edge.to]++] = edge.from;
     }
-    good_.assign(ways_->size(), false);
+    good_.assign(coarse_->size(), false);
     std::vector<Explorer::Node> open;
-    for (Explorer::Node node = 0; node < ways_->size(); ++node) {
-        if (!ways_->can_hit_from(node, target)) continue;
+    for (Explorer::Node node = 0; node < coarse_->size(); ++node) {
+        if (!coarse_->can_hit_from(node, target)) continue;
         good_[node] = true;
         open.push_back(node);
     }
@@ -121,14 +118,14 @@ const std::vector<bool>& Decider::ways_to(const Target& target) {
 Decider::Finding Decider::stuck_outside(std::size_t index) {
     const Target& target = targets_[index];
     const std::vector<bool>& good = ways_to(target);
-    if (!ways_->complete()) return {Answer::unknown, {}, out_of_bounds(*ways_)};
-    const Explorer::Stuck stuck = ways_->first_stuck(target, good);
+    if (!coarse_->has_all_edges()) return {Answer::unknown, {}, out_of_bounds(*coarse_)};
+    const Explorer::Stuck stuck = coarse_->first_stuck(target, good);
     if (stuck.node == Explorer::kNone) {
         if (options_.assume == Assume::any) return {Answer::cannot_be, {}, {}};
-        if (surely_possible(*ways_, target)) return {Answer::cannot_be, {}, {}};
+        if (surely_possible(*coarse_, target)) return {Answer::cannot_be, {}, {}};
         return {Answer::unknown, {}, kNotSurely};
     }
-    if (auto course = realized(ways_->course_to(stuck))) return {Answer::can_be, std::move(course), {}};
+    if (auto course = realized(coarse_->course_to(stuck))) return {Answer::can_be, std::move(course), {}};
     return {Answer::unknown, {}, kNoTimes};
 }
 

@@ -11,6 +11,8 @@
 
 namespace nplc::verify {
 
+std::string out_of_bounds(const Explorer& explorer);
+
 /// Whether a scan can be, decided by ever more exact explorations: the timer as zero or running first, in
 /// milliseconds where that finds a course that no times fit.
 class Decider {
@@ -31,9 +33,10 @@ class Decider {
 
     const Explorer& coarse() const { return *coarse_; }
 
-  private:
     std::optional<Course> realized(const std::vector<CourseScan>& scans,
                                    const std::optional<Overdue>& overdue = {}) const;
+
+  private:
     const Explorer& fine();
     const std::vector<bool>& ways_to(const Target& target);
 
@@ -43,7 +46,6 @@ class Decider {
     std::vector<Target> targets_;
     std::unique_ptr<Explorer> coarse_;
     std::unique_ptr<Explorer> fine_;
-    std::unique_ptr<Explorer> ways_;  ///< with edges
     std::vector<std::uint32_t> first_back_;
     std::vector<Explorer::Node> back_;
     std::vector<bool> good_;

@@ -26,6 +26,7 @@ const ImageSet& images_of_lost_link() {
 
 constexpr unsigned kCounterBit = 15;
 constexpr unsigned kPlainBits = 11;  ///< of a place under `any`: step, outputs, timer
+constexpr std::size_t kMostEdges = 10'000'000;
 constexpr std::size_t kMostDense = std::size_t{1} << 24U;
 
 }  // namespace
@@ -195,7 +196,9 @@ void Explorer::add(const Place& place, const Zone& zone, const Origin& origin, N
         first = node;
         steps_begun_ |= std::uint64_t{1} << place.step;
     }
-    if (precision_.keeps_edges && from != kNone) edges_.emplace_back(from, node);
+    if (!precision_.keeps_edges || from == kNone || !has_all_edges_) return;
+    has_all_edges_ = edges_.size() < kMostEdges;
+    edges_.push_back({from, node, origin.group});
 }
 
 void Explorer::explore(const std::vector<Target>& targets) {
@@ -207,9 +210,11 @@ void Explorer::explore(const std::vector<Target>& targets) {
     if (dense <= kMostDense) dense_.assign(dense, kNone);
     add({}, {}, {}, kNone);
     for (Node node = 0; node < places_.size(); ++node) {
+        first_edge_.push_back(static_cast<std::uint32_t>(edges_.size()));
         visit(node, targets);
         if (missed_deadline()) return;
     }
+    first_edge_.push_back(static_cast<std::uint32_t>(edges_.size()));
 }
 
 void Explorer::visit(Node node, const std::vector<Target>& targets) {
@@ -287,6 +292,12 @@ std::vector<CourseScan> Explorer::course_to_node(Node node) const {
     }
     std::reverse(course.begin(), course.end());
     return course;
+}
+
+CourseScan Explorer::scan_of(const Edge& edge, const ImageSet& images) const {
+    CourseScan scan = scan_of(place(edge.from), edge.group, images);
+    scan.delay = delay_of(place(edge.from), group_of(edge), place(edge.to));
+    return scan;
 }
 
 std::vector<CourseScan> Explorer::course_to(std::size_t target) const {

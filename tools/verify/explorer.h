@@ -2,8 +2,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "verify/machine.h"
@@ -65,7 +65,7 @@ struct Target {
 struct Precision {
     bool times_timer = false;            ///< else it may end at any time
     bool knows_lost_link = false;        ///< else a lost link is any ERROR
-    bool keeps_edges = false;            ///< for ways back
+    bool keeps_edges = false;            ///< for ways back and courses
     const Property* deadline = nullptr;  ///< a WHENEVER to be broken
     std::size_t most_states = 4'000'000;
 };
@@ -83,6 +83,7 @@ class Explorer {
     bool complete() const { return complete_; }
     std::size_t size() const { return places_.size(); }
     Place place(Node node) const { return Place::unpacked(places_[node]); }
+    const Machine& machine() const { return machine_; }
     std::uint64_t steps_begun() const { return steps_begun_; }
 
     /// The first way to hit a target, or to miss the deadline; empty if there is none.
@@ -95,7 +96,26 @@ class Explorer {
     /// The scans before the one that begins in `node`.
     std::vector<CourseScan> course_to_node(Node node) const;
 
-    const std::vector<std::pair<Node, Node>>& edges() const { return edges_; }
+    /// A scan that leads from one place to another. Those of one node stand together, in the order of nodes.
+    struct Edge {
+        Node from = kNone;
+        Node to = kNone;
+        std::uint16_t group = 0;
+    };
+    bool has_all_edges() const { return complete_ && has_all_edges_; }
+    const std::vector<Edge>& edges() const { return edges_; }
+    std::span<const Edge> edges_from(Node node) const {
+        return std::span(edges_).subspan(first_edge_[node], first_edge_[node + 1] - first_edge_[node]);
+    }
+    const Group& group_of(const Edge& edge) const {
+        const Place from = place(edge.from);
+        return machine_.groups(from.step, !from.runs, from.counter == 0)[edge.group];
+    }
+    /// With which the scan of an edge can be.
+    ImageSet images_of(const Edge& edge) const {
+        return narrowed(group_of(edge).images & allowed(place(edge.from)), place(edge.to));
+    }
+    CourseScan scan_of(const Edge& edge, const ImageSet& images) const;
     /// Whether a scan that begins in `node` can be of `target`.
     bool can_hit_from(Node node, const Target& target) const;
 
@@ -172,7 +192,9 @@ class Explorer {
     std::vector<Node> same_place_;  ///< the node before it with the same place
     std::vector<Node> dense_;
     std::unordered_map<std::uint32_t, Node> sparse_;
-    std::vector<std::pair<Node, Node>> edges_;
+    std::vector<Edge> edges_;
+    std::vector<std::uint32_t> first_edge_;  ///< by node, and the end
+    bool has_all_edges_ = true;
     std::vector<Hit> hits_;
     Hit missed_;
     bool missed_at_end_ = false;

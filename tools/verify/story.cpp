@@ -24,15 +24,6 @@ std::string image_text(std::uint8_t image, const Names& names) {
     return listed(on);
 }
 
-std::string outputs_text(std::uint8_t outputs, const Names& names) {
-    std::vector<std::string> on;
-    for (unsigned i = 0; i < 4; ++i) {
-        if (((unsigned{outputs} >> i) & 1U) != 0)
-            on.push_back(names.outputs[i].empty() ? fmt::format("OUT{}", i) : names.outputs[i]);
-    }
-    return listed(on);
-}
-
 std::string orders_text(const std::vector<sequencer::MotorOrder>& orders) {
     std::string text;
     for (const auto& order : orders) {
@@ -63,6 +54,15 @@ std::array<unsigned, 64> entries_of(const Course& course) {
 }
 
 }  // namespace
+
+std::string outputs_text(std::uint8_t outputs, const Names& names) {
+    std::vector<std::string> on;
+    for (unsigned i = 0; i < 4; ++i) {
+        if (((unsigned{outputs} >> i) & 1U) != 0)
+            on.push_back(names.outputs[i].empty() ? fmt::format("OUT{}", i) : names.outputs[i]);
+    }
+    return listed(on);
+}
 
 std::string step_name(const Names& names, std::uint8_t step) {
     return names.steps[step].empty() ? fmt::format("{}", step) : names.steps[step];

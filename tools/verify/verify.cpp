@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "decider.h"
+#include "findings.h"
+#include "verify/story.h"
 
 namespace nplc::verify {
 namespace {
@@ -45,7 +47,7 @@ void make_late(Course& course, std::uint32_t within_ms) {
 }
 
 Result judged(Decider& decider, const Property& property, std::size_t target, Assume assume) {
-    Result result{.name = property.name, .code = {}, .text = property.text, .reason = {}, .course = {}};
+    Result result{.name = property.name, .text = property.text};
     const bool late = property.form == Form::whenever;
     Decider::Finding finding = property.form == Form::always_possible ? decider.stuck_outside(target)
                                : late && assume == Assume::driver     ? decider.missed_deadline(property)
@@ -61,6 +63,81 @@ Result judged(Decider& decider, const Property& property, std::size_t target, As
     result.course = std::move(finding.course);
     if (late && result.course && assume == Assume::any) make_late(*result.course, property.within_ms);
     return result;
+}
+
+/// The first times that fit are taken: a finding whose course has none may still be one.
+constexpr const char* kNotShown = "no times were found for a course that shows it";
+
+Result found(const Decider& decider, const Check& check, const Finding& finding, const Names& names,
+             const Options& options) {
+    Result result{.name = fmt::format("{}.{}", check.name, step_name(names, finding.step)),
+                  .code = std::string(check.code),
+                  .step = finding.step,
+                  .text = std::string(check.text),
+                  .verdict = Verdict::broken,
+                  .severity = check.severity,
+                  .reason = finding.reason};
+    for (const Allowance& allowance : options.allowances) {
+        if (allowance.step != finding.step || allowance.code != check.code) continue;
+        result.allowed = allowance.reason;
+        result.severity = Severity::advice;
+    }
+    if (!finding.way.empty()) {
+        result.course = decider.realized(finding.way);
+        if (!result.course) {
+            result.verdict = Verdict::undecided;
+            result.reason += fmt::format(" ({})", kNotShown);
+        }
+    }
+    return result;
+}
+
+/// Where ERROR lasts for ever nothing leaves a fault step, or it comes back: that is one mistake.
+void drop_what_errors_explain(std::vector<Finding>& findings) {
+    std::uint64_t steps = 0;
+    for (const Finding& finding : findings) {
+        if (finding.code == "V004" || finding.code == "V005") steps |= std::uint64_t{1} << finding.step;
+    }
+    std::erase_if(findings, [&](const Finding& finding) {
+        const bool follows = finding.code == "V002" || finding.code == "V003" || finding.code == "V013";
+        return follows && ((steps >> finding.step) & 1U) != 0;
+    });
+}
+
+/// A result for each finding, and one for each check without.
+void judge_checks(const Decider& decider, const Names& names, const Options& options,
+                  std::vector<Result>& results) {
+    const Explorer& explorer = decider.coarse();
+    std::vector<Finding> findings;
+    if (explorer.has_all_edges()) {
+        for (auto* const check : {&check_steps, &check_errors, &check_zeros, &check_motor}) {
+            for (Finding& finding : check({explorer, names})) findings.push_back(std::move(finding));
+        }
+    }
+    drop_what_errors_explain(findings);
+    for (const Check& check : checks()) {
+        const std::size_t before = results.size();
+        for (const Finding& finding : findings) {
+            if (finding.code == check.code) results.push_back(found(decider, check, finding, names, options));
+        }
+        if (results.size() > before) continue;
+        results.push_back({.name = std::string(check.name),
+                           .code = std::string(check.code),
+                           .text = std::string(check.text),
+                           .verdict = explorer.has_all_edges() ? Verdict::proved : Verdict::undecided,
+                           .severity = check.severity,
+                           .reason = explorer.has_all_edges() ? "" : out_of_bounds(explorer)});
+    }
+}
+
+/// What the orders do to the motor is no matter of `any`: checks take what the gateway and a motor can do.
+void judge_checks_of_driver(const sequencer::Table& table, const Decider& decider, const Names& names,
+                            const Options& options, std::vector<Result>& results) {
+    if (options.assume == Assume::driver) return judge_checks(decider, names, options, results);
+    Options driver = options;
+    driver.assume = Assume::driver;
+    const Machine machine(table, driver.assume, driver.order_time);
+    judge_checks(Decider(table, machine, driver, {}), names, driver, results);
 }
 
 }  // namespace
@@ -80,6 +157,7 @@ Report verify(const sequencer::Table& table, const Names& names, const std::vect
         if (report.complete && is_there && ((decider.coarse().steps_begun() >> step) & 1U) == 0)
             report.unreachable.push_back(step);
     }
+    judge_checks_of_driver(table, decider, names, options, report.results);
     for (std::size_t i = 0; i < properties.size(); ++i)
         report.results.push_back(judged(decider, properties[i], i, options.assume));
     return report;

@@ -68,7 +68,7 @@ std::string nearest_codes(std::string_view wanted, std::vector<Explanation> all)
     const std::string letter = upper(wanted.substr(0, 1));
     if (number < 0) return {};
     std::erase_if(all, [&](const Explanation& info) {
-        return (letter == "E" || letter == "W") && !info.code.starts_with(letter);
+        return (letter == "E" || letter == "V" || letter == "W") && !info.code.starts_with(letter);
     });
     std::stable_sort(all.begin(), all.end(), [&](const Explanation& a, const Explanation& b) {
         return std::abs(number_of(a.code) - number) < std::abs(number_of(b.code) - number);
@@ -112,7 +112,8 @@ int explain(const ExplainArguments& options) {
 void add_explain(arguments::App& app, int& exit_code) {
     const auto options = std::make_shared<ExplainArguments>();
     arguments::App& command = *app.add_subcommand(
-        "explain", "Tell what an error or warning means, with a wrong and a right program");
+        "explain",
+        "Tell what an error, a warning or a finding of verify means, with a wrong and a right program");
     command.add_option("code", options->code, "Such as E012 or W004; without one all are listed");
     command.add_flag("--json", options->json, "Print it as JSON");
     command.callback([options, &exit_code] { exit_code = explain(*options); });

@@ -147,9 +147,26 @@ Json document_of(const verify::Report& report, const VerifyArguments& options, c
         added["severity"] = result.severity == verify::Severity::fault ? "fault" : "advice";
         added["property"] = result.text;
         if (!result.reason.empty()) added["reason"] = result.reason;
+        if (!result.allowed.empty()) added["allowed"] = result.allowed;
         if (result.course) added["course"] = course_object(*result.course, names);
     }
     return document;
+}
+
+struct Position {
+    std::size_t line = 1;
+    std::size_t column = 1;
+};
+
+Position position_of_step(const Compilation& program, std::string_view source, std::uint8_t step) {
+    Position at;
+    for (const StepOrigin& origin : program.steps) {
+        if (origin.number != step) continue;
+        const std::string_view before = source.substr(0, origin.span.offset);
+        at.line += static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+        at.column = before.size() - (before.rfind('\n') + 1) + 1;
+    }
+    return at;
 }
 
 const char* assumption_text(const std::string& assume) {
@@ -157,20 +174,47 @@ const char* assumption_text(const std::string& assume) {
                            : "what the gateway and a real motor can do (--assume driver)";
 }
 
-std::string text_of(const verify::Report& report, const VerifyArguments& options,
+/// What a check found, where the step stands.
+std::string finding_text(const verify::Result& result, const VerifyArguments& options, const Input& input,
+                         const verify::Names& names) {
+    const bool is_fault = result.severity == verify::Severity::fault;
+    const char* word = result.verdict == Verdict::undecided ? "undecided"
+                       : !result.allowed.empty()            ? "allowed"
+                       : is_fault                           ? "fault"
+                                                            : "advice";
+    std::string place = options.table.file;
+    if (input.program && result.step) {
+        const Position at = position_of_step(*input.program, input.source, *result.step);
+        place += fmt::format(":{}:{}", at.line, at.column);
+    }
+    std::string text = fmt::format(
+        "{}: {} {}\n", place,
+        painted(stdout, is_fault ? "1;31" : "1;33", fmt::format("{} {}:", word, result.code)), result.reason);
+    if (!result.allowed.empty()) text += fmt::format("  because {}\n", result.allowed);
+    if (is_fault && result.course) text += story_of(*result.course, names);
+    return text;
+}
+
+std::string text_of(const verify::Report& report, const VerifyArguments& options, const Input& input,
                     const verify::Names& names) {
     std::string text;
+    std::size_t checks_that_hold = 0;
     for (const verify::Result& result : report.results) {
+        if (!result.code.empty()) {
+            const bool holds = result.verdict == Verdict::proved;
+            checks_that_hold += holds ? 1 : 0;
+            if (!holds) text += finding_text(result, options, input, names);
+            continue;
+        }
         const char* shade = result.verdict == Verdict::proved ? "1;32" : "1;31";
-        text += fmt::format("{} {}{}: {}\n",
-                            painted(stdout, shade, fmt::format("{:<9}", word_of(result.verdict))),
-                            result.code.empty() ? "" : result.code + " ", result.name, result.text);
+        text +=
+            fmt::format("{} {}: {}\n", painted(stdout, shade, fmt::format("{:<9}", word_of(result.verdict))),
+                        result.name, result.text);
         if (!result.reason.empty()) text += fmt::format("  {}\n", result.reason);
         if (result.verdict == Verdict::broken && result.course) text += story_of(*result.course, names);
     }
-    for (const std::uint8_t step : report.unreachable)
-        text += fmt::format("step {} is never reached\n", verify::step_name(names, step));
-    return text + fmt::format("{} states explored{}; assumed: {}\n", report.states,
+    return text + fmt::format("{} of {} checks hold; {} states explored{}; assumed: {}\n", checks_that_hold,
+                              verify::checks().size(), report.states,
                               report.complete ? ", all there are" : ", not all",
                               assumption_text(options.assume));
 }
@@ -244,11 +288,15 @@ int run(const VerifyArguments& options) {
     how.order_time = [translated](std::span<const sequencer::MotorOrder> orders) {
         return order_time(orders, translated);
     };
+    if (input.program) {
+        for (const Allowance& allowance : input.program->allowances)
+            how.allowances.push_back({allowance.code, allowance.step, allowance.reason});
+    }
     const verify::Report report = verify::verify(loaded.table, names, properties, how);
     if (const int written = write_courses(report, options, names); written != kOk) return written;
     const int verdict = exit_code_of(report);
     if (options.json) return print_json(document_of(report, options, input, names), verdict);
-    const int printed = print_or_write(text_of(report, options, names), {});
+    const int printed = print_or_write(text_of(report, options, input, names), {});
     return printed == kOk ? verdict : printed;
 }
 

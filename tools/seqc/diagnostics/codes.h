@@ -21,6 +21,7 @@ enum class Phase : std::uint8_t {
     steps,       ///< the program as a whole
     terms,       ///< TERM lines
     motion,      ///< the motor followed through the steps
+    courses,     ///< what `seqc verify` finds in all courses: errors are faults, warnings advice
 };
 
 struct CodeRow {
@@ -54,7 +55,14 @@ constexpr auto kCodes = std::to_array<CodeRow>({
     {"E091", Severity::error, Phase::terms},      {"E092", Severity::error, Phase::terms},
     {"E093", Severity::error, Phase::terms},      {"E094", Severity::error, Phase::terms},
     {"E095", Severity::error, Phase::steps},      {"E096", Severity::error, Phase::steps},
-    {"E099", Severity::error, Phase::conditions}, {"W001", Severity::warning, Phase::conditions},
+    {"E099", Severity::error, Phase::conditions}, {"V001", Severity::warning, Phase::courses},
+    {"V002", Severity::warning, Phase::courses},  {"V003", Severity::warning, Phase::courses},
+    {"V004", Severity::error, Phase::courses},    {"V005", Severity::error, Phase::courses},
+    {"V006", Severity::warning, Phase::courses},  {"V007", Severity::warning, Phase::courses},
+    {"V008", Severity::warning, Phase::courses},  {"V009", Severity::warning, Phase::courses},
+    {"V010", Severity::error, Phase::courses},    {"V011", Severity::error, Phase::courses},
+    {"V012", Severity::warning, Phase::courses},  {"V013", Severity::warning, Phase::courses},
+    {"V014", Severity::warning, Phase::courses},  {"W001", Severity::warning, Phase::conditions},
     {"W002", Severity::warning, Phase::motor},    {"W003", Severity::warning, Phase::motor},
     {"W004", Severity::warning, Phase::motion},   {"W005", Severity::warning, Phase::steps},
     {"W006", Severity::warning, Phase::scan},     {"W007", Severity::warning, Phase::scan},

@@ -100,6 +100,12 @@ struct ConditionalOutput {
     Span span;
 };
 
+/// ALLOW V006 BECAUSE 'reason';
+struct Allowance {
+    Name code;
+    Name reason;  ///< without its quotes
+};
+
 struct Step {
     Name name;
     std::optional<Value> number;  ///< AT 5
@@ -108,6 +114,7 @@ struct Step {
     std::vector<Statement> entry;
     std::vector<Choice> choices;
     std::vector<RawTerm> terms;
+    std::vector<Allowance> allowances;
     bool own_error = false;
     Span own_error_span;
 };

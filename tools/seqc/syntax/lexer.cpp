@@ -156,8 +156,17 @@ class Lexer {
         return false;
     }
 
+    /// 'words', closed in the same line.
+    bool lex_text(std::size_t start) {
+        const std::size_t end = source_.find_first_of("'\n", at_ + 1);
+        if (peek() != '\'' || end == std::string_view::npos || source_[end] == '\n') return false;
+        at_ = end + 1;
+        add(TokenKind::text, start);
+        return true;
+    }
+
     void lex_unknown(std::size_t start) {
-        if (lex_foreign_operator(start)) return;
+        if (lex_text(start) || lex_foreign_operator(start)) return;
         while (at_ < source_.size() && !is_blank(peek()) && !is_word(peek()) && !is_symbol(peek()) &&
                !(peek() == '%' && is_letter(peek(1)))) {
             ++at_;

@@ -28,6 +28,7 @@ constexpr std::array kReserved = {
     std::string_view("REG"),        std::string_view("PROPERTY"),      std::string_view("NEVER"),
     std::string_view("ALWAYS"),     std::string_view("POSSIBLE"),      std::string_view("IS"),
     std::string_view("REACHABLE"),  std::string_view("WHENEVER"),      std::string_view("WITHIN"),
+    std::string_view("ALLOW"),      std::string_view("BECAUSE"),
 };
 
 /// Words that begin something on the level above a statement: skipping stops in front of them.

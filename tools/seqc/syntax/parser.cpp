@@ -192,6 +192,10 @@ void Parser::parse_step_body(ast::Step& step, std::string_view end_word) {
     while (!at_block_end(end_word) && !at("STEP") && !at("POWER_UP") && !at("END_STEP") && !report_.full()) {
         const std::size_t before = at_;
         if (take_symbol(";")) continue;
+        if (at("ALLOW")) {
+            parse_allowance(step);
+            continue;
+        }
         mend_statement({end_word});
         if (at(end_word)) break;
         if (at("OUT")) {
@@ -219,6 +223,32 @@ void Parser::parse_step_body(ast::Step& step, std::string_view end_word) {
         }
         if (at_ == before) ++at_;
     }
+}
+
+void Parser::parse_allowance(ast::Step& step) {
+    ++at_;
+    ast::Allowance allowance;
+    if (!expect_name(allowance.code, "a check's code, such as V006") ||
+        !expect("BECAUSE",
+                "behind a check's code, as in ALLOW V006 BECAUSE 'the clamp must hold the part';")) {
+        return recover();
+    }
+    if (token().kind != TokenKind::text) {
+        error_here("the reason in quotes", "write it as 'the clamp must hold the part'");
+        return recover();
+    }
+    allowance.reason = name_of(token());
+    allowance.reason.text.remove_prefix(1);
+    allowance.reason.text.remove_suffix(1);
+    ++at_;
+    const CodeRow* row = find_code(upper(allowance.code.text));
+    if (row == nullptr || row->phase != Phase::courses) {
+        report_.add("E021", allowance.code.span, fmt::format("there is no check '{}'", allowance.code.text),
+                    "ALLOW takes the codes that seqc verify finds by itself: V001 and on");
+    } else {
+        step.allowances.push_back(allowance);
+    }
+    end_statement();
 }
 
 bool Parser::parse_outputs(std::vector<ast::Name>& outputs) {

@@ -65,6 +65,7 @@ class Parser {
     void parse_power_up(ast::Program& program);
     void parse_step_body(ast::Step& step, std::string_view end_word);
     void parse_out(ast::Step& step);
+    void parse_allowance(ast::Step& step);
     bool parse_outputs(std::vector<ast::Name>& outputs);
 
     // parse_statements.cpp

@@ -14,6 +14,7 @@ enum class TokenKind : std::uint8_t {
     based,       ///< 16#C0, 2#1010, 8#17
     time,        ///< T#1s500ms
     direct,      ///< %IX0.0, %peak
+    text,        ///< 'words in quotes'
     symbol,      ///< one of  := : ; , ( ) . = + - /
     comment,     ///< only where comments are asked for
 };

@@ -53,6 +53,13 @@ struct StepOrigin {
     std::uint8_t outputs = 0;
 };
 
+/// A check of `seqc verify` that is switched off in a step.
+struct Allowance {
+    std::uint8_t step = 0;
+    std::string code;  ///< V006
+    std::string reason;
+};
+
 /// Where a term of the table comes from, in table order, the end term included.
 struct TermOrigin {
     Span span;  ///< length 0 for what the compiler adds by itself
@@ -71,7 +78,8 @@ struct Compilation {
     std::vector<TermOrigin> origins;
     std::vector<StepOrigin> steps;  ///< by number, POWER_UP first
     std::vector<Rounding> roundings;
-    std::vector<Span> properties;   ///< PROPERTY Name: ... ; in source order, what it names not looked up
+    std::vector<Span> properties;  ///< PROPERTY Name: ... ; in source order, what it names not looked up
+    std::vector<Allowance> allowances;
     bool more_diagnostics = false;  ///< there were more than 100
     bool ok = false;                ///< no errors; warnings do not count
 };

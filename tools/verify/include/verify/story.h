@@ -9,6 +9,8 @@
 namespace nplc::verify {
 
 std::string step_name(const Names& names, std::uint8_t step);
+/// Those that are on; - for none.
+std::string outputs_text(std::uint8_t outputs, const Names& names);
 
 /// A line for each scan that did something or saw something new: time, image, step, what it did.
 std::string story_of(const Course& course, const Names& names);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sequencer/table.h"
+#include "verify/checks.h"
 #include "verify/course.h"
 #include "verify/machine.h"
 #include "verify/property.h"
@@ -13,16 +14,17 @@
 namespace nplc::verify {
 
 enum class Verdict : std::uint8_t { proved, broken, undecided };
-enum class Severity : std::uint8_t { fault, advice };
 
 struct Result {
-    std::string name;
-    std::string code;  ///< of a built-in check
-    std::string text;  ///< the property, or what was checked
+    std::string name{};
+    std::string code{};                  ///< of a built-in check
+    std::optional<std::uint8_t> step{};  ///< of a finding of a check
+    std::string text{};                  ///< the property, or what was checked
     Verdict verdict = Verdict::undecided;
     Severity severity = Severity::fault;
-    std::string reason;            ///< why it is broken or undecided
-    std::optional<Course> course;  ///< the shortest way to break it, or to reach what IS REACHABLE
+    std::string reason{};            ///< why it is broken or undecided
+    std::string allowed{};           ///< a finding of a check that was switched off in its step: why
+    std::optional<Course> course{};  ///< the shortest way to break it, or to reach what IS REACHABLE
 };
 
 struct Options {
@@ -30,6 +32,7 @@ struct Options {
     OrderTime order_time;
     std::uint32_t debounce_ms = 3;
     std::size_t most_states = 4'000'000;
+    std::vector<Allowance> allowances;
 };
 
 struct Report {

@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli_support.h"
+#include "diagnostics/codes.h"
+#include "diagnostics/explanations.h"
+#include "verify/checks.h"
+
+namespace nplc::seqc {
+namespace {
+
+using Json = nlohmann::json;
+
+class Courses : public test::Cli {
+  protected:
+    /// The codes that `seqc verify` finds in a program, and its exit code.
+    std::set<std::string> found_in(std::string_view program) {
+        write("p.seq", whole_program(program));
+        exit_code_ = run("verify --json p.seq");
+        std::set<std::string> codes;
+        const Json document = Json::parse(read("out"));
+        for (const Json& result : document["results"]) {
+            if (result["verdict"] != "proved") codes.insert(result["code"]);
+        }
+        return codes;
+    }
+
+    int exit_code_ = 0;
+};
+
+TEST_F(Courses, EachCheckHasItsCodeAndSeverity) {
+    std::size_t count = 0;
+    for (const CodeRow& row : kCodes) count += row.phase == Phase::courses ? 1 : 0;
+    EXPECT_EQ(count, verify::checks().size());
+    for (const verify::Check& check : verify::checks()) {
+        const CodeRow* row = find_code(check.code);
+        ASSERT_NE(row, nullptr) << check.code;
+        EXPECT_EQ(row->severity == Severity::error, check.severity == verify::Severity::fault) << check.code;
+    }
+}
+
+TEST_F(Courses, WrongProgramsGiveTheirCodeAndRightOnesNothing) {
+    for (const Explanation& info : explanations()) {
+        const CodeRow* row = find_code(info.code);
+        if (row->phase != Phase::courses) continue;
+        EXPECT_EQ(found_in(info.wrong), std::set<std::string>{std::string(info.code)});
+        EXPECT_EQ(exit_code_, row->severity == Severity::error ? 1 : 0) << info.code;
+        EXPECT_EQ(found_in(info.right), std::set<std::string>{}) << info.code;
+        EXPECT_EQ(exit_code_, 0) << info.code;
+    }
+}
+
+TEST_F(Courses, AnAllowedFaultIsToldWithItsReasonAndIsNoFault) {
+    const std::string program =
+        "PROGRAM P\nMOTOR MAC140;\nON ERROR NEXT := Fault;\n"
+        "STEP S: IF IN0 THEN NEXT := T; END_IF END_STEP\n"
+        "STEP T: IF IN1 THEN NEXT := S; END_IF END_STEP\n"
+        "STEP Fault: ALLOW V004 BECAUSE 'a relay takes the supply away'; OWN ERROR; END_STEP\n"
+        "END_PROGRAM\n";
+    write("p.seq", program);
+    EXPECT_EQ(run("verify p.seq"), 0);
+    EXPECT_NE(read("out").find("p.seq:6:6: allowed V004: "), std::string::npos) << read("out");
+    EXPECT_NE(read("out").find("  because a relay takes the supply away\n"), std::string::npos);
+    ASSERT_EQ(run("verify --json p.seq"), 0);
+    const Json document = Json::parse(read("out"));
+    for (const Json& result : document["results"]) {
+        if (result["code"] == "V004") {
+            EXPECT_EQ(result["allowed"], "a relay takes the supply away");
+            EXPECT_EQ(result["severity"], "advice");
+        }
+    }
+}
+
+}  // namespace
+}  // namespace nplc::seqc

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "explorer.h"
+#include "verify/checks.h"
+
+/// The built-in checks, by what they look at.
+namespace nplc::verify {
+
+/// A check that found something.
+struct Finding {
+    std::string_view code;
+    std::uint8_t step = 0;
+    std::string reason;
+    std::vector<CourseScan> way;  ///< that shows it; may be empty
+};
+
+/// What the checks look at: everything that can be, with edges.
+struct Subject {
+    const Explorer& explorer;
+    const Names& names;
+};
+
+std::vector<Finding> check_steps(const Subject& subject);
+std::vector<Finding> check_errors(const Subject& subject);
+std::vector<Finding> check_zeros(const Subject& subject);
+std::vector<Finding> check_motor(const Subject& subject);
+
+/// For which images a scan of a step does something else when the timer (the counter) is zero, or when INPOS
+/// is on.
+class Sensitivity {
+  public:
+    explicit Sensitivity(const Machine& machine);
+
+    const ImageSet& to_timer(std::uint8_t step, bool counter_zero) const {
+        return timer_[step * 2U + (counter_zero ? 1U : 0U)];
+    }
+    const ImageSet& to_counter(std::uint8_t step, bool timer_zero) const {
+        return counter_[step * 2U + (timer_zero ? 1U : 0U)];
+    }
+    bool tests_timer(std::uint8_t step) const { return (to_timer(step, false) | to_timer(step, true)).any(); }
+    bool tests_in_pos(std::uint8_t step) const { return in_pos_[step]; }
+
+  private:
+    std::vector<ImageSet> timer_;
+    std::vector<ImageSet> counter_;
+    std::vector<bool> in_pos_;
+};
+
+/// The group of a row that an image belongs to.
+const Group& group_with(std::span<const Group> row, unsigned image);
+
+}  // namespace nplc::verify
