@@ -119,6 +119,10 @@ bool MidiVirtual::load(int torque) {
     return true;
 }
 
+void MidiVirtual::store(const StoredRegister& parameter) {
+    drive_.module().execute(parameter.number, 0, parameter.bits);
+}
+
 bool MidiVirtual::stop(const action::StopMotor& stop) {
     if (stop.torque_per_count != 0) return false;
     drive_.module().stop_shaft(stop.above, increments_of(stop.counts));

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/motor_stage.h"
+
 namespace nplc::sim {
 namespace {
 
@@ -30,18 +32,6 @@ store::SettingValues initial_settings(const WorldOptions& options) {
     return values;
 }
 
-void store(MacMotor& motor, const std::vector<StoredRegister>& registers) {
-    if (registers.empty()) return;
-    MotorMemory flash = motor.stored();
-    for (const StoredRegister& one : registers) {
-        const registers::Register* reg = registers::find(motor.model(), one.number);
-        const bool wide = is_mac800(motor.model()) || (reg != nullptr && registers::is_32_bit(reg->format));
-        flash.write(one.number, one.bits, wide);
-    }
-    motor.set_stored(flash);
-    motor.power_cycle();
-}
-
 }  // namespace
 
 World::World(std::vector<std::uint8_t> table, const WorldOptions& options)
@@ -54,9 +44,10 @@ World::World(std::vector<std::uint8_t> table, const WorldOptions& options)
       next_sample_(mac_.sample_period()) {
     line_.to_motor().set_faults(options.faults);
     line_.from_motor().set_faults(options.faults);
-    store(mac_, options.registers);
+    if (!options.drive) store(mac_, options.registers);
     if (options.drive) drive_ = make_virtual_drive(*options.drive, options.faults);
     if (drive_) {
+        for (const StoredRegister& parameter : options.registers) drive_->store(parameter);
         motor_powered_ = false;
         next_sample_ = drive_->sample_period();
     }

@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <cmath>
 #include <string>
 
+#include "sim/motor_stage.h"
 #include "sim/world.h"
 
 namespace nplc::sim {
@@ -33,35 +33,25 @@ void World::spoil_line(const action::SpoilLine& faults) {
 void World::power_motor(bool on) {
     if (drive_) return drive_->power(on);
     if (on && !motor_powered_) {
-        mac_.surroundings().encoder_broken = false;
-        mac_.power_cycle();
+        switch_on(mac_);
         motor_asks_ = std::max(now_, line_.from_motor().busy_until());
     }
     motor_powered_ = on;
 }
 
 void World::stop_motor(const action::StopMotor& stop) {
-    if (drive_) {
-        if (!drive_->stop(stop)) drive_has_no("a mechanical stop of that kind");
-        return;
-    }
-    Load& load = mac_.plant().load();
-    const std::int64_t shaft = mac_.plant().counts();
-    const std::int64_t place = stop.above ? std::max(stop.counts, shaft) : std::min(stop.counts, shaft);
-    const bool rigid = stop.torque_per_count == 0;
-    (stop.above ? load.high_stop : load.low_stop) =
-        MechanicalStop{rigid ? place : stop.counts, std::llround(1024 * stop.torque_per_count)};
+    if (!drive_) return act(mac_, stop);
+    if (!drive_->stop(stop)) drive_has_no("a mechanical stop of that kind");
 }
 
 void World::free_motor() {
     if (drive_) return drive_->free();
-    mac_.plant().load().low_stop.reset();
-    mac_.plant().load().high_stop.reset();
+    act(mac_, action::FreeMotor{});
 }
 
 void World::connect_sensor(const action::MotorSensor& sensor) {
     if (drive_) return drive_has_no("a home sensor");
-    mac_.terminals().connect({.counts = sensor.counts, .on_above = sensor.on_above});
+    act(mac_, sensor);
 }
 
 void World::set_drive_input(const action::SetDriveInput& input) {
@@ -74,26 +64,17 @@ void World::connect_switch(const action::DriveSwitch& connected) {
 
 void World::set_analogue(double volts) {
     if (drive_) return drive_has_no("an analogue input");
-    mac_.terminals().set_analogue(static_cast<std::int32_t>(std::lround(1000 * volts)));
+    act(mac_, action::MotorAnalogue{volts});
 }
 
 void World::set_pulses(const action::MotorPulses& pulses) {
     if (drive_) return drive_has_no("a pulse input");
-    mac_.terminals().set_pulse_rate(pulses.per_second, pulses.with_direction
-                                                           ? PulseFormat::pulse_and_direction
-                                                           : PulseFormat::quadrature);
+    act(mac_, pulses);
 }
 
 void World::set_supply(const action::MotorSupply& supply) {
-    if (drive_) {
-        if (!drive_->set_supply(supply.volts)) drive_has_no("a supply that can be set");
-        return;
-    }
-    if (!supply.logic) {
-        mac_.supply().set_source(supply.volts);
-        return mac_.supply().settle();  // a motor at rest would never empty its bus
-    }
-    mac_.surroundings().logic_millivolts = static_cast<std::int32_t>(std::lround(1000 * supply.volts));
+    if (!drive_) return act(mac_, supply);
+    if (!drive_->set_supply(supply.volts)) drive_has_no("a supply that can be set");
 }
 
 void World::seed(std::uint64_t value) {
@@ -102,32 +83,23 @@ void World::seed(std::uint64_t value) {
 }
 
 void World::load_motor(int torque) {
-    if (drive_) {
-        if (!drive_->load(torque)) drive_has_no("a load");
-        return;
-    }
-    mac_.plant().load().torque = torque;
+    if (!drive_) return act(mac_, action::LoadMotor{torque});
+    if (!drive_->load(torque)) drive_has_no("a load");
 }
 
 void World::set_brake(int torque) {
     if (drive_) return drive_has_no("a brake");
-    mac_.plant().load().brake_torque = torque;
+    act(mac_, action::MotorBrake{torque});
 }
 
 void World::set_temperature(int celsius) {
-    if (drive_) {
-        if (!drive_->set_temperature(celsius)) drive_has_no("a temperature");
-        return;
-    }
-    mac_.surroundings().celsius = celsius;
+    if (!drive_) return act(mac_, action::MotorTemperature{celsius});
+    if (!drive_->set_temperature(celsius)) drive_has_no("a temperature");
 }
 
 void World::break_encoder() {
-    if (drive_) {
-        if (!drive_->break_encoder()) drive_has_no("an encoder that can break");
-        return;
-    }
-    mac_.surroundings().encoder_broken = true;
+    if (!drive_) return act(mac_, action::BreakEncoder{});
+    if (!drive_->break_encoder()) drive_has_no("an encoder that can break");
 }
 
 /// The scenario goes on, and says so.

@@ -46,6 +46,10 @@ DeviceCommandLine<MacsimOptions> parse_macsim(int argc, const char* const* argv)
     app.add_option("--flash", options.flash,
                    "keep the parameter flash in this file (a further unit's: FILE.ADDRESS)")
         ->type_name("FILE");
+    app.add_option("--scenario", options.scenario,
+                   "what happens to the first motor: pulses, voltages, loads, stops, its supply; see "
+                   "host-sim/scenario")
+        ->type_name("S.scn");
     add_speed(app, "times real time, lines included, 0.01..100 (1)", options.speed);
     app.add_option("--baud", "rate of the FastMAC line (19200)")->each([&](const std::string& text) {
         rack.fastmac_baud = baud("--baud", text);

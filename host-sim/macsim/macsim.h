@@ -12,7 +12,8 @@ struct MacsimOptions {
     RackOptions rack;
     std::string fastmac;  ///< endpoint, or empty
     std::string mactalk;
-    std::string flash;  ///< file of the first unit; the others' with their address behind it
+    std::string scenario;  ///< file: what happens to the first unit
+    std::string flash;     ///< file of the first unit; the others' with their address behind it
     double speed = 1;
 };
 

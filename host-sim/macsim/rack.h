@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "sim/client_line.h"
 #include "sim/mac_motor.h"
+#include "sim/motor_alone.h"
 
 namespace nplc::sim {
 
@@ -28,6 +30,9 @@ class Rack {
   public:
     explicit Rack(const RackOptions& options);
 
+    /// Around the first unit; both outlive the rack. advance() may then throw EndlessRules.
+    void play(const Scenario& scenario, const Names& names) { stage_.emplace(motor(0), scenario, names); }
+
     Time now() const { return now_; }
     /// What a client sends waits for the line to be free; beyond 64 KiB it is lost.
     void send_fastmac(std::span<const std::uint8_t> bytes) { fastmac_.send(bytes); }
@@ -48,10 +53,15 @@ class Rack {
     };
 
     Time next_event(Time limit) const;
+    void sample(Unit& unit);
+    bool is_powered(const Unit& unit) const {
+        return !stage_ || &unit != &units_.front() || stage_->powered();
+    }
     void serve_fastmac();
     void serve_mactalk();
 
     std::vector<Unit> units_;
+    std::optional<MotorAlone> stage_;
     ClientLine fastmac_;
     ClientLine mactalk_;
     Time now_{0};

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "host/files.h"
 #include "macsim.h"
 #include "sim/device_memory.h"
 #include "sim/text.h"
@@ -58,13 +59,18 @@ class RackService final : public VirtualDevices {
         for (std::size_t i = 0; error.empty() && i < rack_.size(); ++i)
             error = files_.add(options.flash, options.rack.units[i].address,
                                std::make_unique<FlashMemory>(rack_.motor(i)));
+        if (error.empty() && !options.scenario.empty()) error = play(options);
         if (error.empty()) error = fastmac_.open(options.fastmac);
         if (error.empty()) error = mactalk_.open(options.mactalk);
     }
     std::string advance(Time to) override {
         rack_.send_fastmac(fastmac_.read());
         rack_.send_mactalk(mactalk_.read());
-        rack_.advance(to);
+        try {
+            rack_.advance(to);
+        } catch (const EndlessRules& endless) {
+            return endless.what();
+        }
         fastmac_.write(rack_.received_fastmac());
         mactalk_.write(rack_.received_mactalk());
         return files_.save_changed();
@@ -80,6 +86,27 @@ class RackService final : public VirtualDevices {
     }
 
   private:
+    std::string play(const MacsimOptions& options) {
+        constexpr std::size_t kLargest = std::size_t{4} << 20U;
+        const std::string& file = options.scenario;
+        const host::FileContent content = host::read_file(file, kLargest);
+        if (!content.problem.empty())
+            return fmt::format("{}: cannot be opened: {}; name a scenario", file, content.problem);
+        names_.motor = rack_.motor(0).model();
+        names_.motor_alone = true;
+        names_.free_pins = options.fastmac.empty();
+        ParsedScenario parsed = parse_scenario(content.bytes, file, names_);
+        if (!parsed.mistakes.empty()) {
+            const Mistake& first = parsed.mistakes.front();
+            return fmt::format("{}:{}: {}", file, first.place(), first.message);
+        }
+        scenario_ = std::move(parsed.scenario);
+        rack_.play(scenario_, names_);
+        return {};
+    }
+
+    Names names_;
+    Scenario scenario_;
     Rack rack_;
     Endpoint fastmac_;
     Endpoint mactalk_;

@@ -7,6 +7,7 @@
 
 #include "registers/convert.h"
 #include "registers/details.h"
+#include "registers/midi.h"
 
 namespace nplc::sim {
 namespace {
@@ -34,6 +35,10 @@ Actions ActionParser::actions() {
 }
 
 void ActionParser::action(Actions& list, Time after) {
+    const bool is_motors = reader_.is("motor") || reader_.is("cancel") || reader_.is("log");
+    if (conditions_.names().motor_alone && !is_motors)
+        reader_.refuse_next(
+            "here is the motor alone; write what happens to it, such as motor pulses 5000 per s");
     if (reader_.take("pulse")) return pulse(list, after);
     if (reader_.take("toggle"))
         return add(list, after, action::ToggleInput{conditions_.input("an input to toggle")});
@@ -230,8 +235,28 @@ bool ActionParser::drive_input(Actions& list, Time after) {
     return true;
 }
 
+StoredRegister ActionParser::stored_parameter() {
+    namespace midi = registers::midi;
+    const Token name = reader_.next();
+    std::string known;
+    for (const midi::CommandRow& row : midi::commands()) {
+        if (row.kind != midi::Kind::parameter || row.fields[0].bits == 0) continue;
+        known += (known.empty() ? "" : ", ") + std::string(row.name);
+        if (!same_name(row.name, name.text)) continue;
+        reader_.want(":=", ":= and the value");
+        const double value = reader_.number("a whole number");
+        const auto data = value == static_cast<double>(static_cast<std::int32_t>(value))
+                              ? midi::pack(row, static_cast<std::int32_t>(value))
+                              : std::nullopt;
+        if (data && midi::is_legal(row, *data)) return {row.number, *data};
+        reader_.refuse(fmt::format("{} takes {} to {}", row.name, row.fields[0].min, row.fields[0].max) +
+                       (row.number == midi::END_STOPS ? ": 0, 1, 8 or 9" : ""));
+    }
+    reader_.refuse(fmt::format("a MIDI drive has no parameter {}; write one of {}", name.text, known));
+}
+
 StoredRegister ActionParser::stored_register() {
-    needs(DrivePart::registers);
+    if (conditions_.names().drive != nullptr) return stored_parameter();
     const registers::Model model = conditions_.names().motor;
     const Token name = reader_.next();
     const registers::Register* reg = registers::find(model, name.text);

@@ -281,6 +281,10 @@ Value ConditionParser::value() {
     const auto found = lookup(word);
     if (!found)
         reader_.refuse_next(fmt::format("\"{}\" is not known; write one of {}", word, known_values()));
+    const bool is_motors = found->kind == Value::Kind::p_ist || found->kind == Value::Kind::v_ist ||
+                           found->kind == Value::Kind::shaft || found->kind == Value::Kind::torque;
+    if (names_.motor_alone && !is_motors)
+        reader_.refuse_next("here is the motor alone; write P_IST, V_IST, SHAFT or TORQUE");
     reader_.next();
     return *found;
 }

@@ -17,8 +17,6 @@ std::string_view why_midi_without(DrivePart part) {
             return "has no pulse input";
         case DrivePart::logic_supply:
             return "has one supply for all (003 §II.1); write motor supply";
-        case DrivePart::registers:
-            return "has no registers; the sequence's orders set what it has";
         case DrivePart::temperature:
         case DrivePart::encoder:
         case DrivePart::inputs:

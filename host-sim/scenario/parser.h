@@ -188,6 +188,7 @@ class ActionParser {
     void needs(DrivePart part) const;
     action::LoadMotor motor_load();
     action::MotorBrake motor_brake();
+    StoredRegister stored_parameter();
     void motor_power(Actions& list, Time after);
     std::uint32_t stored_value(const registers::Register& reg, registers::Model model);
     std::uint32_t stored_bits(const registers::Register& reg, registers::Model model);

@@ -89,6 +89,8 @@ class LineParser {
     }
 
     void end() {
+        if (conditions_.names().motor_alone)
+            reader_.refuse("this runs until it is stopped; leave the end out");
         if (reader_.take("when")) {
             WhenRule rule = begin_when(true);
             Time after{0};
@@ -103,14 +105,24 @@ class LineParser {
     }
 
     void expect(std::optional<Time> at = {}) {
+        if (conditions_.names().motor_alone)
+            reader_.refuse_next(
+                "nobody is told here what an expectation becomes; rehearse it with nanoplc-sim");
         scenario_.expectations.push_back(ExpectationParser(reader_, conditions_).expectation(at));
         scenario_.expectations.back().line = line_;
+    }
+
+    void check_inputs() const {
+        if (conditions_.names().motor_alone)
+            reader_.refuse_next(
+                "here is the motor alone, without a gateway's inputs; write what happens to the motor");
     }
 
     // --- the plant ----------------------------------------------------------------------------------------
 
     /// Clamped follows Clamp after 300 ms back after 100 ms
     void follows() {
+        check_inputs();
         FollowRule rule;
         rule.input = conditions_.input("an input, such as IN2 follows OUT0 after 300 ms");
         rule.line = line_;
@@ -130,6 +142,7 @@ class LineParser {
 
     /// Part appears every 2 s, Part appears for 100 ms 300 ms after Feed rises, Part appears at 2 s
     void comes(bool level) {
+        check_inputs();
         const unsigned input = conditions_.input("an input, such as IN2 appears every 2 s");
         reader_.next();
         const Actions actions = levels(input, level, reader_.lasting());

@@ -49,6 +49,28 @@ class Case(device_case.Case):
         return self.start_program(PROGRAM, *arguments)
 
 
+class Scenarios(Case):
+    def test_pulses_reach_a_motor_without_fastmac(self):
+        scenario = self.path("s.scn")
+        with open(scenario, "w", encoding="ascii") as file:
+            file.write("motor pulses 52083 per s\n")
+        self.start("--address", "8", "--mactalk", "pty:" + self.path("tty"), "--scenario", scenario)
+        client = device_case.Terminal(self.path("tty"))
+        self.kept(client)
+        self.assertEqual(self.ask(client, write_request(8, 2, 3, 2), 3), ACCEPT)  # MODE_REG := 3, Gear Position
+        v_ext = value_in(self.ask(client, read_request(8, 120), 19)) & 0xFFFF  # 52,083 / 520.83
+        self.assertAlmostEqual(v_ext, 100, delta=1)
+
+    def test_what_a_scenario_cannot_be(self):
+        for text, said in (("motor pulses 1 per s", "s.scn:1:7: a MAC140 has FastMAC on the pins"),
+                           ("motor error\nIN0 := 1", "s.scn:2:1: here is the motor alone"),
+                           ("expect P_IST > 0", "s.scn:1:1: nobody is told here")):
+            with open(self.path("s.scn"), "w", encoding="ascii") as file:
+                file.write(text)
+            self.refused_by(PROGRAM, "--fastmac", "unix:" + self.path("f"), "--scenario", self.path("s.scn"), says=said)
+        self.refused_by(PROGRAM, "--fastmac", "unix:" + self.path("f"), "--scenario", self.path("no.scn"), says="no.scn: cannot be opened")
+
+
 class MacTalk(Case):
     def on_all_endpoints(self):
         process, _ = self.start("--model", "MAC140", "--address", "8", "--mactalk", "pty:" + self.path("tty"))

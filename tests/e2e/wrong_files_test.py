@@ -70,6 +70,7 @@ class WrongFiles(program_case.ProgramCase):
         yield "macreg monitor", "hex", lambda file: [*macreg, "monitor", "--replay", file]
         yield "macreg midi", "path", lambda file: [program("macreg"), "--port", self.module, "midi", "path", file]
         yield "macsim --flash", "flash none", lambda file: [program("macsim"), "--mactalk", endpoint, "--flash", file]
+        yield "macsim --scenario", "scn empty", lambda file: [program("macsim"), "--mactalk", endpoint, "--scenario", file]
         yield "midisim --eeprom", "none", lambda file: [program("midisim"), "--model", "MAC34-1", "--v24", endpoint,
                                                           "--eeprom", file]
         yield from ((f"nanoplc {name[0]}", "toml", lambda file, name=name: [program("nanoplc"), *name, file])

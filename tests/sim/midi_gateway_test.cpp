@@ -53,6 +53,7 @@ Ran run_scenario(const std::string& name, const std::string& text,
     const ParsedScenario parsed = parse_scenario(text, name, names);
     for (const Mistake& mistake : parsed.mistakes) ADD_FAILURE() << mistake.place() << " " << mistake.message;
     WorldOptions options;
+    options.registers = parsed.scenario.registers;
     if (midi) options.drive = as_drive(*midi);
     World world(program.table, options);
     EXPECT_TRUE(world.load_result().ok);
@@ -199,6 +200,19 @@ end at 14 s
                                      MidiDriveOptions{.model = Model::mac34_1, .can = can});
         EXPECT_EQ(ran.failures, std::vector<std::string>{});
     }
+}
+
+// 003 §IV, §VII 03h: an enabled end-stop input ends the motion, 6 of 12 revolutions out.
+TEST(MidiGateway, AnEndStopEndsItsMotion) {
+    const Ran ran = run_scenario("midi_pick_and_place", R"(
+motor END_STOPS := 1
+motor upper_stop on above 6 rev
+at 200 ms pulse Start 50 ms
+expect SHAFT = 6 rev +- 4 counts and V_IST = 0 and not INPOS at 2 s
+end at 3 s
+)",
+                                 MidiDriveOptions{.model = Model::mac34_1});
+    EXPECT_EQ(ran.failures, std::vector<std::string>{});
 }
 
 TEST(MidiGateway, ATableThatTheDriveCannotDoIsRefusedWithAReason) {

@@ -64,6 +64,68 @@ TEST(Rack, MotorsSampleAtTheirOwnRates) {
     EXPECT_NEAR(rack.motor(1).rpm(), 577.5, 6);
 }
 
+Names alone(Model model, bool beside_fastmac) {
+    Names names;
+    names.motor = model;
+    names.motor_alone = true;
+    names.free_pins = !beside_fastmac;
+    return names;
+}
+
+// 001 §3.2.36, §4.4.3: 52,083 counts a second are 100 a sample of 520.83 Hz; Gear Position mode (3) at 1 / 1
+// runs as fast, 763 rpm.
+TEST(Rack, WithoutFastMacPulsesDriveAGearMode) {
+    const Names names = alone(Model::mac140, false);
+    const ParsedScenario parsed =
+        parse_scenario("motor pulses 52083 per s\nwhen P_IST > 5 rev motor pulses 0 per s", "x.scn", names);
+    ASSERT_TRUE(parsed.mistakes.empty());
+    Rack rack({});
+    rack.play(parsed.scenario, names);
+    EXPECT_EQ(rack.motor(0).read(registers::CNTRL_BITS) & 3, 0);
+    rack.motor(0).write(registers::MODE_REG, 3);
+    rack.advance(std::chrono::milliseconds{300});
+    EXPECT_NEAR(rack.motor(0).read(registers::V_EXT), 100, 1);
+    EXPECT_NEAR(rack.motor(0).rpm(), 763, 8);
+    rack.advance(std::chrono::seconds{3});
+    EXPECT_EQ(rack.motor(0).read(registers::V_EXT), 0);
+    EXPECT_EQ(rack.motor(0).v_ist(), 0);
+    EXPECT_TRUE(rack.received_fastmac().empty());
+}
+
+TEST(Rack, BesideFastMacPulsesAreRefusedWithTheReason) {
+    const auto mistakes = [](Model model, const std::string& text) {
+        return parse_scenario(text, "x.scn", alone(model, true)).mistakes;
+    };
+    ASSERT_EQ(mistakes(Model::mac140, "motor pulses 1 per s").size(), 1U);
+    EXPECT_TRUE(mistakes(Model::mac140, "motor pulses 1 per s")[0].message.starts_with(
+        "a MAC140 has FastMAC on the pins of its pulse input"));
+    EXPECT_TRUE(mistakes(Model::mac800, "motor pulses 1 per s").empty());
+    EXPECT_TRUE(mistakes(Model::mac140, "every 1 s motor load 100, after 100 ms motor load 0").empty());
+    for (const std::string line :
+         {"IN0 := 1", "line cut", "expect P_IST > 0", "when step = 3 motor error", "end at 1 s",
+          "IN2 follows OUT0", "IN2 appears every 2 s", "always TORQUE < 5", "gateway stop"})
+        EXPECT_EQ(mistakes(Model::mac140, line).size(), 1U) << line;
+}
+
+TEST(Rack, AMotorLosesItsSupplyAndRunsOut) {
+    const Names names = alone(Model::mac140, true);
+    const ParsedScenario parsed =
+        parse_scenario("at 1 s motor power off, after 1 s motor power on", "x.scn", names);
+    Rack rack({.units = {{Model::mac140, 1}, {Model::mac95, 2}}});
+    rack.play(parsed.scenario, names);
+    for (std::size_t i = 0; i < 2; ++i) rack.motor(i).write(registers::MODE_REG, 1);
+    rack.advance(std::chrono::milliseconds{1'010});
+    EXPECT_GT(rack.motor(0).v_ist(), 50) << "100 counts a sample before";
+    rack.advance(std::chrono::milliseconds{1'900});
+    EXPECT_EQ(rack.motor(0).v_ist(), 0);
+    EXPECT_NEAR(rack.motor(1).v_ist(), 100, 2);
+    const auto silent = rack.received_fastmac().size();
+    EXPECT_NEAR(static_cast<double>(silent), 1'920, 4) << "a second of them";
+    rack.advance(std::chrono::milliseconds{3'000});
+    EXPECT_GT(rack.received_fastmac().size(), 1'900U);
+    EXPECT_EQ(rack.motor(0).mode(), 0) << "as after power-up";
+}
+
 TEST(Rack, EachUnitAnswersForItself) {
     Rack rack({.units = {{Model::mac140, 1}, {Model::mac95, 2}}});
     rack.motor(1).write(registers::V1, 222);

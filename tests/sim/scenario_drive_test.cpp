@@ -38,7 +38,6 @@ TEST(ScenarioDrive, OnlyWhatTheDriveHasIsTaken) {
         {"motor analogue 5 V", "MAC50 MAC95 MAC140 MAC141 MAC800"},
         {"motor sensor on below 1 rev", "MAC50 MAC95 MAC140 MAC141 MAC800"},
         {"motor stop above 1 rev spring 5 per rev", "MAC50 MAC95 MAC140 MAC141 MAC800"},
-        {"motor I2TLIM := 5000", "MAC50 MAC95 MAC140 MAC141 MAC800"},
         {"motor stop above 1 rev", "MAC50 MAC95 MAC140 MAC141 MAC800 MAC23 MAC34-1"},
         {"motor supply 20 V", "MAC50 MAC95 MAC140 MAC141 MAC800 MAC23 MAC34-1"},
         {"motor load 1100", "MAC50 MAC95 MAC140 MAC141 MAC800 MAC23 MAC34-1"},
@@ -95,6 +94,12 @@ TEST(ScenarioDrive, WhatTheFlashHoldsIsGivenFromTheStart) {
         said_of("motor HW_SETUP := XPRIMP", "MAC800"),
         "\"XPRIMP\" is no bit of HW_SETUP; write some of DIRAWR, DIRBWR, PULSEOUT, XSEL1, XPRINP, NOFILT, "
         "INVXDIR, or a number");
+    EXPECT_EQ(stored("motor END_STOPS := 9", "MAC34-1").number, 0x03);  // 003 §VII
+    EXPECT_EQ(stored("motor END_STOPS := 9", "MAC34-1").bits, 9U);
+    EXPECT_EQ(said_of("motor END_STOPS := 2", "MAC34-1"), "END_STOPS takes 0 to 9: 0, 1, 8 or 9");
+    EXPECT_TRUE(
+        said_of("motor STOP := 2", "MAC34-1")
+            .starts_with("a MIDI drive has no parameter STOP; write one of STOP_TORQUE, END_STOPS, "));
     EXPECT_EQ(said_of("motor HW_SETUP := 1"),
               "a MAC140 has no register HW_SETUP; registers are called as in the manual");
     EXPECT_EQ(said_of("motor P_IST := 1"),

@@ -29,6 +29,7 @@ class MidiVirtual final : public VirtualDrive {
     void power(bool on) override { drive_.power(on); }
     bool fail() override;
     bool load(int torque) override;
+    void store(const StoredRegister& parameter) override;
     bool stop(const action::StopMotor& stop) override;
     void free() override { drive_.module().free_shaft(); }
     bool set_input(const action::SetDriveInput& input) override;

@@ -55,6 +55,8 @@ class VirtualDrive {
     // What the world does to a drive. False: it has none of this.
     virtual bool fail() { return false; }
     virtual bool load(int /*torque*/) { return false; }  ///< 1023 = full
+    /// Before the run begins.
+    virtual void store(const StoredRegister&) {}
     virtual bool stop(const action::StopMotor&) { return false; }
     virtual void free() {}
     virtual bool set_input(const action::SetDriveInput&) { return false; }

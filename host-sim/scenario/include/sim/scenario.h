@@ -161,7 +161,7 @@ struct Expectation {
     std::uint64_t most = UINT64_MAX;
 };
 
-/// What the motor's flash holds when it is switched on.
+/// What the motor's flash holds when it is switched on; of a MIDI module a parameter by its command's number.
 struct StoredRegister {
     std::uint8_t number = 0;
     std::uint32_t bits = 0;

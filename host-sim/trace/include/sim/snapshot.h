@@ -60,7 +60,8 @@ struct Names {
     registers::Model motor = registers::Model::mac140;
     const registers::DriveModel* drive = nullptr;  ///< of another family, in the motor's place
     std::optional<MachineUnit> machine;
-    bool free_pins = false;  ///< the motor's user interface is its pulse input, not FastMAC
+    bool motor_alone = false;  ///< no gateway, no line to it
+    bool free_pins = false;    ///< the motor's user interface is its pulse input, not FastMAC
 
     std::string input(unsigned index) const;
     std::string output(unsigned index) const;

@@ -1,0 +1,84 @@
+#include "sim/motor_alone.h"
+
+#include <algorithm>
+
+#include "registers/mac.h"
+#include "sim/motor_stage.h"
+
+namespace nplc::sim {
+namespace {
+
+bool has_pulses(const Scenario& scenario) {
+    const auto any = [](const auto& rules) {
+        return std::any_of(rules.begin(), rules.end(), [](const auto& rule) {
+            return std::any_of(rule.actions.begin(), rule.actions.end(), [](const Action& action) {
+                return std::holds_alternative<action::MotorPulses>(action.what);
+            });
+        });
+    };
+    return any(scenario.at) || any(scenario.every) || any(scenario.when);
+}
+
+/// 001 §3.2.36: 00 in USERINTF is the pulse input, its other bits stay.
+void free_the_pins(MacMotor& motor) {
+    constexpr std::uint32_t kUserInterface = 3;
+    const std::uint32_t bits = motor.stored().read(registers::CNTRL_BITS, false);
+    store(motor, {{.number = registers::CNTRL_BITS, .bits = bits & ~kUserInterface}});
+}
+
+}  // namespace
+
+MotorAlone::MotorAlone(MacMotor& motor, const Scenario& scenario, const Names& names)
+    : motor_(motor), runner_(scenario, names, *this) {
+    if (names.free_pins && !is_mac800(motor.model()) && has_pulses(scenario)) free_the_pins(motor);
+    store(motor, scenario.registers);
+}
+
+void MotorAlone::observe(Time now) {
+    Snapshot snapshot;
+    snapshot.time = now;
+    do {
+        snapshot.p_ist = motor_.p_ist();
+        snapshot.v_ist = motor_.v_ist();
+        snapshot.shaft = motor_.plant().counts();
+        snapshot.torque = motor_.torque();
+    } while (runner_.observe(snapshot));
+}
+
+void MotorAlone::power_motor(bool on) {
+    if (on && !powered_) switch_on(motor_);
+    powered_ = on;
+}
+
+void MotorAlone::load_motor(int torque) {
+    act(motor_, action::LoadMotor{torque});
+}
+void MotorAlone::set_brake(int torque) {
+    act(motor_, action::MotorBrake{torque});
+}
+void MotorAlone::stop_motor(const action::StopMotor& stop) {
+    act(motor_, stop);
+}
+void MotorAlone::free_motor() {
+    act(motor_, action::FreeMotor{});
+}
+void MotorAlone::connect_sensor(const action::MotorSensor& sensor) {
+    act(motor_, sensor);
+}
+void MotorAlone::set_analogue(double volts) {
+    act(motor_, action::MotorAnalogue{volts});
+}
+void MotorAlone::set_pulses(const action::MotorPulses& pulses) {
+    act(motor_, pulses);
+}
+void MotorAlone::set_supply(const action::MotorSupply& supply) {
+    act(motor_, supply);
+}
+void MotorAlone::set_temperature(int celsius) {
+    act(motor_, action::MotorTemperature{celsius});
+}
+void MotorAlone::break_encoder() {
+    act(motor_, action::BreakEncoder{});
+}
+
+}  // namespace nplc::sim
