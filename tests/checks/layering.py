@@ -83,7 +83,7 @@ MODULES = [
         "tools/nanoctl",
         "nanoctl",
         ("arguments", "base", "sequencer", "protocol", "registers", "store", "seqc", "host", "intel_hex",
-         "mactalk_client", "command_line", "whole_files"),
+         "mactalk_client", "command_line", "spelling", "whole_files"),
     ),
     Module("tools/registers_reference", "registers_reference", ("base", "registers")),
     Module("tools/verify", "verify", ("base", "sequencer", "protocol", "registers")),
@@ -95,7 +95,7 @@ MODULES = [
         ("arguments", "base", "protocol", "registers", "host", "mactalk_client", "midi_client", "command_line",
          "spelling", "whole_files"),
     ),
-    Module("tools/macreg/ui", "macreg", ("base", "protocol", "registers", "mactalk_client"), os=True),
+    Module("tools/macreg/ui", "macreg", ("base", "protocol", "registers", "mactalk_client", "spelling"), os=True),
     Module("tools/cmake", None, ()),
     Module("tests", None, ANY, os=True),
 ]

@@ -61,6 +61,7 @@ TEST(Why, EachCauseIsFoundAndTold) {
         EXPECT_EQ(finding->severity, one.severity) << one.code;
         EXPECT_GT(finding->sentence.size(), 20U) << one.code;
         EXPECT_GT(finding->remedy.size(), 10U) << one.code;
+        EXPECT_EQ((finding->sentence + finding->remedy).find('{'), std::string::npos) << one.code;
         const bool always =
             one.code == std::string_view("moves") || one.code == std::string_view("fastmac_owns");
         EXPECT_EQ(find(one.model == Model::mac800 ? large : small, one.code) != nullptr, always) << one.code;

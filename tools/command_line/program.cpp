@@ -67,10 +67,8 @@ void try_to(Common& common, const std::function<void()>& what) {
         what();
     } catch (const Failure& failure) {
         fail(common, failure.exit_code(), failure.what(), failure.details());
-    } catch (const mactalk_client::LineError& error) {
-        fail(common, kNoAnswer, error.what());
-    } catch (const mactalk_client::Interrupted& error) {
-        fail(common, kInterrupted, error.what());
+    } catch (const mactalk_client::Ended& error) {
+        fail(common, error.exit_code(), error.what());
     } catch (const std::system_error&) {  // of fmt::print; told below
     }
 }
@@ -80,7 +78,7 @@ void try_to(Common& common, const std::function<void()>& what) {
 Failure::Failure(int exit_code, const std::string& what) : Failure(exit_code, what, Json::object()) {}
 
 Failure::Failure(int exit_code, const std::string& what, const Json& details)
-    : std::runtime_error(what), exit_code_(exit_code), details_(std::make_shared<const Json>(details)) {}
+    : Ended(exit_code, what), details_(std::make_shared<const Json>(details)) {}
 
 void add_line_options(arguments::App& app, Common& common, const std::string& of_whom) {
     app.fallthrough();

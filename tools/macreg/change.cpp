@@ -19,17 +19,6 @@ using enum registers::Number;
 
 namespace {
 
-constexpr std::int64_t kModeToLeave = 0;
-constexpr std::int64_t kTestU = 8;
-constexpr std::int64_t kTestA = 9;
-constexpr std::int64_t kBreak = 10;
-constexpr std::int64_t kStopMode = 11;
-constexpr std::int64_t kTestKi = 22;
-constexpr std::int64_t kSafeMode = 15;
-constexpr std::int64_t kLastMode = 24;
-constexpr std::int64_t kLastModeOfMac800 = 21;
-constexpr std::int64_t kDefaults = 256;
-
 /// Bits that the motor clears when it has done what they ask for, or sets by itself (001 §3.2.36, 004).
 std::int64_t passing_bits(Model model, const Register& reg) {
     if (reg.number == registers::ERR_STAT) return 1 << 4 | 1 << 5 | 1 << 6;
@@ -56,7 +45,7 @@ std::int64_t control_bit(Model model, std::string_view small, std::string_view l
 }
 
 std::int64_t last_mode(Model model) {
-    return model == Model::mac800 ? kLastModeOfMac800 : kLastMode;
+    return model == Model::mac800 ? kAnaloguePosition : kGearFollow;
 }
 
 bool is_mode(Model model, const Register& reg) {
@@ -84,9 +73,9 @@ bool holds_by_supply(Motor& motor) {
 
 /// What keeps the motor from the mode that was asked for; empty: nothing that is known.
 std::string hindrance(Motor& motor, std::int64_t wanted, std::int64_t now) {
-    if (now == kSafeMode && wanted != kSafeMode)
+    if (now == kSafe && wanted != kSafe)
         return "the motor is in SAFE_MODE and leaves it by `macreg safe exit` only (001 §4.4.16)";
-    if (wanted == kSafeMode) return "SAFE_MODE is entered by `macreg safe enter` only (001 §4.4.16)";
+    if (wanted == kSafe) return "SAFE_MODE is entered by `macreg safe enter` only (001 §4.4.16)";
     const std::int64_t status = motor.read(registers::ERR_STAT);
     const std::string errors = errors_text(motor.model(), status);
     if (!errors.empty())
@@ -94,7 +83,7 @@ std::string hindrance(Motor& motor, std::int64_t wanted, std::int64_t now) {
             "{}: the motor stays passive until the error is cleared; mend its cause (`macreg why`), then "
             "`{}`",
             errors, clear_errors_command(motor.model(), status));
-    if (now == kModeToLeave && holds_by_supply(motor)) {
+    if (now == kInit && holds_by_supply(motor)) {
         const Register& supply = *motor.find(motor.model() == Model::mac800 ? "U_BUS" : "U_SUPPLY");
         return fmt::format(
             "the motor stays passive while its supply is too low (it is {}), since UV_GO_PASSIVE is set in "
@@ -107,18 +96,18 @@ std::string hindrance(Motor& motor, std::int64_t wanted, std::int64_t now) {
 /// Modes that the motor leaves by itself, and may have left before it was asked (001 §4.4.9, §4.4.10,
 /// §4.4.11, §4.4.12, §4.4.23). Empty: it was not one of them.
 std::string ended_by_itself(std::int64_t wanted, std::int64_t now) {
-    if (wanted == kStopMode && now == kModeToLeave)
+    if (wanted == kStop && now == kInit)
         return "the motor stands: it is in INIT_MODE, which follows STOP_MODE";
     const bool test = wanted == kTestU || wanted == kTestA || wanted == kBreak || wanted == kTestKi;
     const bool braking = wanted == kTestA && now == kBreak;
-    if (!test || !(now == kModeToLeave || braking)) return {};
+    if (!test || !(now == kInit || braking)) return {};
     return braking ? "the test has run, the motor brakes (BREAK_MODE) and ends in INIT_MODE"
                    : "the test has run and ended, the motor is in INIT_MODE again";
 }
 
 std::string why_mode(Motor& motor, std::int64_t wanted, std::int64_t now) {
     if (std::string known = hindrance(motor, wanted, now); !known.empty()) return known;
-    if (now == kStopMode)
+    if (now == kStop)
         return "the motor brakes in STOP_MODE first; the new mode follows when it is slower than 300 rpm";
     return "the motor left it again by itself, or does not take it now; `macreg why` tells more";
 }
@@ -190,8 +179,6 @@ void add_remark(ChangeResult& outcome, Motor& motor, const Register& reg, std::i
             "save`";
 }
 
-constexpr std::int64_t kDisPLim = 1 << 14;  // of ERR_STAT (001 §3.2.35, 004)
-
 struct Limits {
     std::int64_t low, high, place;
     bool off;
@@ -217,7 +204,7 @@ RawValues only(const RawValues& values, std::uint8_t number) {
 
 std::string no_mode(Model model, const Register& reg, std::int64_t raw) {
     if (!is_mode(model, reg) || (raw >= 0 && raw <= last_mode(model))) return {};
-    if (reg.number == registers::MODE_REG && raw >= kDefaults)
+    if (reg.number == registers::MODE_REG && raw >= kDefaultsToFlash)
         return "MODE_REG: 256 to 258 rewrite flash and registers; `macreg flash save`, `macreg flash "
                "defaults` and `macreg flash reload` do that, and ask first";
     return fmt::format("{}: {} is no mode; modes are 0 to {} (`macreg list {}`)", reg.name, raw,
@@ -228,8 +215,7 @@ std::string danger(Model model, const Register& reg, std::int64_t raw) {
     if (reg.dangerous) return kUpset;
     const bool starts = reg.number == registers::STARTMODE;
     if (reg.number != registers::MODE_REG && !starts) return {};
-    // STOP_MODE (11) stops the motor, and everybody may do that.
-    if (!(raw >= 7 && raw <= 10) && raw != 22 && raw != 23) return {};
+    if (!is_test(raw)) return {};
     const std::string name = value_text(*registers::find(model, registers::MODE_REG), model, raw);
     return fmt::format("{} is for the maker's tests{}: the shaft may turn, without limit of velocity{}", name,
                        model == Model::mac800 ? ", and what it does is not described" : "",
@@ -289,20 +275,20 @@ std::string gateway_refusal(Motor& motor, Asked asked) {
 }
 
 ChangeResult change(Motor& motor, const Register& reg, std::int64_t raw) {
+    const bool is_address = reg.number == address_register(motor.model()).number;
     ChangeResult outcome{.before = motor.read(reg)};
     if (std::string none = no_mode(motor.model(), reg, raw); !none.empty())
         return {.before = outcome.before, .after = outcome.before, .taken = false, .why = std::move(none)};
     try {
         motor.write(reg, raw);
     } catch (const LineError& error) {
-        if (reg.name != "MYADDR" && reg.name != "MY_ADDR")
-            return refused_or_lost(motor, outcome.before, error);
+        if (!is_address) return refused_or_lost(motor, outcome.before, error);
     } catch (const Unconfirmed&) {
         outcome.why = gateway_refusal(motor, Asked::write);
         if (outcome.why.empty()) throw;
         return {.before = outcome.before, .after = outcome.before, .taken = false, .why = outcome.why};
     }
-    if (reg.name == "MYADDR" || reg.name == "MY_ADDR") {
+    if (is_address) {
         Motor moved(motor.master(), static_cast<std::uint8_t>(raw), motor.model());
         outcome.after = moved.read(reg);
         outcome.remark =

@@ -13,7 +13,6 @@ namespace nplc::macreg {
 
 using mactalk_client::LineError;
 using mactalk_client::Width;
-using registers::Format;
 using registers::Register;
 namespace gw = registers::gateway;
 using mactalk_client::Interrupted;
@@ -22,18 +21,16 @@ using registers::Model;
 
 namespace {
 
-constexpr std::uint32_t kLargeMotor = 1U << 15;  // PROG_VERSION, 004
+/// By PROG_VERSION, whose bit 15 the large motors set (004).
+Model model_of_version(std::uint32_t version) {
+    return (version >> 15 & 1) != 0 ? Model::mac800 : Model::mac140;
+}
+
 /// A block that was damaged so often is read register by register: a tenth of the bytes at a time.
 constexpr unsigned kBlockAttempts = 2;
 constexpr unsigned kGatewayAttempts = 10;
 /// A block costs as many characters on the line as five single reads.
 constexpr std::size_t kWorthABlock = 5;
-
-Format format_in(registers::Model model, const Register& reg) {
-    // Every register of a MAC800 has 32 bits; value_of looks at as many as the format has.
-    return model == registers::Model::mac800 && !registers::is_32_bit(reg.format) ? Format::long_int
-                                                                                  : reg.format;
-}
 
 /// 001 §3.2.36, §3.2.43; 004: relative positions and resynchronising add at each write.
 bool may_be_repeated(registers::Model model, const Register& reg, std::int64_t value) {
@@ -96,13 +93,9 @@ class Finder {
         for (int i = 0; i < kCalls; ++i) {
             const auto version = read(kEveryone, registers::PROG_VERSION);
             if (!version) continue;
-            const Model model = (*version >> 15 & 1) != 0 ? Model::mac800 : Model::mac140;
-            const bool large = model == Model::mac800;
-            const std::uint8_t serial =
-                registers::find(model, large ? "SERIAL_NUMBER" : "SERIAL_NMB")->number;
-            const auto address =
-                read(kEveryone, registers::find(model, large ? "MY_ADDR" : "MYADDR")->number);
-            const auto number = read(kEveryone, serial);
+            const Model model = model_of_version(*version);
+            const auto address = read(kEveryone, address_register(model).number);
+            const auto number = read(kEveryone, serial_register(model).number);
             if (!address || !number) continue;
             const auto own = static_cast<std::uint8_t>(*address);
             if (own < 1 || own > kLast || !ask(own)) continue;
@@ -125,9 +118,7 @@ class Finder {
     bool says_more(std::uint8_t address, std::uint32_t version) {
         if (version == gw::kIdentity) return true;
         master_.pause(options_.patience);
-        const Model model = (version >> 15 & 1) != 0 ? Model::mac800 : Model::mac140;
-        const std::uint8_t own =
-            registers::find(model, model == Model::mac800 ? "MY_ADDR" : "MYADDR")->number;
+        const std::uint8_t own = address_register(model_of_version(version)).number;
         return read(address, own).has_value() || read(address, own).has_value();
     }
 
@@ -137,14 +128,12 @@ class Finder {
             unit.gateway = true;
             return unit;
         }
-        unit.model = (version >> 15 & 1) != 0 ? Model::mac800 : Model::mac140;
-        const bool large = unit.model == Model::mac800;
+        unit.model = model_of_version(version);
         unit.version = static_cast<std::int64_t>(version & 0xFFFF);
-        const std::uint8_t serial =
-            registers::find(unit.model, large ? "SERIAL_NUMBER" : "SERIAL_NMB")->number;
+        const std::uint8_t serial = serial_register(unit.model).number;
         unit.serial_number = static_cast<std::int32_t>(read(address, serial).value_or(0));
         const std::uint32_t mode = read(address, registers::MODE_REG).value_or(0);
-        unit.mode = large ? mode : mode & 0xFFFF;
+        unit.mode = unit.model == Model::mac800 ? mode : mode & 0xFFFF;
         return unit;
     }
 
@@ -155,6 +144,18 @@ class Finder {
 
 }  // namespace
 
+const Register& address_register(Model model) {
+    return *registers::find(model, model == Model::mac800 ? "MY_ADDR" : "MYADDR");
+}
+
+const Register& serial_register(Model model) {
+    return *registers::find(model, model == Model::mac800 ? "SERIAL_NUMBER" : "SERIAL_NMB");
+}
+
+std::string family_words(Model model) {
+    return model == Model::mac800 ? "MAC800" : "MAC50 to MAC141";
+}
+
 std::optional<std::int64_t> Snapshot::find(std::uint8_t number) const {
     const auto found = values_.find(number);
     return found == values_.end() ? std::nullopt : std::optional(found->second);
@@ -162,15 +163,15 @@ std::optional<std::int64_t> Snapshot::find(std::uint8_t number) const {
 
 registers::Model Motor::find_model(mactalk_client::Master& master, std::uint8_t address) {
     const std::uint32_t value = master.read(address, registers::PROG_VERSION);
-    if (value == registers::gateway::kIdentity)
+    if (value == gw::kIdentity)
         throw WrongUnit(fmt::format(
             "{}: address {} is a gateway's, not a motor's; name the motor's with --address, or use nanoctl",
             master.wire().name(), address));
-    return (value & kLargeMotor) != 0 ? registers::Model::mac800 : registers::Model::mac140;
+    return model_of_version(value);
 }
 
 std::int64_t Motor::read(const Register& reg) {
-    return registers::value_of(format_in(model_, reg), master_.read(address_, reg.number));
+    return registers::value_of(registers::format_on_line(model_, reg), master_.read(address_, reg.number));
 }
 
 void Motor::store(Snapshot& snapshot, std::uint8_t first, std::span<const std::uint8_t> bytes) {
@@ -181,7 +182,7 @@ void Motor::store(Snapshot& snapshot, std::uint8_t first, std::span<const std::u
         const std::size_t size = registers::bytes_of(model_, reg);
         if (at + size > bytes.size()) break;
         const std::uint32_t bits = size == 4 ? base::load_u32(&bytes[at]) : base::load_u16(&bytes[at]);
-        snapshot.set(reg.number, registers::value_of(format_in(model_, reg), bits), now());
+        snapshot.set(reg.number, registers::value_of(registers::format_on_line(model_, reg), bits), now());
     }
 }
 
@@ -233,7 +234,8 @@ Snapshot Motor::read_block(std::span<const Register* const> wanted) {
 void Motor::write(const Register& reg, std::int64_t value) {
     if (may_be_repeated(model_, reg, value)) {
         const auto width = static_cast<Width>(registers::bytes_of(model_, reg));
-        master_.write(address_, reg.number, registers::bits_of(format_in(model_, reg), value), width);
+        master_.write(address_, reg.number, registers::bits_of(registers::format_on_line(model_, reg), value),
+                      width);
     } else if (!try_write(reg, value)) {
         throw Unconfirmed(
             fmt::format("{}: the write of {} was not accepted; it was not repeated, since it may have been "
@@ -244,11 +246,11 @@ void Motor::write(const Register& reg, std::int64_t value) {
 
 bool Motor::try_write(const Register& reg, std::int64_t value) {
     const auto width = static_cast<Width>(registers::bytes_of(model_, reg));
-    return master_.try_write(address_, reg.number, registers::bits_of(format_in(model_, reg), value), width);
+    return master_.try_write(address_, reg.number,
+                             registers::bits_of(registers::format_on_line(model_, reg), value), width);
 }
 
 bool Motor::is_behind_gateway() {
-    namespace gw = registers::gateway;
     if (gateway_) return *gateway_;
     gateway_ = false;
     if (address_ == gw::kDefaultAddress) return false;

@@ -8,6 +8,7 @@
 
 #include "macreg/change.h"
 #include "macreg/values.h"
+#include "spelling/text.h"
 
 namespace nplc::macreg {
 
@@ -15,6 +16,7 @@ using mactalk_client::Interrupted;
 using registers::Access;
 using registers::Model;
 using registers::Register;
+using spelling::trimmed;
 
 namespace {
 
@@ -40,12 +42,6 @@ bool is_passing(const Register& reg) {
     static const std::set<std::string_view> kRunning{"REC_CNT",   "IA_OFFSET",  "IB_OFFSET",
                                                      "IC_OFFSET", "SERIAL_NMB", "P_NEW"};
     return kRunning.count(reg.name) != 0;
-}
-
-std::string_view trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t\r");
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
 ParameterSet read(Motor& motor, bool everything, const Received& received,
@@ -203,14 +199,13 @@ ParameterSet read_everything(Motor& motor, const Received& received, const std::
 
 std::string header_text(Motor& motor, std::string_view model_name, std::string_view date) {
     const auto show = [&](const char* name) { return motor.read(std::string_view(name)); };
-    const bool large = motor.model() == Model::mac800;
     return fmt::format(
         "# Parameters of a MAC motor, by `macreg dump`; `macreg load` brings them back.\n"
         "# A value may be given with a unit, as raw:1600, as 0x640 or by names; what stands behind # is not "
         "read.\n"
         "model = {}\nmotor_type = {}\nserial_number = {}\nfirmware = {}\nhardware = {}\naddress = {}\ndate = "
         "{}\n\n",
-        model_name, show("MOTOR_TYPE"), show(large ? "SERIAL_NUMBER" : "SERIAL_NMB"), show("PROG_VERSION"),
+        model_name, show("MOTOR_TYPE"), motor.read(serial_register(motor.model())), show("PROG_VERSION"),
         show("HW_VERSION"), motor.address(), date);
 }
 

@@ -14,11 +14,6 @@ using registers::Model;
 
 namespace {
 
-constexpr std::int64_t kInitOperation = 0;
-constexpr std::int64_t kSafeOperation = 15;
-constexpr std::int64_t kDefaultsToFlash = 256;
-constexpr std::int64_t kFactoryDefaults = 257;
-constexpr std::int64_t kReload = 258;
 constexpr base::Milliseconds kLook{50};
 constexpr base::Milliseconds kStopWait{10'000};
 /// R: no manual says how long the flash takes.
@@ -45,10 +40,14 @@ void go_to_init(Motor& motor, Trail& trail) {
     }
 }
 
-void wait_until_passive(Motor& motor, const std::function<bool()>& goes_on, Trail& trail) {
+}  // namespace
+
+void stop_motor(Motor& motor, const std::function<bool()>& goes_on, Trail& trail) {
+    trail.ran_in = mode_text(motor.model(), motor.read(registers::MODE_REG));
+    go_to_init(motor, trail);
     const base::Instant end = motor.now() + kStopWait;
     const registers::Register& speed = *motor.find(registers::V_IST);
-    while (motor.read(registers::MODE_REG) != kInitOperation) {
+    while (motor.read(registers::MODE_REG) != kInit) {
         trail.turns = fmt::format("{} {}", speed.name, value_text(speed, motor.model(), motor.read(speed)));
         if (goes_on && !goes_on()) throw Interrupted("interrupted");
         if (motor.now() >= end)
@@ -60,8 +59,6 @@ void wait_until_passive(Motor& motor, const std::function<bool()>& goes_on, Trai
     trail.stopped = true;
 }
 
-}  // namespace
-
 std::string mode_text(Model model, std::int64_t mode) {
     return value_text(*registers::find(model, registers::MODE_REG), model, mode);
 }
@@ -69,16 +66,14 @@ std::string mode_text(Model model, std::int64_t mode) {
 SafeMode::SafeMode(Motor& motor, bool stop, std::function<bool()> goes_on, Trail& trail)
     : motor_(motor), trail_(trail) {
     const std::int64_t found = motor.read(registers::MODE_REG);
-    was_safe_ = found == kSafeOperation;
+    was_safe_ = found == kSafe;
     if (was_safe_) return;
-    if (found != kInitOperation) {
+    if (found != kInit) {
         if (!stop)
             throw NotDone(
                 fmt::format("the motor is in {} and would have to be stopped; stop it first, or say --stop",
                             mode_text(motor.model(), found)));
-        trail.ran_in = mode_text(motor.model(), found);
-        go_to_init(motor, trail);
-        wait_until_passive(motor, goes_on, trail);
+        stop_motor(motor, goes_on, trail);
     }
     trail.in_safe_mode = true;
     try {
@@ -110,18 +105,18 @@ void Service::enter_safe() {
     begin(Task::safe_mode);
     SafeMode safe(motor_, stop_, goes_on_, trail_);
     safe.keep();
-    if (mode() != kSafeOperation)
+    if (mode() != kSafe)
         throw NotDone("the motor did not stay in SAFE_MODE; does another master speak to it?");
 }
 
 void Service::exit_safe() {
     begin(Task::safe_mode);
-    if (mode() != kSafeOperation)
+    if (mode() != kSafe)
         throw NotDone(
             fmt::format("the motor is not in SAFE_MODE but in {}", mode_text(motor_.model(), mode())));
     trail_.in_safe_mode = true;
     go_to_init(motor_, trail_);
-    if (mode() == kSafeOperation) throw NotDone("the motor did not leave SAFE_MODE");
+    if (mode() == kSafe) throw NotDone("the motor did not leave SAFE_MODE");
     trail_.in_safe_mode = false;
 }
 
@@ -132,7 +127,7 @@ bool Service::wait_until_out_of_safe() {
     while (motor_.now() < begun + kRestartWait) {
         motor_.master().pause(kLook);
         try {
-            if (mode() != kSafeOperation) return true;
+            if (mode() != kSafe) return true;
             if (motor_.now() > begun + kOrderWait) return false;
         } catch (const LineError& error) {
             if (error.kind() != LineError::Kind::no_answer) throw;
@@ -204,14 +199,14 @@ void Service::order_parameters(std::int64_t code, const char* what) {
     throw NotDone(refusal.empty() ? fmt::format("the motor did not accept to {}", what) : refusal);
 }
 
-std::string Service::stop_words() const {
-    if (trail_.stopped)
+std::string Trail::stop_words() const {
+    if (stopped)
         return fmt::format("the motor ran in {} and was stopped: it starts again only when MODE_REG is set",
-                           trail_.ran_in);
+                           ran_in);
     return fmt::format(
         "the motor ran in {} and was told to stop, but HAS NOT STOPPED as far as is known{}: if it must "
         "stand, cut its power",
-        trail_.ran_in, trail_.turns.empty() ? "" : " (" + trail_.turns + ")");
+        ran_in, turns.empty() ? "" : " (" + turns + ")");
 }
 
 std::string Service::left_behind() const {
@@ -252,7 +247,7 @@ std::string Service::left_behind() const {
                                                             : words.done;
     const auto add = [&](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
     const bool resets = task_ == Task::save || task_ == Task::defaults || task_ == Task::reset;
-    if (!trail_.ran_in.empty() && !(resets && trail_.order == Trail::Order::done)) add(stop_words());
+    if (!trail_.ran_in.empty() && !(resets && trail_.order == Trail::Order::done)) add(trail_.stop_words());
     if (trail_.in_safe_mode)
         add("the motor may be in SAFE_MODE, deaf to FastMAC: see `macreg get MODE_REG`; `macreg safe exit` "
             "takes it out");

@@ -3,14 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <iterator>
 #include <vector>
 
+#include "macreg/motor.h"
 #include "registers/layout.h"
 #include "registers/scale.h"
 #include "spelling/edit_distance.h"
+#include "spelling/text.h"
 
 namespace nplc::macreg {
 
@@ -19,15 +20,9 @@ using registers::Model;
 using registers::Register;
 using registers::TextError;
 using registers::Unit;
+using spelling::lower;
 
 namespace {
-
-std::string lower(std::string_view text) {
-    std::string result(text);
-    std::transform(result.begin(), result.end(), result.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return result;
-}
 
 /// A mode, a pointer: one field as wide as the register.
 const Field* whole_field(const Register& reg, Model model) {
@@ -399,7 +394,7 @@ TypedValue typed_value(const Register& reg, Model model, std::string_view text) 
 }
 
 NamedRegister find_register(Model model, std::string_view text) {
-    const std::string family = model == Model::mac800 ? "MAC800" : "MAC50 to MAC141";
+    const std::string family = family_words(model);
     if (const auto number = whole_number(text, 10)) {
         const bool fits = *number >= 0 && *number <= 255;
         const Register* reg = fits ? registers::find(model, static_cast<std::uint8_t>(*number)) : nullptr;

@@ -3,19 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+
+#include "spelling/text.h"
 
 namespace nplc::nanoctl {
+
+using spelling::is_same;
+
 namespace {
 
 std::uint8_t byte_of(std::uint32_t value, unsigned shift) {
     return static_cast<std::uint8_t>(value >> shift);
-}
-
-bool is_same(const std::string& a, const std::string& b) {
-    return a.size() == b.size() &&
-           std::equal(a.begin(), a.end(), b.begin(),
-                      [](unsigned char x, unsigned char y) { return std::toupper(x) == std::toupper(y); });
 }
 
 std::optional<unsigned> number_of(const std::string& text, unsigned limit) {

@@ -18,8 +18,6 @@
 
 namespace nplc::macreg::cli {
 
-using mactalk_client::Interrupted;
-using mactalk_client::LineError;
 using registers::Model;
 using registers::Register;
 
@@ -98,16 +96,16 @@ class DumpFile {
     std::FILE* file_ = nullptr;
 };
 
-void fail_incomplete(Session& session, DumpFile& out, const char* why, int exit_code, std::size_t done,
+void fail_incomplete(Session& session, DumpFile& out, const mactalk_client::Ended& why, std::size_t done,
                      std::size_t all) {
-    if (!session.json()) out.add(incomplete_text(why));
+    if (!session.json()) out.add(incomplete_text(why.what()));
     session.progress("");
     const std::string read =
         done == 0 ? "no register was read"
                   : fmt::format("{} of {} registers were read and are in {}", done, all, out.name());
-    throw command_line::Failure(exit_code,
-                                fmt::format("{}; {}{}", why, read, done == 0 ? "" : ", marked as incomplete"),
-                                {{"incomplete", true}, {"read", done}, {"of", all}, {"file", out.name()}});
+    throw command_line::Failure(
+        why.exit_code(), fmt::format("{}; {}{}", why.what(), read, done == 0 ? "" : ", marked as incomplete"),
+        {{"incomplete", true}, {"read", done}, {"of", all}, {"file", out.name()}});
 }
 
 void dump(Session& session, const DumpArguments& options) {
@@ -132,10 +130,10 @@ void dump(Session& session, const DumpArguments& options) {
     try {
         if (as_text) out.add(header_text(motor, session.model_name(), session.common().date));
         options.all ? read_everything(motor, received, goes_on) : read_parameters(motor, received, goes_on);
-    } catch (const LineError& error) {
-        fail_incomplete(session, out, error.what(), command_line::kNoAnswer, done, all);
-    } catch (const Interrupted& error) {
-        fail_incomplete(session, out, error.what(), command_line::kInterrupted, done, all);
+    } catch (const UserError&) {
+        throw;
+    } catch (const mactalk_client::Ended& error) {
+        fail_incomplete(session, out, error, done, all);
     }
     if (as_text) out.add(end_text(done));
     out.finish();
@@ -213,12 +211,14 @@ void diff(Common& common, const DiffArguments& options) {
 
 }  // namespace
 
-std::string read_standard_input() {
-    host::end_at_interruptions();
-    whole_files::FileText input = whole_files::read_standard_input();
+Input read_input(const std::string& path) {
+    const bool standard = path == "-";
+    if (standard) host::end_at_interruptions();
+    whole_files::FileText input =
+        standard ? whole_files::read_standard_input() : whole_files::read_file(path, whole_files::kMostInput);
     host::note_interruptions();
     if (!input.error.empty()) throw UserError(input.error);
-    return std::move(input.text);
+    return {standard ? "standard input" : path, std::move(input.text)};
 }
 
 std::string model_words(const ParameterSet& set) {
@@ -227,10 +227,8 @@ std::string model_words(const ParameterSet& set) {
 }
 
 ParameterSet read_parameter_file(const std::string& path, bool partial) {
-    const bool standard = path == "-";
-    const std::string name = standard ? "standard input" : path;
-    const ParsedFile file =
-        parse_parameters(standard ? read_standard_input() : command_line::read_whole(path));
+    const auto [name, text] = path == "-" ? read_input(path) : Input{path, command_line::read_whole(path)};
+    const ParsedFile file = parse_parameters(text);
     if (!file.problems.empty()) throw bad_file(name, file.problems);
     if (!file.set.incomplete.empty() && !partial)
         throw UserError(fmt::format("{}: is incomplete: {}; dump again, or take it as it is with --partial",

@@ -6,13 +6,11 @@
 
 #include "cli/session.h"
 #include "host/endpoint.h"
-#include "host/terminal.h"
 #include "macreg/monitor.h"
 #include "macreg/motor.h"
 #include "macreg/service.h"
 #include "macreg/values.h"
 #include "registers/gateway.h"
-#include "whole_files/whole_files.h"
 
 namespace nplc::macreg::cli {
 
@@ -46,7 +44,7 @@ class Search {
                 if (units_.empty() || options_.every_speed) at(baud, false);
             }
         }
-        progress("");
+        progress(common_, "");
         if (units_.empty())
             throw command_line::Failure(
                 command_line::kNoAnswer,
@@ -67,7 +65,7 @@ class Search {
             .baud = baud, .patience = patience(baud), .every_address = options_.every_address};
         options.goes_on = goes_on;
         options.progress = [&](unsigned address) {
-            progress(fmt::format("{} baud, address {}", baud, address));
+            progress(common_, fmt::format("{} baud, address {}", baud, address));
         };
         const Found found = find_units(*wire, options);
         noise_ = noise_ || found.noise;
@@ -91,9 +89,8 @@ class Search {
         }
         const bool large = unit.model == Model::mac800;
         const std::string mode = mode_text(unit.model, unit.mode);
-        text_ +=
-            fmt::format("address {:>3}{}: {}, serial number {}, {}, {}", unit.address, speed,
-                        large ? "MAC800" : "MAC50 to MAC141", unit.serial_number, version_text(unit), mode);
+        text_ += fmt::format("address {:>3}{}: {}, serial number {}, {}, {}", unit.address, speed,
+                             family_words(unit.model), unit.serial_number, version_text(unit), mode);
         units_.push_back({{"address", unit.address},
                           {"baud", baud},
                           {"kind", "motor"},
@@ -102,12 +99,6 @@ class Search {
                           {"version", unit.version},
                           {"mode", unit.mode},
                           {"mode_name", mode}});
-    }
-
-    void progress(const std::string& text) const {
-        if (common_.json || !host::is_terminal(stderr)) return;
-        fmt::print(stderr, "\r\033[K{}", text);
-        std::fflush(stderr);
     }
 
     Common& common_;
@@ -233,13 +224,8 @@ Side side_of(const MonitorArguments& options) {
 void replay(const Common& common, const MonitorArguments& options) {
     const auto monitor = make(common, options);
     const Side side = side_of(options);
-    const bool standard = options.replay == "-";
-    const whole_files::FileText file = standard
-                                           ? whole_files::FileText{.text = read_standard_input(), .error = {}}
-                                           : whole_files::read_file(options.replay, whole_files::kMostInput);
-    if (!file.error.empty()) throw UserError(file.error);
-    const std::string name = standard ? "standard input" : options.replay;
-    const auto bytes = read_hex(file.text, name);
+    const auto [name, text] = read_input(options.replay);
+    const auto bytes = read_hex(text, name);
     if (bytes.empty()) throw UserError(name + ": there are no bytes in it; write two hex digits a byte");
     // A character takes ten bits; a file holds no times.
     const base::Microseconds character{10'000'000 / common.baud};

@@ -11,8 +11,6 @@
 namespace nplc::macreg::cli {
 namespace {
 
-using mactalk_client::Interrupted;
-using mactalk_client::LineError;
 using registers::Model;
 using registers::Register;
 
@@ -24,10 +22,6 @@ struct LoadArguments {
     bool partial = false;
     bool another = false;
 };
-
-bool is_address(const Register& reg) {
-    return reg.name == "MYADDR" || reg.name == "MY_ADDR";
-}
 
 /// The names, the first twenty of them.
 std::string names_of(const std::vector<Difference>& all) {
@@ -65,7 +59,7 @@ std::vector<Difference> to_write(Session& session, const ParameterSet& wanted, c
     std::vector<Difference> some;
     std::vector<Difference> dangerous;
     for (const Difference& one : differences(wanted, own)) {
-        if (!one.left || is_address(*one.reg)) continue;
+        if (!one.left || one.reg->number == address_register(session.motor().model()).number) continue;
         const bool may_harm = !danger(session.motor().model(), *one.reg, *one.left).empty();
         (may_harm ? dangerous : some).push_back(one);
     }
@@ -97,10 +91,10 @@ class Writer {
             for (; done_ < all_.size(); ++done_) write(all_[done_]);
             session_.progress("");
             verify(wanted);
-        } catch (const LineError& error) {
-            broke_off(error.what(), command_line::kNoAnswer);
-        } catch (const Interrupted& error) {
-            broke_off(error.what(), command_line::kInterrupted);
+        } catch (const command_line::Failure&) {
+            throw;
+        } catch (const mactalk_client::Ended& error) {
+            broke_off(error.what(), error.exit_code());
         }
     }
 
@@ -108,22 +102,12 @@ class Writer {
     void make_passive() {
         Motor& motor = session_.motor();
         const std::int64_t mode = motor.read(registers::MODE_REG);
-        if (mode == 0 || mode == 15) return;
-        const std::string name = mode_text(motor.model(), mode);
+        if (is_passive(mode)) return;
         if (!options_.stop)
-            refuse(fmt::format(
-                "the motor is in {}: parameters change under way; stop it first, or say --stop", name));
-        ran_in_ = name;
-        motor.master().init_mode(motor.address());
-        const base::Instant end = motor.now() + base::Milliseconds{10'000};
-        while (motor.read(registers::MODE_REG) != 0) {
-            look_for_interruption();
-            if (motor.now() >= end)
-                broke_off("the motor was told to stop and did not become passive within 10 s",
-                          command_line::kRefused);
-            session_.pause(base::Milliseconds{50});
-        }
-        stopped_ = true;
+            refuse(
+                fmt::format("the motor is in {}: parameters change under way; stop it first, or say --stop",
+                            mode_text(motor.model(), mode)));
+        stop_motor(motor, goes_on, trail_);
     }
 
     void write(const Difference& one) {
@@ -170,13 +154,9 @@ class Writer {
                                 counted(all_.size(), "register"), done_ == 1 ? "was" : "were",
                                 written.empty() ? "" : ": " + names_of(written));
         if (in_doubt_) text += fmt::format("; {} may have been written or not", all_[done_].reg->name);
-        if (!ran_in_.empty())
-            text += fmt::format("; the motor ran in {} and {}", ran_in_,
-                                stopped_ ? "was stopped: it starts again only when MODE_REG is set"
-                                         : "was told to stop, but HAS NOT STOPPED as far as is known: if it "
-                                           "must stand, cut its power");
+        if (!trail_.ran_in.empty()) text += "; " + trail_.stop_words();
         throw command_line::Failure(exit_code, text + "; the flash is as it was",
-                                    {{"written", names}, {"of", all_.size()}, {"stopped", stopped_}});
+                                    {{"written", names}, {"of", all_.size()}, {"stopped", trail_.stopped}});
     }
 
     Session& session_;
@@ -184,27 +164,21 @@ class Writer {
     const std::vector<Difference>& all_;
     std::size_t done_ = 0;
     bool in_doubt_ = false;  ///< the write under way may have arrived
-    std::string ran_in_;     ///< the mode it was told to stop in
-    bool stopped_ = false;
+    Trail trail_;
 };
 
 ParameterSet read_own(Session& session) {
-    const auto unchanged = [](const std::exception& error) {
-        return fmt::format("{}; nothing was written", error.what());
-    };
     try {
         return read_parameters(session.motor(), {}, goes_on);
-    } catch (const LineError& error) {
-        throw LineError(error.kind(), unchanged(error));
-    } catch (const Interrupted& error) {
-        throw Interrupted(unchanged(error));
+    } catch (const mactalk_client::Ended& error) {
+        throw command_line::Failure(error.exit_code(), fmt::format("{}; nothing was written", error.what()));
     }
 }
 
 /// What the file says and is not written: the address of this motor is its own.
 std::string left_alone(const LoadArguments& options, const ParameterSet& wanted, const ParameterSet& own) {
     for (const Difference& one : differences(wanted, own)) {
-        if (one.left && one.right && is_address(*one.reg))
+        if (one.left && one.right && one.reg == &address_register(own.model))
             return fmt::format("{} stays {}: load leaves the address alone, {} has {}", one.reg->name,
                                *one.right, options.file, *one.left);
     }

@@ -92,29 +92,6 @@ void MidiSession::open_can(const MidiCommon& options, base::Microseconds patienc
     link_ = std::move(link);
 }
 
-void midi_guard(const MidiCommon& midi, const std::function<void()>& what) {
-    guard(midi.common, [&] {
-        try {
-            what();
-        } catch (const midi_client::Refused& error) {
-            throw command_line::Failure(command_line::kRefused, error.what());
-        } catch (const midi_client::NotPlayed& error) {
-            throw command_line::Failure(command_line::kRefused, error.what());
-        } catch (const midi_client::SameAddress& error) {
-            throw command_line::Failure(command_line::kRefused, error.what());
-        } catch (const midi_client::Unconfirmed& error) {
-            throw command_line::Failure(command_line::kNoAnswer, error.what());
-        }
-    });
-}
-
-void midi_work(const MidiCommon& midi, const std::function<void(MidiSession&)>& what) {
-    midi_guard(midi, [&] {
-        MidiSession session(midi);
-        what(session);
-    });
-}
-
 Json midi_document(const midi::Parameter& parameter, std::int64_t raw, const midi::Scale& scale) {
     return {{"name", parameter.name}, {"raw", raw}, {"value", midi::value_text(parameter, raw, scale)}};
 }

@@ -15,6 +15,7 @@ namespace nplc::macreg::cli {
 struct MidiCommon {
     explicit MidiCommon(Common& all) : common(all) {}
     Common& common;
+    operator Common&() const { return common; }
     static constexpr int kNotSaid = std::numeric_limits<int>::min();
     int address = kNotSaid;  ///< then what a module from the factory has
     std::uint32_t baud = 0;
@@ -56,26 +57,6 @@ class MidiSession {
     std::unique_ptr<midi_client::Master> master_;
     std::unique_ptr<midi::Module> module_;
 };
-
-/// As `guard` and `work`, and MIDI modules' own errors.
-void midi_guard(const MidiCommon& midi, const std::function<void()>& what);
-void midi_work(const MidiCommon& midi, const std::function<void(MidiSession&)>& what);
-
-/// Subcommands with options: done with an open session, or without a module.
-template <class Options>
-auto add_command(arguments::App& app, const MidiCommon& midi, const std::string& name,
-                 const std::string& text, void (*what)(MidiSession&, const Options&)) {
-    return add_command<Options>(app, name, text, [what, &midi](const Options& options) {
-        midi_work(midi, [&](MidiSession& session) { what(session, options); });
-    });
-}
-template <class Options>
-auto add_command(arguments::App& app, const MidiCommon& midi, const std::string& name,
-                 const std::string& text, void (*what)(const MidiCommon&, const Options&)) {
-    return add_command<Options>(app, name, text, [what, &midi](const Options& options) {
-        midi_guard(midi, [&] { what(midi, options); });
-    });
-}
 
 /// {"name":, "raw":, "value":}
 Json midi_document(const midi::Parameter& parameter, std::int64_t raw, const midi::Scale& scale);

@@ -8,6 +8,7 @@
 #include "macreg/midi/path_file.h"
 #include "macreg/midi/values.h"
 #include "registers/midi_scale.h"
+#include "spelling/text.h"
 
 namespace nplc::macreg::cli {
 namespace {
@@ -117,25 +118,12 @@ std::int64_t number_of(const char* what, const midi::TypedNumber& number) {
     return number.value;
 }
 
-std::vector<std::string> split(const std::string& text) {
-    std::vector<std::string> parts;
-    std::size_t from = 0;
-    for (std::size_t at = text.find(','); at != std::string::npos; at = text.find(',', from)) {
-        parts.push_back(text.substr(from, at - from));
-        from = at + 1;
-    }
-    parts.push_back(text.substr(from));
-    return parts;
-}
-
-std::uint8_t axis_of(const MidiCommon& midi, const std::string& text) {
-    const auto quantity = midi::read_quantity(text);
-    const bool good = quantity && quantity->unit.empty() && !quantity->negative &&
-                      quantity->size.denominator == 1 && quantity->size.numerator <= 127;
-    if (!good)
+std::uint8_t axis_of(const MidiCommon& midi, std::string_view text) {
+    const auto address = midi::read_address(text);
+    if (!address)
         throw UserError(fmt::format("'{}' is no axis: write the address of a module, {} to 127", text,
                                     is_can(midi) ? 1 : 0));
-    return static_cast<std::uint8_t>(quantity->size.numerator);
+    return *address;
 }
 
 midi_client::Circle circle_of(const MidiCommon& midi, const CircleOptions& options) {
@@ -155,13 +143,13 @@ midi_client::Circle circle_of(const MidiCommon& midi, const CircleOptions& optio
 }
 
 void circle(const MidiCommon& midi, const CircleOptions& options) {
-    const auto words = split(options.axes);
+    const auto words = spelling::split(options.axes, ',');
     if (words.size() != 2) throw UserError("--axes: write the addresses of two modules, as 0,1");
     Job job{.addresses = {axis_of(midi, words[0]), axis_of(midi, words[1])}};
     if (job.addresses[0] == job.addresses[1]) throw UserError("--axes: they must be two different modules");
     look_at_addresses(midi, job.addresses);
     midi_client::Circle circle = circle_of(midi, options);
-    const auto centre = split(options.centre);
+    const auto centre = spelling::split(options.centre, ',');
     if (!options.centre.empty()) {
         if (centre.size() != 2) throw UserError("--centre: write two positions, as 0,5rev");
         circle.centre_x = number_of("--centre", midi::typed_position(centre[0], midi_model(midi)));

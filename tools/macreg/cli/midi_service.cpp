@@ -20,7 +20,7 @@ std::string greet(MidiSession& session, std::uint8_t address) {
     return midi::release_text(session.master().query(address, midi::reg::GET_RELEASE));
 }
 
-void reset(MidiSession& session) {
+void restart(MidiSession& session) {
     ask(session.common(), fmt::format("The module with address {} starts anew: the motor stops and holds "
                                       "nothing, what waits is dropped, faults are acknowledged",
                                       session.address()));
@@ -252,14 +252,14 @@ void raw(const MidiCommon& midi, const MidiRawArguments& options) {
     throw command_line::Failure(command_line::kNoAnswer, fmt::format("{}: {}", told, what), document);
 }
 
-void find(const MidiCommon& midi, const MidiFindArguments& options) {
+void find_modules(const MidiCommon& midi, const MidiFindArguments& options) {
     MidiSearch(midi, options).run();
 }
 
 }  // namespace
 
 void add_midi_service(arguments::App& app, MidiCommon& midi) {
-    arguments::App& address_command = command_line::add_command(app, "address", "Give a module its address");
+    arguments::App& address_command = add_command(app, "address", "Give a module its address");
     address_command.require_subcommand(1);
     auto [set_command, address] = add_command(
         address_command, midi, "set",
@@ -271,17 +271,17 @@ void add_midi_service(arguments::App& app, MidiCommon& midi) {
                     "Set the speed of the serial line in a module, which starts anew; asks first", set_baud);
     baud_command.add_option("new_baud", baud, kBaudCodes)->required();
 
-    command_line::add_command(app, "reset", "Start a module anew, which acknowledges its faults; asks first")
-        .callback([&midi] { midi_work(midi, reset); });
-    command_line::add_command(app, "factory",
-                              "All parameters as from the factory, the address too; asks first")
-        .callback([&midi] { midi_guard(midi, [&] { factory(midi); }); });
+    add_command(app, midi, "reset", "Start a module anew, which acknowledges its faults; asks first",
+                restart);
+    add_command(app, midi, "factory", "All parameters as from the factory, the address too; asks first",
+                factory);
 }
 
 void add_midi_find(arguments::App& app, MidiCommon& midi) {
     auto [command, options] = add_command(
         app, midi, "find",
-        "Which modules are on the line or bus, by address and speed. Only reads; some 7 s a speed", find);
+        "Which modules are on the line or bus, by address and speed. Only reads; some 7 s a speed",
+        find_modules);
     command.add_flag("--every-speed", options.every_speed,
                      "Go on with the other speeds when one has been answered at");
     command.add_flag("--this-speed", options.this_speed, "Only the speed of --baud");

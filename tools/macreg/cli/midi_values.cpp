@@ -20,9 +20,10 @@ void status(MidiSession& session) {
     const midi::Scale scale = session.module().scale();
     const std::int32_t before = session.master().position(session.address());
     const Readings now = session.module().read_all();
-    const bool turns = now.position != before;
-    std::string text = fmt::format("{} at address {}, release {}: {}", model_name(scale), session.address(),
-                                   midi::release_text(now.release), turns ? "turns" : "stands");
+    const bool turns = now.position() != before;
+    std::string text =
+        fmt::format("{} at address {}, release {}: {}", model_name(scale), session.address(),
+                    midi::release_text(now.reply(midi::reg::GET_RELEASE)), turns ? "turns" : "stands");
     Json list = Json::array();
     for (const midi::Parameter& one : midi::parameters()) {
         if (!one.query || one.sort == midi::Sort::release) continue;
@@ -33,36 +34,29 @@ void status(MidiSession& session) {
     if (!scale.model) remark(session.common(), "without --model there are no turns, volts and degrees");
     session.tell(text, {{"address", session.address()},
                         {"model", scale.model ? Json(model_name(scale)) : Json(nullptr)},
-                        {"release", midi::release_text(now.release)},
-                        {"position", now.position},
+                        {"release", midi::release_text(now.reply(midi::reg::GET_RELEASE))},
+                        {"position", now.position()},
                         {"turns", turns},
                         {"busy", now.busy()},
-                        {"faults", midi::status_words(now.status & midi::reg::kTrips)},
+                        {"faults", midi::status_words(now.status() & midi::reg::kTrips)},
                         {"parameters", list}});
 }
 
-void why(MidiSession& session) {
-    FindingsReport report("parameters");
+void why_module(MidiSession& session) {
     try {
         session.master().expect_alone(session.address());
     } catch (const midi_client::SameAddress&) {
-        report.add(midi::same_address(session.address(), session.link().is_can()), {}, Json::array());
-        return session.tell(report.text(), report.document());
+        return tell_findings(session.common(),
+                             {midi::same_address(session.address(), session.link().is_can())}, "parameters",
+                             {});
     }
     const midi::Condition condition = midi::read_condition(session.module());
-    for (const midi::Finding& finding : midi::why(condition)) {
-        std::string values;
-        Json parameters = Json::array();
-        for (const std::string_view name : finding.sources) {
-            const midi::Parameter& one = *midi::find_parameter(name);
-            const std::int64_t raw = condition.now.raw(one);
-            values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", name,
-                                  midi::value_text(one, raw, condition.scale));
-            parameters.push_back(midi_document(one, raw, condition.scale));
-        }
-        report.add(finding, values, parameters);
-    }
-    session.tell(report.text(), report.document());
+    tell_findings(session.common(), midi::why(condition), "parameters", [&](std::string_view name) {
+        const Parameter& one = *midi::find_parameter(name);
+        const std::int64_t raw = condition.now.raw(one);
+        return ShownValue{midi::value_text(one, raw, condition.scale),
+                          midi_document(one, raw, condition.scale)};
+    });
 }
 
 const Parameter& named(const std::string& name) {
@@ -72,7 +66,7 @@ const Parameter& named(const std::string& name) {
     return *found;
 }
 
-void list(const MidiCommon& midi) {
+void list_parameters(const MidiCommon& midi) {
     std::string text;
     Json all = Json::array();
     for (const Parameter& one : midi::parameters()) {
@@ -114,7 +108,7 @@ void show(MidiSession& session, const std::vector<const Parameter*>& wanted) {
     session.tell(text, {{"parameters", all}});
 }
 
-void get(const MidiCommon& midi, const std::vector<std::string>& names) {
+void get_parameters(const MidiCommon& midi, const std::vector<std::string>& names) {
     const auto wanted = readable(names);
     MidiSession session(midi);
     show(session, wanted);
@@ -186,7 +180,7 @@ void change(MidiSession& session, const std::vector<Checked>& all) {
     session.tell(text, {{"parameters", done}});
 }
 
-void set(const MidiCommon& midi, const std::vector<std::string>& words) {
+void set_parameters(const MidiCommon& midi, const std::vector<std::string>& words) {
     const auto all = read_words(words);
     for (const Assignment& one : all) {
         if (!one.parameter->command) throw UserError(fmt::format("{} is read only", one.parameter->name));
@@ -230,27 +224,25 @@ void limits(const MidiCommon& midi, const Limits& options) {
 }  // namespace
 
 void add_midi_status(arguments::App& app, MidiCommon& midi) {
-    command_line::add_command(app, "status",
-                              "Position, faults and warnings in words, all settings, temperature, supply")
-        .callback([&midi] { midi_work(midi, status); });
-    command_line::add_command(app, "why",
-                              "Why does it not move? Sentences with what makes it so and what mends it, the "
-                              "first thing to mend in front")
-        .callback([&midi] { midi_work(midi, why); });
+    add_command(app, midi, "status",
+                "Position, faults and warnings in words, all settings, temperature, supply", status);
+    add_command(app, midi, "why",
+                "Why does it not move? Sentences with what makes it so and what mends it, the "
+                "first thing to mend in front",
+                why_module);
 }
 
 void add_midi_values(arguments::App& app, MidiCommon& midi) {
-    command_line::add_command(app, "list", "The parameters with their units. Needs no module")
-        .callback([&midi] { midi_guard(midi, [&] { list(midi); }); });
+    add_command(app, midi, "list", "The parameters with their units. Needs no module", list_parameters);
 
-    auto [get_command, names] = add_command(app, midi, "get", "Read parameters", get);
+    auto [get_command, names] = add_command(app, midi, "get", "Read parameters", get_parameters);
     get_command.add_option("parameters", names, "Names")->required();
 
     auto [set_command, words] =
         add_command(app, midi, "set",
                     "Change parameters and read them back: SPEED 300rpm, TORQUE 50%, RAMP 2rev/s2, "
                     "UPPER_STOP 10rev, or raw:N. All are checked before the first is written",
-                    set);
+                    set_parameters);
     set_command.add_option("values", words, "NAME VALUE, or NAME=VALUE; several at once")->required();
 
     auto [limits_command, options] = add_command(

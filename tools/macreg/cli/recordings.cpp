@@ -202,15 +202,12 @@ void record_and_save(Session& session, const RecordArguments& options, const Rec
         const Recording recording = record_buffer(session.motor(), how, &broken);
         session.progress("");
         save(session, options, recording);
-    } catch (const mactalk_client::LineError& error) {
-        keep_broken(session, options, how, broken, error.what(), command_line::kNoAnswer);
-    } catch (const mactalk_client::Interrupted& error) {
-        keep_broken(session, options, how, broken, error.what(), command_line::kInterrupted);
-    } catch (const NotRecordable&) {
+    } catch (const command_line::Failure&) {
         throw;
-    } catch (const CannotRecord& error) {
-        if (broken.size() == 0) throw;
-        keep_broken(session, options, how, broken, error.what(), command_line::kRefused);
+    } catch (const mactalk_client::Ended& error) {
+        const bool asked = dynamic_cast<const CannotRecord*>(&error) == nullptr;
+        if (!asked && broken.size() == 0) throw;
+        keep_broken(session, options, how, broken, error.what(), error.exit_code());
     }
 }
 
@@ -252,24 +249,14 @@ void record(Session& session, const RecordArguments& options) {
         move = read_move(session, options.move);
         how.then = [&] { carry_out(motor, move); };
     }
-    const auto ended = [&](const std::exception& error, int exit_code, const Json& details) {
-        session.progress("");
-        Json all = details;
-        if (move.reg != nullptr) all["moved"] = move.state >= Move::State::sent;
-        throw command_line::Failure(exit_code, error.what() + move.words(motor.model()), all);
-    };
     try {
         options.poll ? poll(session, options, how) : record_and_save(session, options, how);
-    } catch (const NotRecordable& error) {
-        ended(error, command_line::kUsageOrFile, Json::object());
-    } catch (const CannotRecord& error) {
-        ended(error, command_line::kRefused, Json::object());
-    } catch (const command_line::Failure& error) {
-        ended(error, error.exit_code(), error.details());
-    } catch (const mactalk_client::LineError& error) {
-        ended(error, command_line::kNoAnswer, Json::object());
-    } catch (const mactalk_client::Interrupted& error) {
-        ended(error, command_line::kInterrupted, Json::object());
+    } catch (const mactalk_client::Ended& error) {
+        session.progress("");
+        const auto* failure = dynamic_cast<const command_line::Failure*>(&error);
+        Json details = failure != nullptr ? failure->details() : Json::object();
+        if (move.reg != nullptr) details["moved"] = move.state >= Move::State::sent;
+        throw command_line::Failure(error.exit_code(), error.what() + move.words(motor.model()), details);
     }
 }
 
@@ -278,10 +265,6 @@ struct PlotArguments {
     std::string output;
     PlotOptions how;
 };
-
-bool ends_with(const std::string& text, std::string_view end) {
-    return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 std::string usual_title(const Recording& recording, const std::string& path) {
     std::string title = host::name_of(host::path_of(path).filename());
@@ -292,23 +275,17 @@ std::string usual_title(const Recording& recording, const std::string& path) {
 }
 
 void plot_file(Common& common, const PlotArguments& options) {
-    const bool png = ends_with(options.output, ".png");
-    if (!png && !ends_with(options.output, ".svg"))
+    const bool png = options.output.ends_with(".png");
+    if (!png && !options.output.ends_with(".svg"))
         throw UserError(fmt::format("-o {}: the name must end with .svg or .png", options.output));
-    const whole_files::FileText file =
-        options.recording == "-" ? whole_files::FileText{.text = read_standard_input(), .error = {}}
-                                 : whole_files::read_file(options.recording, whole_files::kMostInput);
-    if (!file.error.empty()) throw UserError(file.error);
-    const RecordingReading reading =
-        from_csv(file.text, options.recording == "-" ? "standard input" : options.recording);
+    const auto [name, text] = read_input(options.recording);
+    const RecordingReading reading = from_csv(text, name);
     if (!reading.error.empty()) throw UserError(reading.error);
     PlotOptions how = options.how;
     if (how.title.empty()) how.title = usual_title(reading.recording, options.recording);
     const Plotted plotted = plot(reading.recording, how);
     if (!plotted.error.empty()) throw UserError(fmt::format("{}: {}", options.recording, plotted.error));
-    const std::string problem =
-        whole_files::write_files({{options.output, png ? to_png(plotted.picture) : to_svg(plotted.picture)}});
-    if (!problem.empty()) throw UserError(problem);
+    write_file(options.output, png ? to_png(plotted.picture) : to_svg(plotted.picture));
     command_line::tell(common,
                        fmt::format("{}: {} samples, {} by {} pixels", options.output,
                                    reading.recording.size(), plotted.picture.width, plotted.picture.height),

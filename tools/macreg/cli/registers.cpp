@@ -9,6 +9,7 @@
 #include "macreg/change.h"
 #include "macreg/values.h"
 #include "macreg/why.h"
+#include "spelling/text.h"
 
 namespace nplc::macreg::cli {
 
@@ -24,18 +25,12 @@ struct ListArguments {
     bool writable = false;
 };
 
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
 bool is_wanted(const Register& reg, Model model, const ListArguments& options) {
     if (options.dangerous && !reg.dangerous) return false;
     if (options.writable && reg.access == Access::read_only) return false;
     const std::string all =
         fmt::format("{} {} {}", reg.name, registers::details_of(model, reg.number)->title, mactalk_name(reg));
-    return lower(all).find(lower(options.pattern)) != std::string::npos;
+    return spelling::lower(all).find(spelling::lower(options.pattern)) != std::string::npos;
 }
 
 Json document_of(const Register& reg, Model model) {
@@ -213,10 +208,8 @@ void set(Session& session, const SetArguments& options) {
         const ChangeResult outcome = [&] {
             try {
                 return change(session.motor(), *one.reg, one.raw);
-            } catch (const mactalk_client::LineError& error) {
-                broke_off(error.what(), command_line::kNoAnswer, all, i, true);
-            } catch (const Unconfirmed& error) {
-                broke_off(error.what(), command_line::kNoAnswer, all, i, true);
+            } catch (const mactalk_client::Ended& error) {
+                broke_off(error.what(), error.exit_code(), all, i, true);
             }
         }();
         Json document = value_document(*one.reg, model, outcome.after);
@@ -243,9 +236,6 @@ struct WatchArguments {
     double seconds = 0;
     bool all = false;
 };
-
-/// Between two looks whether it is to end.
-constexpr base::Microseconds kLook{100'000};
 
 /// What one wants to see of any motor.
 const std::vector<std::string> kUsual{"MODE_REG", "P_SOLL", "P_IST",  "V_SOLL",
@@ -315,35 +305,18 @@ void watch(Session& session, const WatchArguments& options) {
     const auto registers =
         find_registers(session.motor().model(), options.names.empty() ? kUsual : options.names);
     Table table(session, options, registers);
-    const base::Instant begun = session.now();
-    const base::Microseconds limit{static_cast<std::int64_t>(options.seconds * 1e6)};
-    const auto ends = [&] {
-        return !goes_on() || !output_has_reader() || (options.seconds > 0 && session.now() - begun >= limit);
-    };
-    while (!ends()) {
-        table.show(session.motor().read_block(registers));
-        const base::Instant next = session.now() + base::Milliseconds{options.interval_ms};
-        while (session.now() < next && !ends())
-            session.pause(std::min<base::Microseconds>(kLook, next - session.now()));
-    }
+    command_line::watch(session, base::Milliseconds{options.interval_ms}, options.seconds,
+                        [&] { table.show(session.motor().read_block(registers)); });
 }
 
 void why(Session& session) {
     const Condition condition = read_condition(session.motor());
-    FindingsReport report("registers");
-    for (const Finding& finding : macreg::why(condition)) {
-        std::string values;
-        Json registers = Json::array();
-        for (const std::uint8_t one : finding.sources) {
-            const Register* reg = registers::find(condition.model, one);
-            if (reg == nullptr) continue;
-            values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", reg->name,
-                                  long_value_text(*reg, condition.model, condition.now.at(one)));
-            registers.push_back(value_document(*reg, condition.model, condition.now.at(one)));
-        }
-        report.add(finding, values, registers);
-    }
-    session.tell(report.text(), report.document());
+    tell_findings(session.common(), macreg::why(condition), "registers", [&](std::string_view name) {
+        const Register& reg = *registers::find(condition.model, name);
+        const std::int64_t raw = condition.now.at(reg.number);
+        return ShownValue{long_value_text(reg, condition.model, raw),
+                          value_document(reg, condition.model, raw)};
+    });
 }
 
 }  // namespace
@@ -392,10 +365,10 @@ void add_watch(arguments::App& app, Common& common) {
 }
 
 void add_why(arguments::App& app, Common& common) {
-    add_command(app, "why",
+    add_command(app, common, "why",
                 "Why does it not move? Sentences with the registers that make it so and what mends it, the "
-                "first thing to mend in front")
-        .callback([&common] { work(common, why); });
+                "first thing to mend in front",
+                why);
 }
 
 }  // namespace nplc::macreg::cli

@@ -44,25 +44,21 @@ void with_service(Session& session, const ServiceArguments& options,
                   const std::function<void(Service&)>& what) {
     Service service(session.motor(), goes_on);
     if (options.stop) service.allow_stop();
-    const auto fail = [&](const std::exception& error, int exit_code) {
+    try {
+        what(service);
+    } catch (const command_line::Failure&) {
+        throw;
+    } catch (const mactalk_client::Ended& error) {
         constexpr const char* kOrders[] = {"not sent", "sent, not known to be done", "done"};
         const Trail& trail = service.trail();
-        throw command_line::Failure(exit_code, fmt::format("{}; {}", error.what(), service.left_behind()),
+        // Refused before anything was sent: there is nothing to tell.
+        if (error.exit_code() == command_line::kRefused && trail.ran_in.empty() && !trail.in_safe_mode) throw;
+        throw command_line::Failure(error.exit_code(),
+                                    fmt::format("{}; {}", error.what(), service.left_behind()),
                                     {{"order", kOrders[static_cast<std::size_t>(trail.order)]},
                                      {"told_to_stop", !trail.ran_in.empty()},
                                      {"stopped", trail.stopped},
                                      {"perhaps_in_safe_mode", trail.in_safe_mode}});
-    };
-    try {
-        what(service);
-    } catch (const mactalk_client::LineError& error) {
-        fail(error, command_line::kNoAnswer);
-    } catch (const mactalk_client::Interrupted& error) {
-        fail(error, command_line::kInterrupted);
-    } catch (const NotDone& error) {
-        // Refused before anything was sent: there is nothing to tell.
-        if (service.trail().ran_in.empty() && !service.trail().in_safe_mode) throw;
-        fail(error, command_line::kRefused);
     }
 }
 
@@ -163,58 +159,46 @@ void prepare(Session& session, const ServiceArguments& options) {
     });
 }
 
-arguments::App& add(arguments::App& app, Common& common, const char* name, const char* text,
-                    void (*what)(Session&, const ServiceArguments&),
-                    const std::shared_ptr<ServiceArguments>& options) {
-    arguments::App& command = add_command(app, name, text);
-    command.add_flag("--stop", options->stop, "Stop the motor first if it is in a mode that moves it");
-    command.callback([options, what, &common] {
-        work(common, [&](Session& session) {
-            try {
-                what(session, *options);
-            } catch (const NotDone& error) {
-                refuse(error.what());
-            }
-        });
+void enter_safe(Session& session, const ServiceArguments& options) {
+    with_service(session, options, [&](Service& service) {
+        service.enter_safe();
+        tell_mode(session, "done");
     });
-    return command;
+}
+
+void exit_safe(Session& session, const ServiceArguments& options) {
+    with_service(session, options, [&](Service& service) {
+        service.exit_safe();
+        tell_mode(session, "done");
+    });
+}
+
+using What = void(Session&, const ServiceArguments&);
+
+auto add(arguments::App& app, Common& common, const char* name, const char* text, What* what) {
+    auto added = add_command(app, common, name, text, what);
+    added.command.add_flag("--stop", added.options.stop,
+                           "Stop the motor first if it is in a mode that moves it");
+    return added;
 }
 
 }  // namespace
 
 void add_service(arguments::App& app, Common& common) {
-    const auto options = std::make_shared<ServiceArguments>();
     arguments::App& flash = add_command(app, "flash", "The parameters in the motor's flash; asks first");
     flash.require_subcommand(1);
     add(flash, common, "save",
-        "Write what the motor has in memory into its flash; it resets, and is compared afterwards", save,
-        options);
-    add(flash, common, "defaults", "The factory's parameters, in memory and flash", defaults, options)
-        .add_flag("--unsaved", options->unsaved, "In memory only");
-    add(flash, common, "reload", "The flash's parameters back into memory, without a reset", reload, options);
+        "Write what the motor has in memory into its flash; it resets, and is compared afterwards", save);
+    auto [command, options] =
+        add(flash, common, "defaults", "The factory's parameters, in memory and flash", defaults);
+    command.add_flag("--unsaved", options.unsaved, "In memory only");
+    add(flash, common, "reload", "The flash's parameters back into memory, without a reset", reload);
     arguments::App& safe = add_command(app, "safe", "SAFE_MODE: passive, and deaf to FastMAC (001 4.4.16)");
     safe.require_subcommand(1);
-    add(
-        safe, common, "enter", "From INIT_MODE into SAFE_MODE",
-        [](Session& s, const ServiceArguments& o) {
-            with_service(s, o, [&](Service& service) {
-                service.enter_safe();
-                tell_mode(s, "done");
-            });
-        },
-        options);
-    add(
-        safe, common, "exit", "From SAFE_MODE into INIT_MODE",
-        [](Session& s, const ServiceArguments& o) {
-            with_service(s, o, [&](Service& service) {
-                service.exit_safe();
-                tell_mode(s, "done");
-            });
-        },
-        options);
-    add(app, common, "reset", "Restart the motor; asks first", reset, options);
-    add(app, common, "prepare", "Set what FastMAC needs, save it, reset, and check; asks first", prepare,
-        options);
+    add(safe, common, "enter", "From INIT_MODE into SAFE_MODE", enter_safe);
+    add(safe, common, "exit", "From SAFE_MODE into INIT_MODE", exit_safe);
+    add(app, common, "reset", "Restart the motor; asks first", reset);
+    add(app, common, "prepare", "Set what FastMAC needs, save it, reset, and check; asks first", prepare);
 }
 
 }  // namespace nplc::macreg::cli

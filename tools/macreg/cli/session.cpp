@@ -23,7 +23,7 @@ std::uint8_t find_address(mactalk_client::Master& master, const Common& common) 
     if (common.address != 0) return static_cast<std::uint8_t>(common.address);
     const Model model = Motor::find_model(master, kEveryone);
     Motor everyone(master, kEveryone, model);
-    const std::int64_t own = everyone.read(model == Model::mac800 ? "MY_ADDR" : "MYADDR");
+    const std::int64_t own = everyone.read(address_register(model));
     return own >= 1 && own <= 254 ? static_cast<std::uint8_t>(own) : kEveryone;
 }
 
@@ -157,25 +157,6 @@ void progress(const Common& common, const std::string& text) {
     std::fflush(stderr);
 }
 
-void guard(Common& common, const std::function<void()>& what) {
-    command_line::guard(common, [&] {
-        try {
-            what();
-        } catch (const Unconfirmed& error) {
-            throw command_line::Failure(command_line::kNoAnswer, error.what());
-        } catch (const WrongUnit& error) {
-            throw command_line::Failure(command_line::kNoAnswer, error.what());
-        }
-    });
-}
-
-void work(Common& common, const std::function<void(Session&)>& what) {
-    guard(common, [&] {
-        Session session(common);
-        what(session);
-    });
-}
-
 std::string output_file(const std::string& option, bool force) {
     if (option.empty()) throw UserError("-o: write a file's name, or - for standard output");
     if (option == "-") return {};
@@ -185,6 +166,30 @@ std::string output_file(const std::string& option, bool force) {
 
 std::string counted(std::size_t count, const std::string& what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+void tell_findings(const Common& common, const std::vector<Finding>& findings, const char* key,
+                   const std::function<ShownValue(std::string_view name)>& value_of) {
+    std::string text;
+    Json list = Json::array();
+    for (const Finding& one : findings) {
+        std::string values;
+        Json documents = Json::array();
+        for (const std::string_view name : one.sources) {
+            ShownValue value = value_of(name);
+            values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", name, value.text);
+            documents.push_back(std::move(value.document));
+        }
+        text += fmt::format("{}{}. {}\n", text.empty() ? "" : "\n\n", list.size() + 1, one.sentence);
+        if (!values.empty()) text += fmt::format("   {}\n", values);
+        text += fmt::format("   -> {}", one.remedy);
+        list.push_back({{"code", one.code},
+                        {"severity", name_of(one.severity)},
+                        {"sentence", one.sentence},
+                        {key, documents},
+                        {"remedy", one.remedy}});
+    }
+    command_line::tell(common, text, {{"findings", list}});
 }
 
 Json value_document(const registers::Register& reg, Model model, std::int64_t raw) {

@@ -77,27 +77,6 @@ void ask(const Common& common, const std::string& what);
 /// A line on standard error that is drawn over, if a user is there to see it; empty removes it.
 void progress(const Common& common, const std::string& text);
 
-/// Does the work of a subcommand with an open session; sets the exit code and tells what went wrong.
-void work(Common& common, const std::function<void(Session&)>& what);
-/// The same without a motor.
-void guard(Common& common, const std::function<void()>& what);
-
-/// Subcommands with options: done with an open session, or without a motor.
-template <class Options>
-auto add_command(arguments::App& app, Common& common, const std::string& name, const std::string& text,
-                 void (*what)(Session&, const Options&)) {
-    return add_command<Options>(app, name, text, [what, &common](const Options& options) {
-        work(common, [&](Session& session) { what(session, options); });
-    });
-}
-template <class Options>
-auto add_command(arguments::App& app, Common& common, const std::string& name, const std::string& text,
-                 void (*what)(Common&, const Options&)) {
-    return add_command<Options>(app, name, text, [what, &common](const Options& options) {
-        guard(common, [&] { what(common, options); });
-    });
-}
-
 /// Of -o: empty for standard output, which is "-"; throws UserError if it names nothing or, without
 /// `force`, a file that is there.
 std::string output_file(const std::string& option, bool force);
@@ -108,40 +87,24 @@ std::string counted(std::size_t count, const std::string& what);
 /// A file of `dump`, whole, - is standard input; throws Failure with every line that is wrong.
 ParameterSet read_parameter_file(const std::string& path, bool partial);
 
-/// All of standard input; Ctrl-C ends the program meanwhile. Throws UserError.
-std::string read_standard_input();
+/// A file of any size, or `-`, standard input; Ctrl-C ends the program meanwhile. Throws UserError.
+struct Input {
+    std::string name;  ///< for messages
+    std::string text;
+};
+Input read_input(const std::string& path);
 
 /// "a MAC800", "one of MAC50 to MAC141"
 std::string model_words(const ParameterSet& set);
 
-/// What `why` says: numbered sentences, each with the values that make it so and the remedy.
-class FindingsReport {
-  public:
-    /// `key`: of the values in a JSON document.
-    explicit FindingsReport(const char* key) : key_(key) {}
-
-    /// Of a Finding, whatever it was found in; `values` are empty if there are none.
-    template <class Finding>
-    void add(const Finding& finding, const std::string& values, const Json& documents) {
-        text_ += fmt::format("{}{}. {}\n", text_.empty() ? "" : "\n", list_.size() + 1, finding.sentence);
-        if (!values.empty()) text_ += fmt::format("   {}\n", values);
-        text_ += fmt::format("   -> {}\n", finding.remedy);
-        list_.push_back({{"code", finding.code},
-                         {"severity", name_of(finding.severity)},
-                         {"sentence", finding.sentence},
-                         {key_, documents},
-                         {"remedy", finding.remedy}});
-    }
-
-    /// Without the last line's end.
-    std::string text() const { return text_.substr(0, text_.size() - 1); }
-    Json document() const { return {{"findings", list_}}; }
-
-  private:
-    const char* key_;
-    std::string text_;
-    Json list_ = Json::array();
+/// What `why` says: numbered sentences, each with the values that make it so and the remedy. `key` is that of
+/// the values in the JSON document.
+struct ShownValue {
+    std::string text;
+    Json document;
 };
+void tell_findings(const Common& common, const std::vector<Finding>& findings, const char* key,
+                   const std::function<ShownValue(std::string_view name)>& value_of);
 
 /// {"name":, "number":, "raw":, "value":} of a register's value.
 Json value_document(const registers::Register& reg, registers::Model model, std::int64_t raw);

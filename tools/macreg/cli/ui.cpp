@@ -36,9 +36,7 @@ void ui(Common& common) {
 }  // namespace
 
 void add_ui(arguments::App& app, Common& common) {
-    arguments::App& command =
-        add_command(app, "ui", "The full screen: parameters, bits, samples, the line's bytes");
-    command.callback([&common] { guard(common, [&] { ui(common); }); });
+    add_command(app, common, "ui", "The full screen: parameters, bits, samples, the line's bytes", ui);
 }
 
 }  // namespace nplc::macreg::cli

@@ -13,29 +13,6 @@ constexpr unsigned kWrites = 4;
 
 }  // namespace
 
-std::int64_t Readings::raw(const Parameter& parameter) const {
-    switch (*parameter.query) {
-        case reg::GET_POSITION:
-            return position;
-        case reg::GET_STATUS:
-            return status;
-        case reg::GET_UPPER_STOP:
-            return upper_stop;
-        case reg::GET_LOWER_STOP:
-            return lower_stop;
-        case reg::GET_RELEASE:
-            return release;
-        case reg::GET_SPEEDS:
-            return raw_in(parameter, speeds);
-        case reg::GET_SETTINGS:
-            return raw_in(parameter, settings);
-        case reg::GET_MEASURES:
-            return raw_in(parameter, measures);
-        default:
-            return raw_in(parameter, imax);
-    }
-}
-
 const Scale& Module::scale() {
     if (!scale_read_) {
         // One without it would have no torque at all.
@@ -61,17 +38,12 @@ std::int64_t Module::read(const Parameter& parameter) {
 }
 
 Readings Module::read_all() {
-    const auto ask = [this](reg::Query query) { return master_.query(address_, query); };
     Readings all;
-    all.position = static_cast<std::int32_t>(ask(reg::GET_POSITION));
-    all.status = ask(reg::GET_STATUS);
-    all.measures = ask(reg::GET_MEASURES);
-    all.settings = ask(reg::GET_SETTINGS);
-    all.speeds = ask(reg::GET_SPEEDS);
-    all.upper_stop = static_cast<std::int32_t>(ask(reg::GET_UPPER_STOP));
-    all.lower_stop = static_cast<std::int32_t>(ask(reg::GET_LOWER_STOP));
-    all.release = ask(reg::GET_RELEASE);
-    all.imax = ask_imax();
+    for (const reg::Query query :
+         {reg::GET_POSITION, reg::GET_STATUS, reg::GET_MEASURES, reg::GET_SETTINGS, reg::GET_SPEEDS,
+          reg::GET_UPPER_STOP, reg::GET_LOWER_STOP, reg::GET_RELEASE})
+        all.replies[query] = master_.query(address_, query);
+    all.replies[reg::GET_RAM] = ask_imax();
     return all;
 }
 

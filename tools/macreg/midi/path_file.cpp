@@ -6,29 +6,15 @@
 
 #include "macreg/midi/values.h"
 #include "registers/midi_scale.h"
+#include "spelling/text.h"
 
 namespace nplc::macreg::midi {
 namespace {
 
+using spelling::trimmed;
+
+constexpr std::string_view kBlanks = " \t\r\"";  // some spreadsheets quote cells
 constexpr std::int64_t kTicksPerMicrosecond = reg::kTicksPerSecond / 1'000'000;
-
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view kBlanks = " \t\r\"";
-    const std::size_t from = text.find_first_not_of(kBlanks);
-    if (from == std::string_view::npos) return {};
-    return text.substr(from, text.find_last_not_of(kBlanks) - from + 1);
-}
-
-std::vector<std::string_view> split(std::string_view line) {
-    const char between = line.find(';') != std::string_view::npos ? ';' : ',';
-    std::vector<std::string_view> cells;
-    for (std::size_t at = 0; at != std::string_view::npos;) {
-        const std::size_t end = line.find(between, at);
-        cells.push_back(trimmed(line.substr(at, end == std::string_view::npos ? end : end - at)));
-        at = end == std::string_view::npos ? end : end + 1;
-    }
-    return cells;
-}
 
 class Reader {
   public:
@@ -36,9 +22,10 @@ class Reader {
 
     void take(std::string_view line, unsigned number) {
         number_ = number;
-        line = trimmed(line.substr(0, line.find('#')));
+        line = trimmed(line.substr(0, line.find('#')), kBlanks);
         if (line.empty()) return;
-        const auto cells = split(line);
+        auto cells = spelling::split(line, line.find(';') != std::string_view::npos ? ';' : ',');
+        for (std::string_view& cell : cells) cell = trimmed(cell, kBlanks);
         if (!has_heading_) return heading(cells);
         if (!units_.empty()) row(cells);
     }
@@ -60,20 +47,17 @@ class Reader {
             return wrong("begin with the heading: time,0 [inc],1 [inc] for the axes with addresses 0 and 1");
         for (std::size_t i = 1; i < cells.size(); ++i) {
             const std::size_t bracket = cells[i].find('[');
-            const auto address = read_quantity(trimmed(cells[i].substr(0, bracket)));
-            const bool whole = address && address->unit.empty() && !address->negative &&
-                               address->size.denominator == 1 && address->size.numerator <= 0x7F;
-            if (!whole) {
+            const auto address = read_address(cells[i].substr(0, bracket));
+            if (!address) {
                 wrong(fmt::format("'{}' is no axis: write its address, 0 to 127, and [inc] or [rev]",
                                   cells[i]));
                 file_.addresses.push_back(0xFF);
                 units_.emplace_back();
                 continue;
             }
-            const auto number = static_cast<std::uint8_t>(address->size.numerator);
-            if (std::find(file_.addresses.begin(), file_.addresses.end(), number) != file_.addresses.end())
-                wrong(fmt::format("axis {} stands there twice", number));
-            file_.addresses.push_back(number);
+            if (std::find(file_.addresses.begin(), file_.addresses.end(), *address) != file_.addresses.end())
+                wrong(fmt::format("axis {} stands there twice", *address));
+            file_.addresses.push_back(*address);
             const std::string_view unit =
                 bracket == std::string_view::npos ? "" : cells[i].substr(bracket + 1);
             units_.emplace_back(trimmed(unit.substr(0, unit.find(']'))));

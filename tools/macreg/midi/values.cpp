@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "registers/midi_scale.h"
+#include "spelling/text.h"
 
 namespace nplc::macreg::midi {
 
@@ -42,19 +43,7 @@ constexpr Parameter kParameters[] = {
 };
 // clang-format on
 
-bool same(std::string_view a, std::string_view b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
-        return std::toupper(static_cast<unsigned char>(x)) == std::toupper(static_cast<unsigned char>(y));
-    });
-}
-
 constexpr std::size_t kMostDigits = 12;
-
-std::string lower(std::string_view text) {
-    std::string result;
-    for (const char c : text) result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return result;
-}
 
 bool is_digit(char c) {
     return std::isdigit(static_cast<unsigned char>(c)) != 0;
@@ -251,8 +240,9 @@ std::span<const Parameter> parameters() {
 }
 
 const Parameter* find_parameter(std::string_view name) {
-    const auto* found = std::find_if(std::begin(kParameters), std::end(kParameters),
-                                     [name](const Parameter& one) { return same(one.name, name); });
+    const auto* found =
+        std::find_if(std::begin(kParameters), std::end(kParameters),
+                     [name](const Parameter& one) { return spelling::is_same(one.name, name); });
     return found == std::end(kParameters) ? nullptr : found;
 }
 
@@ -298,8 +288,15 @@ std::optional<Quantity> read_quantity(std::string_view text) {
     }
     if (count == 0) return std::nullopt;
     quantity.size = reduced(digits, divisor);
-    quantity.unit = lower(rest);
+    quantity.unit = spelling::lower(rest);
     return quantity;
+}
+
+std::optional<std::uint8_t> read_address(std::string_view text) {
+    const auto quantity = read_quantity(text);
+    const bool is_one = quantity && quantity->unit.empty() && !quantity->negative &&
+                        quantity->size.denominator == 1 && quantity->size.numerator <= 0x7F;
+    return is_one ? std::optional(static_cast<std::uint8_t>(quantity->size.numerator)) : std::nullopt;
 }
 
 std::optional<std::int64_t> nearest(const Ratio& ratio) {

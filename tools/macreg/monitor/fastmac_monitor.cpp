@@ -16,68 +16,50 @@ namespace reg = registers;
 
 namespace {
 
-const char* number_words(fastmac::Number number) {
-    using fastmac::Number;
-    switch (number) {
-        case Number::nop:
-            return "no operation";
-        case Number::reset_error:
-            return "reset errors";
-        case Number::clear_p_soll:
-            return "P_SOLL := 0";
-        case Number::clear_p_ist:
-            return "P_IST := 0";
-        case Number::clear_p_fnc:
-            return "P_FNC := 0";
-        case Number::clear_v_soll:
-            return "V_SOLL := 0";
-        case Number::clear_t_soll:
-            return "T_SOLL := 0";
-        case Number::clear_in_pos:
-            return "clear IN_POS";
-        case Number::move_p7_by_p_fnc:
-            return "move by P7, from P_FNC";
-        case Number::move_p8_by_p_fnc:
-            return "move by P8, from P_FNC";
-        case Number::rapid_communication:
-            return "rapid communication";
-        case Number::safe_communication:
-            return "safe communication";
-        case Number::use_set_1:
-            return "use register set 1";
-        case Number::use_set_2:
-            return "use register set 2";
-        case Number::use_set_3:
-            return "use register set 3";
-        case Number::use_set_4:
-            return "use register set 4";
-        case Number::home:
-            return "start homing";
-        case Number::move_p7_by_p_soll:
-            return "move by P7, from P_SOLL";
-        case Number::move_p8_by_p_soll:
-            return "move by P8, from P_SOLL";
-        case Number::transmit_slowly:
-            return "transmit slowly";
-        case Number::positions_absolute:
-            return "positions are absolute";
-        case Number::positions_relative_p_soll:
-            return "positions are relative to P_SOLL";
-        case Number::positions_relative_p_fnc:
-            return "positions are relative to P_FNC";
-        case Number::transmit_address:
-            return "transmit MYADDR";
-        case Number::use_fastmac:
-            return "use FastMAC";
-        case Number::use_flexmac:
-            return "use FlexMAC";
+struct NumberWords {
+    fastmac::Number number;
+    const char* words;
+};
+
+using enum fastmac::Number;
+constexpr NumberWords kNumbers[] = {
+    {nop, "no operation"},
+    {reset_error, "reset errors"},
+    {clear_p_soll, "P_SOLL := 0"},
+    {clear_p_ist, "P_IST := 0"},
+    {clear_p_fnc, "P_FNC := 0"},
+    {clear_v_soll, "V_SOLL := 0"},
+    {clear_t_soll, "T_SOLL := 0"},
+    {clear_in_pos, "clear IN_POS"},
+    {move_p7_by_p_fnc, "move by P7, from P_FNC"},
+    {move_p8_by_p_fnc, "move by P8, from P_FNC"},
+    {rapid_communication, "rapid communication"},
+    {safe_communication, "safe communication"},
+    {use_set_1, "use register set 1"},
+    {use_set_2, "use register set 2"},
+    {use_set_3, "use register set 3"},
+    {use_set_4, "use register set 4"},
+    {home, "start homing"},
+    {move_p7_by_p_soll, "move by P7, from P_SOLL"},
+    {move_p8_by_p_soll, "move by P8, from P_SOLL"},
+    {transmit_slowly, "transmit slowly"},
+    {positions_absolute, "positions are absolute"},
+    {positions_relative_p_soll, "positions are relative to P_SOLL"},
+    {positions_relative_p_fnc, "positions are relative to P_FNC"},
+    {transmit_address, "transmit MYADDR"},
+    {use_fastmac, "use FastMAC"},
+    {use_flexmac, "use FlexMAC"},
+};
+
+const char* number_words(std::uint8_t number) {
+    for (const NumberWords& one : kNumbers) {
+        if (static_cast<std::uint8_t>(one.number) == number) return one.words;
     }
     return "unused, no operation";
 }
 
 std::string command_words(const fastmac::Command& command) {
-    if (command.mode == fastmac::Mode::command)
-        return number_words(static_cast<fastmac::Number>(command.number));
+    if (command.mode == fastmac::Mode::command) return number_words(command.number);
     constexpr const char* kModes[] = {"INIT_MODE", "V_MODE", "P_MODE"};
     constexpr char kGroups[] = {'P', 'V', 'A', 'T', 'L', 'Z'};
     return fmt::format("{}, use {}{}", kModes[static_cast<std::size_t>(command.mode)],

@@ -35,9 +35,8 @@ std::string bytes_words(reg::Model model, std::uint8_t number, std::uint32_t val
     const std::uint32_t kept = shown == kWordBytes ? value & 0xFFFF : value;
     std::string hex = fmt::format("{:0{}X}", kept, 2 * shown);
     if (found == nullptr || shown < own) return hex;
-    const bool wide = model == reg::Model::mac800 && !reg::is_32_bit(found->format);
-    const reg::Format format = wide ? reg::Format::long_int : found->format;
-    return fmt::format("{} = {}", hex, value_text(*found, model, reg::value_of(format, value)));
+    const std::int64_t raw = reg::value_of(reg::format_on_line(model, *found), value);
+    return fmt::format("{} = {}", hex, value_text(*found, model, raw));
 }
 
 std::string hex_words(std::span<const std::uint8_t> bytes) {

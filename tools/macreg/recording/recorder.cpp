@@ -12,36 +12,29 @@
 #include "registers/details.h"
 #include "registers/layout.h"
 #include "registers/scale.h"
+#include "spelling/text.h"
 
 namespace nplc::macreg {
 
-using Relation = Comparison::Relation;
 using mactalk_client::LineError;
 using registers::Model;
 using registers::Register;
+using spelling::trimmed;
 using Phase = RecordProgress::Phase;
 
 namespace {
 
-struct Sign {
-    std::string_view text;
-    Relation relation;
-};
 // Longer ones first.
-constexpr std::array<Sign, 8> kSigns{{{"<=", Relation::at_most},
-                                      {">=", Relation::at_least},
-                                      {"==", Relation::equal},
-                                      {"!=", Relation::unequal},
-                                      {"<", Relation::less},
-                                      {">", Relation::more},
-                                      {"=", Relation::equal},
-                                      {"&", Relation::any_bit}}};
-
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-    while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-    return text;
-}
+constexpr Relation kRelations[] = {
+    {"<=", [](std::int64_t a, std::int64_t b) { return a <= b; }},
+    {">=", [](std::int64_t a, std::int64_t b) { return a >= b; }},
+    {"==", [](std::int64_t a, std::int64_t b) { return a == b; }},
+    {"!=", [](std::int64_t a, std::int64_t b) { return a != b; }},
+    {"<", [](std::int64_t a, std::int64_t b) { return a < b; }},
+    {">", [](std::int64_t a, std::int64_t b) { return a > b; }},
+    {"=", [](std::int64_t a, std::int64_t b) { return a == b; }, "=="},
+    {"&", [](std::int64_t a, std::int64_t b) { return (a & b) != 0; }},
+};
 
 constexpr std::size_t kSlots = 4;
 constexpr unsigned kMostPasses = 20;
@@ -265,9 +258,7 @@ class BufferRecorder {
                 const Register& reg = *options_.registers[c];
                 std::uint32_t bits = (*samples[i])[slot++];
                 if (sample_words(motor_.model(), reg) == 2) bits |= (*samples[i])[slot++] << 16;
-                const auto format = motor_.model() == Model::mac800 && !registers::is_32_bit(reg.format)
-                                        ? registers::Format::long_int
-                                        : reg.format;
+                const auto format = registers::format_on_line(motor_.model(), reg);
                 recording.columns[c].values.push_back(
                     shown_value(reg, motor_.model(), registers::value_of(format, bits)));
             }
@@ -298,51 +289,25 @@ class BufferRecorder {
 
 }  // namespace
 
-bool Comparison::holds(std::int64_t value) const {
-    switch (relation) {
-        case Relation::less:
-            return value < raw;
-        case Relation::at_most:
-            return value <= raw;
-        case Relation::equal:
-            return value == raw;
-        case Relation::unequal:
-            return value != raw;
-        case Relation::at_least:
-            return value >= raw;
-        case Relation::more:
-            return value > raw;
-        case Relation::any_bit:
-            return (value & raw) != 0;
-    }
-    return false;
-}
-
 ConditionReading read_condition(std::string_view text, registers::Model model) {
-    const std::size_t at = text.find_first_of("<>=!&");
-    const Sign* sign = nullptr;
-    if (at != std::string_view::npos) {
-        for (const Sign& one : kSigns) {
-            if (sign == nullptr && text.substr(at).starts_with(one.text)) sign = &one;
-        }
-    }
-    if (sign == nullptr)
+    const std::size_t at = std::min(text.find_first_of("<>=!&"), text.size());
+    const auto* relation =
+        std::find_if(std::begin(kRelations), std::end(kRelations),
+                     [&](const Relation& one) { return text.substr(at).starts_with(one.sign); });
+    if (relation == std::end(kRelations))
         return {.error = fmt::format("'{}' is no condition; write a register, one of < <= == != >= > & and a "
                                      "value, such as 'V_IST>100 rpm'",
                                      text)};
     const NamedRegister named = find_register(model, trimmed(text.substr(0, at)));
     if (named.reg == nullptr) return {.error = fmt::format("'{}': {}", text, named.error)};
-    const TypedValue value = typed_value(*named.reg, model, trimmed(text.substr(at + sign->text.size())));
+    const TypedValue value = typed_value(*named.reg, model, trimmed(text.substr(at + relation->sign.size())));
     if (!value.error.empty()) return {.error = fmt::format("'{}': {}", text, value.error)};
-    return {.condition = {named.reg, sign->relation, value.raw}};
+    return {.condition = {named.reg, relation, value.raw}};
 }
 
 std::string condition_words(const Comparison& condition, registers::Model model) {
-    std::string_view sign;
-    for (const Sign& one : kSigns) {
-        if (sign.empty() && one.relation == condition.relation) sign = one.text;
-    }
-    return fmt::format("{} {} {}", condition.reg->name, sign,
+    const Relation& relation = *condition.relation;
+    return fmt::format("{} {} {}", condition.reg->name, relation.told.empty() ? relation.sign : relation.told,
                        value_text(*condition.reg, model, condition.raw));
 }
 

@@ -9,30 +9,17 @@
 
 #include "macreg/values.h"
 #include "registers/convert.h"
+#include "spelling/text.h"
 
 namespace nplc::macreg {
 namespace {
 
+using spelling::split;
+using spelling::trimmed;
+
 constexpr std::string_view kFirstLine = "# macreg recording 1";
 constexpr std::string_view kTime = "time_s";
 constexpr std::size_t kMostColumns = 64;
-
-std::string_view trimmed_cell(std::string_view text) {
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r'))
-        text.remove_suffix(1);
-    return text;
-}
-
-std::vector<std::string_view> split(std::string_view line, char by) {
-    std::vector<std::string_view> parts;
-    for (;;) {
-        const std::size_t end = line.find(by);
-        parts.push_back(trimmed_cell(line.substr(0, end)));
-        if (end == std::string_view::npos) return parts;
-        line.remove_prefix(end + 1);
-    }
-}
 
 std::optional<double> number(std::string_view text) {
     double value = 0;
@@ -49,7 +36,7 @@ class Reader {
     RecordingReading read() {
         while (result_.error.empty() && !text_.empty()) {
             const std::size_t end = std::min(text_.find('\n'), text_.size());
-            take(trimmed_cell(text_.substr(0, end)));
+            take(trimmed(text_.substr(0, end)));
             text_.remove_prefix(std::min(end + 1, text_.size()));
         }
         if (result_.error.empty() && !header_)
@@ -64,7 +51,7 @@ class Reader {
     void take(std::string_view line) {
         ++line_;
         if (line.empty()) return;
-        if (line.front() == '#') return comment(trimmed_cell(line.substr(1)));
+        if (line.front() == '#') return comment(trimmed(line.substr(1)));
         if (header_)
             row(line);
         else
@@ -74,7 +61,7 @@ class Reader {
     void comment(std::string_view line) {
         const auto starts = [&](std::string_view key) {
             if (!line.starts_with(key)) return false;
-            line = trimmed_cell(line.substr(key.size()));
+            line = trimmed(line.substr(key.size()));
             return true;
         };
         Recording& to = result_.recording;
@@ -109,7 +96,7 @@ class Reader {
                     return fail(fmt::format("'{}': the unit's ] is missing", names[i]));
                 unit = names[i].substr(open + 1, names[i].size() - open - 2);
             }
-            const std::string_view name = trimmed_cell(names[i].substr(0, open));
+            const std::string_view name = trimmed(names[i].substr(0, open));
             if (name.empty()) return fail(fmt::format("column {} has no name", i + 1));
             result_.recording.columns.push_back({std::string(name), std::string(unit), {}});
         }

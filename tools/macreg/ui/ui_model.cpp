@@ -2,30 +2,25 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <utility>
 
 #include "macreg/change.h"
 #include "macreg/values.h"
 #include "registers/convert.h"
+#include "registers/layout.h"
+#include "spelling/text.h"
 
 namespace nplc::macreg {
 
 using registers::Field;
 using registers::Register;
+using spelling::is_same;
+using spelling::lower;
 
 namespace {
 
-constexpr std::int64_t kInit = 0;
-constexpr std::int64_t kSafe = 15;
 constexpr std::size_t kMostLines = 200;
 constexpr std::size_t kLongestInput = 60;
-
-std::string lower(std::string_view text) {
-    std::string out(text);
-    for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return out;
-}
 
 /// ERR_STAT's bits that have stopped a motor, or will; the others only tell.
 bool is_error(const Field& field) {
@@ -42,7 +37,7 @@ std::size_t stepped(std::size_t at, int steps, std::size_t size) {
 /// A field's value by its name or number; nothing if it is neither, or too large.
 std::optional<std::uint32_t> field_value(const Field& field, const std::string& text) {
     for (const auto& one : field.values) {
-        if (lower(one.name) == lower(text)) return one.value;
+        if (is_same(one.name, text)) return one.value;
     }
     const std::uint32_t most = field.width >= 32 ? ~std::uint32_t{0} : (std::uint32_t{1} << field.width) - 1;
     if (text.empty() || text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
@@ -202,7 +197,7 @@ void UiModel::ask_service(Request::Kind kind) {
     const auto mode = raw_of(registers::MODE_REG);
     if (!mode) return tell("the motor's mode has not been read yet", true);
     const Register& mode_reg = *registers::find(model_, registers::MODE_REG);
-    if (*mode != kInit && *mode != kSafe)
+    if (!is_passive(*mode))
         return tell(fmt::format("the motor is in {}: stop it first (w at MODE_REG, INIT_MODE)",
                                 value_text(mode_reg, model_, *mode)),
                     true);
@@ -290,8 +285,7 @@ Request UiModel::finish_write() {
         }
         const auto bits = static_cast<std::uint32_t>(raw_of(reg.number).value_or(0));
         const std::uint32_t changed = (bits & ~registers::mask_of(field)) | *value << field.first;
-        request.raw = model_ == registers::Model::mac800 ? static_cast<std::int32_t>(changed)
-                                                         : registers::value_of(reg.format, changed);
+        request.raw = registers::value_of(registers::format_on_line(model_, reg), changed);
     } else {
         const TypedValue typed = typed_value(reg, model_, prompt_.text);
         if (!typed.error.empty()) {

@@ -14,11 +14,24 @@ void tell_state(Session& session, const Status& status) {
                  {{"state", name_of(status.run_state)}, {"step", status.step}});
 }
 
-void tell_restarted(Session& session, std::uint8_t address_before) {
+void start(Session& session) {
+    session.gateway().command(gw::Command::run);
+    tell_state(session, session.status());
+}
+
+void activate(Session& session) {
+    session.gateway().activate();
+    const std::uint32_t crc = session.gateway().read(gw::TABLE_CRC);
+    session.tell(fmt::format("the stored table is active, CRC {:08X}h", crc), {{"crc32", crc}});
+}
+
+void reset(Session& session) {
+    const std::uint8_t before = session.gateway().address();
+    session.gateway().reset();
     const Status status = session.status();
     const std::uint8_t address = session.gateway().address();
     const std::string moved =
-        address == address_before ? "" : fmt::format(", answers at address {} from now on", address);
+        address == before ? "" : fmt::format(", answers at address {} from now on", address);
     session.tell(fmt::format("restarted: {}{}", name_of(status.run_state), moved),
                  {{"state", name_of(status.run_state)}, {"step", status.step}, {"address", address}});
 }
@@ -34,35 +47,16 @@ void add_stop(arguments::App& app, Common& common, gw::Command order, const char
 }  // namespace
 
 void add_controls(arguments::App& app, Common& common) {
-    add_command(app, "run",
-                "Start the sequence from step 0, the motor stopped first; or let a held one go on")
-        .callback([&common] {
-            work(common, [](Session& session) {
-                session.gateway().command(gw::Command::run);
-                tell_state(session, session.status());
-            });
-        });
+    add_command(app, common, "run",
+                "Start the sequence from step 0, the motor stopped first; or let a held one go on", start);
     add_stop(app, common, gw::Command::stop, "Stop sequence and motor; outputs take their safe values");
     add_stop(app, common, gw::Command::safe, "Stop, and end forces, breakpoints and an upload too");
     add_stop(app, common, gw::Command::hold,
              "Hold the sequence at the end of a scan, the motor stopped, outputs as they are");
-    add_command(app, "activate",
-                "Make the stored table the active one; waits 5 s for the motor to stand still")
-        .callback([&common] {
-            work(common, [](Session& session) {
-                session.gateway().activate();
-                const std::uint32_t crc = session.gateway().read(gw::TABLE_CRC);
-                session.tell(fmt::format("the stored table is active, CRC {:08X}h", crc), {{"crc32", crc}});
-            });
-        });
-    add_command(app, "reset", "Restart the gateway and wait until it answers; only while stopped")
-        .callback([&common] {
-            work(common, [](Session& session) {
-                const std::uint8_t before = session.gateway().address();
-                session.gateway().reset();
-                tell_restarted(session, before);
-            });
-        });
+    add_command(app, common, "activate",
+                "Make the stored table the active one; waits 5 s for the motor to stand still", activate);
+    add_command(app, common, "reset", "Restart the gateway and wait until it answers; only while stopped",
+                reset);
 }
 
 }  // namespace nplc::nanoctl::cli

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -38,7 +37,16 @@ std::uint64_t steps_mask(Session& session, const std::vector<std::string>& texts
     return mask;
 }
 
-void write_breaks(Session& session, std::uint64_t breaks) {
+struct BreakOptions {
+    std::vector<std::string> added, removed;
+    bool clear = false;
+};
+
+void change_breaks(Session& session, const BreakOptions& options) {
+    const std::uint64_t add = steps_mask(session, options.added);
+    const std::uint64_t remove = options.clear ? ~std::uint64_t{0} : steps_mask(session, options.removed);
+    if (add == 0 && remove == 0) return tell_breaks(session);
+    const std::uint64_t breaks = (read_breaks(session.gateway()) & ~remove) | add;
     session.gateway().write(gw::BREAK_LOW, static_cast<std::uint32_t>(breaks));
     session.gateway().write(gw::BREAK_HIGH, static_cast<std::uint32_t>(breaks >> 32));
     tell_breaks(session);
@@ -154,7 +162,7 @@ std::string detail_text(const LogEntry& entry) {
     }
 }
 
-void log(Session& session, bool clear) {
+void log(Session& session, const bool& clear) {
     const auto entries = read_log(session.gateway());
     std::string text;
     Json list = Json::array();
@@ -176,46 +184,34 @@ void log(Session& session, bool clear) {
 }  // namespace
 
 void add_break(arguments::App& app, Common& common) {
-    arguments::App& command =
-        add_command(app, "break",
+    auto [command, options] =
+        add_command(app, common, "break",
                     "Breakpoints: the sequence is held when it enters such a step, the motor "
-                    "stopped. Without more: list them");
-    const auto steps = std::make_shared<std::vector<std::string>>();
-    command.add_option("steps", *steps, "Steps to add, by number or name");
-    const auto removed = std::make_shared<std::vector<std::string>>();
-    command.add_option("--remove", *removed, "Steps to remove");
-    const auto clear = std::make_shared<bool>(false);
-    command.add_flag("--clear", *clear, "Remove all");
-    command.callback([steps, removed, clear, &common] {
-        work(common, [&](Session& session) {
-            const std::uint64_t add = steps_mask(session, *steps);
-            const std::uint64_t remove = *clear ? ~std::uint64_t{0} : steps_mask(session, *removed);
-            if (add == 0 && remove == 0) return tell_breaks(session);
-            write_breaks(session, (read_breaks(session.gateway()) & ~remove) | add);
-        });
-    });
+                    "stopped. Without more: list them",
+                    change_breaks);
+    command.add_option("steps", options.added, "Steps to add, by number or name");
+    command.add_option("--remove", options.removed, "Steps to remove");
+    command.add_flag("--clear", options.clear, "Remove all");
 }
 
 void add_force(arguments::App& app, Common& common) {
-    arguments::App& command =
-        add_command(app, "force",
+    auto [command, options] =
+        add_command(app, common, "force",
                     "Force inputs and outputs. Forces end by themselves after 5 s (setting "
-                    "force_timeout) unless kept. Without more: show them");
-    const auto options = std::make_shared<ForceOptions>();
-    command.add_option("what", options->what, "IN2=1 OUT0=0 ..., or names of the program with --sym");
-    command.add_flag("--off", options->off, "End all forces first");
-    command.add_flag("--keep", options->keep,
+                    "force_timeout) unless kept. Without more: show them",
+                    force);
+    command.add_option("what", options.what, "IN2=1 OUT0=0 ..., or names of the program with --sym");
+    command.add_flag("--off", options.off, "End all forces first");
+    command.add_flag("--keep", options.keep,
                      "Keep them until Ctrl-C, or until nobody reads this, then end them");
-    command.add_option("--for", options->seconds, "Keep them for so many seconds, then end them")
+    command.add_option("--for", options.seconds, "Keep them for so many seconds, then end them")
         ->non_negative();
-    command.callback([options, &common] { work(common, [&](Session& s) { force(s, *options); }); });
 }
 
 void add_log(arguments::App& app, Common& common) {
-    arguments::App& command = add_command(app, "log", "The gateway's last 16 events, oldest first");
-    const auto clear = std::make_shared<bool>(false);
-    command.add_flag("--clear", *clear, "Empty it afterwards");
-    command.callback([clear, &common] { work(common, [&](Session& s) { log(s, *clear); }); });
+    auto [command, clear] =
+        add_command(app, common, "log", "The gateway's last 16 events, oldest first", log);
+    command.add_flag("--clear", clear, "Empty it afterwards");
 }
 
 }  // namespace nplc::nanoctl::cli

@@ -20,6 +20,10 @@ constexpr base::Milliseconds kTurnWait{60'000};
 
 }  // namespace
 
+Session::Session(const Common& common) : Session(common, ByteClient::Holding::in_turns) {
+    gateway_.identify();
+}
+
 Session::Session(const Common& common, ByteClient::Holding holding)
     : common_(common),
       wire_(command_line::open_port(common, holding)),
@@ -82,32 +86,6 @@ bool Session::wait_until_held(base::Milliseconds patience) {
     }
 }
 
-namespace {
-
-void tell_failures(const std::function<void()>& what) {
-    try {
-        what();
-    } catch (const Refused& error) {
-        throw command_line::Failure(command_line::kRefused, error.what());
-    } catch (const NotConfirmed& error) {
-        throw command_line::Failure(kNotConfirmed, error.what());
-    } catch (const WrongDevice& error) {
-        throw command_line::Failure(command_line::kNoAnswer, error.what());
-    }
-}
-
-}  // namespace
-
-void work(Common& common, const std::function<void(Session&)>& what) {
-    command_line::guard(common, [&] {
-        tell_failures([&] {
-            Session session(common, ByteClient::Holding::in_turns);
-            session.gateway().identify();
-            what(session);
-        });
-    });
-}
-
 void stop_work(Common& common, const std::function<void(Session&)>& what) {
     constexpr unsigned kMostPatience = 500;  // what is lost is sent again
     common.patience_ms = std::min(common.patience_ms, kMostPatience);
@@ -116,11 +94,12 @@ void stop_work(Common& common, const std::function<void(Session&)>& what) {
         try {
             session.emplace(common, ByteClient::Holding::at_once);
         } catch (const LineError& error) {
-            throw command_line::Failure(kNotConfirmed, fmt::format("{}: {}", error.what(), kMayStillRun));
+            throw command_line::Failure(command_line::kNotConfirmed,
+                                        fmt::format("{}: {}", error.what(), kMayStillRun));
         } catch (const UserError& error) {
             throw UserError(fmt::format("{}: {}", error.what(), kMayStillRun));
         }
-        tell_failures([&] { what(*session); });
+        what(*session);
     });
 }
 

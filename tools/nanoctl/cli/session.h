@@ -21,14 +21,13 @@ struct Common : command_line::Common {
     std::string symbols;
 };
 
-/// A stop, safe or hold that was not seen to be done; beside command_line::Exit.
-inline constexpr int kNotConfirmed = 4;
-
 /// A gateway, and how results are told.
 class Session {
   public:
-    /// `holding`: of a serial line.
-    explicit Session(const Common& common, host::ByteClient::Holding holding);
+    /// A gateway that has answered.
+    explicit Session(const Common& common);
+    /// Nothing is asked. `holding`: of a serial line.
+    Session(const Common& common, host::ByteClient::Holding holding);
 
     GatewayClient& gateway() { return gateway_; }
     /// Those of --sym; numbers, and a note on standard error, if it cannot be read or is another table's.
@@ -59,10 +58,8 @@ class Session {
     std::optional<Names> names_;
 };
 
-/// Does the work of a subcommand with a gateway that answered; sets the exit code and tells what went wrong.
-void work(Common& common, const std::function<void(Session&)>& what);
-/// The same for a stop: nothing is asked or looked at before, and whatever goes wrong says that the machine
-/// may still be running.
+/// Does the work of a stop: nothing is asked or looked at before, and whatever goes wrong says that the
+/// machine may still be running.
 void stop_work(Common& common, const std::function<void(Session&)>& what);
 
 /// `add_transfers`: upload, verify, download. `add_controls`: run, stop, safe, hold, activate, reset.

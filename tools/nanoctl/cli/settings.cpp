@@ -106,8 +106,14 @@ std::string set_text(const std::vector<Assignment>& assignments, bool keep) {
                 : "set until the next reset; keep them with --keep";
 }
 
+struct SetOptions {
+    std::vector<std::string> texts;
+    bool keep = false;
+};
+
 /// All are looked at before the first is written.
-void set(Session& session, const std::vector<std::string>& texts, bool keep) {
+void set(Session& session, const SetOptions& options) {
+    const auto& [texts, keep] = options;
     std::vector<Assignment> assignments;
     for (const std::string& text : texts) assignments.push_back(parse(text));
     Json changed = Json::object();
@@ -125,21 +131,12 @@ void add_settings(arguments::App& app, Common& common) {
     arguments::App& command =
         add_command(app, "settings", "The gateway's settings; changed only while the sequence is stopped");
     command.require_subcommand(1);
-    add_command(command, "list", "All of them, with their ranges").callback([&common] {
-        work(common, list);
-    });
-
-    const auto names = std::make_shared<std::vector<std::string>>();
-    arguments::App& getter = add_command(command, "get", "Some of them");
-    getter.add_option("names", *names, "Names of settings")->required();
-    getter.callback([names, &common] { work(common, [&](Session& s) { get(s, *names); }); });
-
-    const auto texts = std::make_shared<std::vector<std::string>>();
-    const auto keep = std::make_shared<bool>(false);
-    arguments::App& setter = add_command(command, "set", "Change some of them");
-    setter.add_option("values", *texts, "NAME=VALUE ...")->required();
-    setter.add_flag("--keep", *keep, "Store all settings, so that they outlive a power cut");
-    setter.callback([texts, keep, &common] { work(common, [&](Session& s) { set(s, *texts, *keep); }); });
+    add_command(command, common, "list", "All of them, with their ranges", list);
+    auto [getter, names] = add_command(command, common, "get", "Some of them", get);
+    getter.add_option("names", names, "Names of settings")->required();
+    auto [setter, options] = add_command(command, common, "set", "Change some of them", set);
+    setter.add_option("values", options.texts, "NAME=VALUE ...")->required();
+    setter.add_flag("--keep", options.keep, "Store all settings, so that they outlive a power cut");
 }
 
 }  // namespace nplc::nanoctl::cli

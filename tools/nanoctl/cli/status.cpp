@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/session.h"
@@ -112,53 +111,37 @@ struct WatchOptions {
     bool all = false;
 };
 
-/// Between two looks whether it is to end.
-constexpr base::Microseconds kLook{100'000};
-
 /// A line at every change of what matters, with the gateway's time.
 void watch(Session& session, const WatchOptions& options) {
     session.right_names();
-    const base::Instant begun = session.now();
-    const base::Microseconds limit{static_cast<std::int64_t>(options.seconds * 1e6)};
     std::string last;
-    const auto ends = [&] {
-        return !goes_on() || !output_has_reader() || (options.seconds > 0 && session.now() - begun >= limit);
-    };
-    while (!ends()) {
+    command_line::watch(session, base::Milliseconds{options.interval_ms}, options.seconds, [&] {
         const Status status = session.status();
         Status quiet = status;
         quiet.timer = 0;
         quiet.force_left = 0;
         const std::string line = line_of(quiet, session.names());
-        if (line != last || options.all) {
+        if (line != last || options.all)
             session.tell(
                 fmt::format("{:>12}  {}", time_text(status.uptime), line_of(status, session.names())),
                 document_of(status, session.names()));
-        }
         last = line;
-        const base::Instant next = session.now() + base::Milliseconds{options.interval_ms};
-        do {
-            session.pause(std::clamp<base::Microseconds>(next - session.now(), base::Microseconds{0}, kLook));
-        } while (session.now() < next && !ends());
-    }
+    });
 }
 
 }  // namespace
 
 void add_status(arguments::App& app, Common& common) {
-    add_command(app, "status", "What the gateway does, has and went through").callback([&common] {
-        work(common, show_status);
-    });
-    const auto options = std::make_shared<WatchOptions>();
-    arguments::App& command = add_command(
-        app, "watch",
-        "A line at every change, until Ctrl-C or until nobody reads it; with --json a document a line");
-    command.add_option("--interval", options->interval_ms, "Milliseconds between two looks")
+    add_command(app, common, "status", "What the gateway does, has and went through", show_status);
+    auto [command, options] = add_command(
+        app, common, "watch",
+        "A line at every change, until Ctrl-C or until nobody reads it; with --json a document a line",
+        watch);
+    command.add_option("--interval", options.interval_ms, "Milliseconds between two looks")
         ->capture_default_str()
         ->in_range(0, 60'000);
-    command.add_option("--for", options->seconds, "End after so many seconds; 0: at Ctrl-C")->non_negative();
-    command.add_flag("--all", options->all, "A line at every look, changed or not");
-    command.callback([options, &common] { work(common, [&](Session& s) { watch(s, *options); }); });
+    command.add_option("--for", options.seconds, "End after so many seconds; 0: at Ctrl-C")->non_negative();
+    command.add_flag("--all", options.all, "A line at every look, changed or not");
 }
 
 }  // namespace nplc::nanoctl::cli

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/session.h"
@@ -33,6 +32,7 @@ void tell_held(Session& session) {
 }
 
 struct StepOptions {
+    gw::Command order{};
     unsigned times = 1;
     unsigned seconds = 10;
 };
@@ -65,24 +65,22 @@ void go_once(Session& session, gw::Command order, unsigned seconds) {
                               seconds, name_of(order), cancel(session)));
 }
 
-void go(Session& session, gw::Command order, const StepOptions& options) {
+void go(Session& session, const StepOptions& options) {
     session.right_names();
     for (unsigned i = 0; i < options.times; ++i) {
         session.gateway().look_for_interruption();
-        go_once(session, order, options.seconds);
+        go_once(session, options.order, options.seconds);
         tell_held(session);
     }
 }
 
 void add(arguments::App& app, Common& common, gw::Command order, const char* text) {
-    const auto options = std::make_shared<StepOptions>();
-    arguments::App& command = add_command(app, std::string(name_of(order)), text);
-    command.add_option("times", options->times, "How often, 1 unless named")->in_range(1, 10'000);
-    command.add_option("--wait", options->seconds, "Seconds to wait for each")
+    auto [command, options] = add_command(app, common, std::string(name_of(order)), text, go);
+    options.order = order;
+    command.add_option("times", options.times, "How often, 1 unless named")->in_range(1, 10'000);
+    command.add_option("--wait", options.seconds, "Seconds to wait for each")
         ->capture_default_str()
         ->in_range(1, 86'400);
-    command.callback(
-        [options, order, &common] { work(common, [&](Session& s) { go(s, order, *options); }); });
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "base/crc32.h"
@@ -102,7 +101,13 @@ void upload_file(Session& session, const UploadOptions& options) {
                   {"seconds", seconds}});
 }
 
-void verify(Session& session, const std::string& file, bool all_bytes) {
+struct VerifyOptions {
+    std::string file;
+    bool all_bytes = false;
+};
+
+void verify(Session& session, const VerifyOptions& options) {
+    const auto& [file, all_bytes] = options;
     const auto table = read_table(file);
     const Block about = session.gateway().read_block(gw::IDENTITY);
     const std::uint32_t crc = base::crc32(table);
@@ -158,33 +163,28 @@ void download_to(Session& session, const DownloadOptions& options) {
 }  // namespace
 
 void add_transfers(arguments::App& app, Common& common) {
-    const auto options = std::make_shared<UploadOptions>();
-    arguments::App& up =
-        add_command(app, "upload",
+    auto [up, options] =
+        add_command(app, common, "upload",
                     "Store a table in the gateway and make it the active one. The sequence must be "
-                    "stopped for that, and the motor stand still (it is waited for 5 s)");
-    up.add_option("table", options->file, "The table that seqc built, F.bin or F.hex")->required();
-    up.add_flag("--stop", options->stop, "Stop the sequence first if it runs");
-    up.add_flag("--run", options->run, "Start the sequence afterwards");
-    up.add_flag("--only-store", options->only_store,
+                    "stopped for that, and the motor stand still (it is waited for 5 s)",
+                    upload_file);
+    up.add_option("table", options.file, "The table that seqc built, F.bin or F.hex")->required();
+    up.add_flag("--stop", options.stop, "Stop the sequence first if it runs");
+    up.add_flag("--run", options.run, "Start the sequence afterwards");
+    up.add_flag("--only-store", options.only_store,
                 "Do not make it the active one; what runs goes on, and the next power-up takes the new one")
         ->excludes("--stop")
         ->excludes("--run");
-    up.callback([options, &common] { work(common, [&](Session& s) { upload_file(s, *options); }); });
 
-    const auto verified = std::make_shared<std::pair<std::string, bool>>();
-    arguments::App& check = add_command(app, "verify", "Is this table the stored and the active one?");
-    check.add_option("table", verified->first, "The table, F.bin or F.hex")->required();
-    check.add_flag("--bytes", verified->second, "Read every byte back, not only length and CRC");
-    check.callback([verified, &common] {
-        work(common, [&](Session& s) { verify(s, verified->first, verified->second); });
-    });
+    auto [check, verified] =
+        add_command(app, common, "verify", "Is this table the stored and the active one?", verify);
+    check.add_option("table", verified.file, "The table, F.bin or F.hex")->required();
+    check.add_flag("--bytes", verified.all_bytes, "Read every byte back, not only length and CRC");
 
-    const auto target = std::make_shared<DownloadOptions>();
-    arguments::App& down = add_command(app, "download", "Write the active table into a file");
-    down.add_option("-o,--output", target->file, "F.bin, or F.hex for Intel HEX")->required();
-    down.add_flag("--force", target->force, "Replace a file that is there");
-    down.callback([target, &common] { work(common, [&](Session& s) { download_to(s, *target); }); });
+    auto [down, target] =
+        add_command(app, common, "download", "Write the active table into a file", download_to);
+    down.add_option("-o,--output", target.file, "F.bin, or F.hex for Intel HEX")->required();
+    down.add_flag("--force", target.force, "Replace a file that is there");
 }
 
 }  // namespace nplc::nanoctl::cli

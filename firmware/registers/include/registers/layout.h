@@ -15,6 +15,11 @@ constexpr bool overlap(Cells a, Cells b) {
     return a.first < b.first + b.count && b.first < a.first + a.count;
 }
 
+/// How its value stands on the line: on a MAC800 every register has 32 bits (004).
+constexpr Format format_on_line(Model model, const Register& reg) {
+    return model == Model::mac800 && !is_32_bit(reg.format) ? Format::long_int : reg.format;
+}
+
 /// 2 or 4: what a master writes so that this register changes, all of it, and no other.
 constexpr std::uint8_t bytes_of(Model model, const Register& reg) {
     return model == Model::mac800 || is_32_bit(reg.format) ? 4 : 2;

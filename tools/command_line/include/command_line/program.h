@@ -1,27 +1,23 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
-#include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #include "arguments/arguments.h"
 #include "host/byte_client.h"
+#include "mactalk_client/line.h"
 
 /// What the programs that talk over a MacTalk line have in common: options, exit codes, signals, how results
 /// and failures are told.
 namespace nplc::command_line {
 
-enum Exit : int {
-    kOk = 0,
-    kRefused = 1,        ///< the other end said no, or two things differ
-    kUsageOrFile = 2,    ///< wrong usage, or a file that cannot be read, written or understood
-    kNoAnswer = 3,       ///< the port cannot be opened, or nobody answers
-    kInterrupted = 130,  ///< by SIGINT or SIGTERM, before it was done
-};
+using enum mactalk_client::Exit;
 
 using Json = nlohmann::ordered_json;
 
@@ -32,15 +28,13 @@ inline constexpr std::array<std::uint32_t, 11> kSpeeds{19'200, 9'600, 38'400,  5
 
 /// One line for a user and the program's exit code. `details` go into the document of --json. Who throws
 /// one with details, or tells something, includes <nlohmann/json.hpp>.
-class Failure : public std::runtime_error {
+class Failure : public mactalk_client::Ended {
   public:
     Failure(int exit_code, const std::string& what);
     Failure(int exit_code, const std::string& what, const Json& details);
-    int exit_code() const { return exit_code_; }
     const Json& details() const { return *details_; }
 
   private:
-    int exit_code_;
     std::shared_ptr<const Json> details_;
 };
 
@@ -90,15 +84,40 @@ Added<Options> add_command(arguments::App& app, const std::string& name, const s
     return {command, *options};
 }
 
+/// Does the work of a subcommand; sets the exit code and tells what went wrong.
+void guard(Common& common, const std::function<void()>& what);
+
+/// With what `what` takes: the common options, or a session made of them.
+template <class Common, class Taken, class... Options>
+void work(Common& common, void (*what)(Taken&, const Options&...), const Options&... options) {
+    guard(common, [&] {
+        if constexpr (std::is_same_v<std::remove_const_t<Taken>, Common>) {
+            what(common, options...);
+        } else {
+            Taken session(common);
+            what(session, options...);
+        }
+    });
+}
+
+template <class Common, class Taken, class Options>
+Added<Options> add_command(arguments::App& app, Common& common, const std::string& name,
+                           const std::string& text, void (*what)(Taken&, const Options&)) {
+    return add_command<Options>(app, name, text,
+                                [what, &common](const Options& options) { work(common, what, options); });
+}
+template <class Common, class Taken>
+void add_command(arguments::App& app, Common& common, const std::string& name, const std::string& text,
+                 void (*what)(Taken&)) {
+    add_command(app, name, text).callback([what, &common] { work(common, what); });
+}
+
 /// Reads the command line and carries it out; the program's exit code.
 int run(arguments::App& app, Common& common, int argc, char** argv);
 
 /// Throws UserError without a port, LineError if it cannot be opened.
 std::unique_ptr<host::ByteClient> open_port(
     const Common& common, host::ByteClient::Holding holding = host::ByteClient::Holding::alone);
-
-/// Does the work of a subcommand; sets the exit code and tells what went wrong.
-void guard(Common& common, const std::function<void()>& what);
 
 /// A line for a user, or the same as a JSON document on one line, with "ok".
 void tell(const Common& common, const std::string& text, const Json& document);
@@ -111,6 +130,26 @@ bool output_has_reader();
 
 /// Throws mactalk_client::Interrupted if one came.
 void look_for_interruption();
+
+/// Looks every `interval` until Ctrl-C, until nobody reads the output, or for so many seconds if not 0.
+/// Waits by session.pause, in pieces.
+template <class Session, class Look>
+void watch(Session& session, base::Milliseconds interval, double seconds, Look look) {
+    constexpr base::Microseconds kPiece{100'000};
+    const base::Instant begun = session.now();
+    const base::Microseconds limit{static_cast<std::int64_t>(seconds * 1e6)};
+    const auto ends = [&] {
+        return !goes_on() || !output_has_reader() || (seconds > 0 && session.now() - begun >= limit);
+    };
+    while (!ends()) {
+        look();
+        const base::Instant next = session.now() + interval;
+        do {
+            session.pause(
+                std::clamp<base::Microseconds>(next - session.now(), base::Microseconds{0}, kPiece));
+        } while (session.now() < next && !ends());
+    }
+}
 
 /// One document on one line.
 std::string one_line(const Json& document);

@@ -11,9 +11,8 @@
 namespace nplc::macreg {
 
 /// The motor is not in a state to do it, or did not do it.
-class NotDone : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
+class NotDone : public mactalk_client::EndedWith<mactalk_client::kRefused> {
+    using EndedWith::EndedWith;
 };
 
 /// What was done to the motor so far: who breaks off has to know.
@@ -25,7 +24,14 @@ struct Trail {
     std::string turns{};        ///< "V_IST 200 rpm" if it still turned when waiting for that ended
     bool in_safe_mode = false;  ///< it could not be taken out again
     Order order = Order::none;  ///< to write flash, to reset, to read parameters
+
+    /// "the motor ran in P_MODE and was stopped: ...", of one that ran.
+    std::string stop_words() const;
 };
+
+/// Tells a motor that runs to stop, and waits until it is passive, for 10 s at the most. `goes_on` false:
+/// mactalk_client::Interrupted.
+void stop_motor(Motor& motor, const std::function<bool()>& goes_on, Trail& trail);
 
 /// Holds the motor in SAFE_MODE. At the end of its life the motor is as it was found: passive, or in
 /// SAFE_MODE if it had been in it.
@@ -76,8 +82,6 @@ class Service {
     std::string left_behind() const;
 
   private:
-    std::string stop_words() const;
-
     enum class Task : std::uint8_t { safe_mode, save, defaults, unsaved_defaults, reload, reset };
 
     void begin(Task task);

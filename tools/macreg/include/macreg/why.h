@@ -11,8 +11,6 @@
 /// Why does it not move? (001 §4.4, §4.5, 004)
 namespace nplc::macreg {
 
-using Finding = BasicFinding<std::uint8_t>;  ///< by registers' numbers
-
 /// Of the gateway between us and the motor.
 struct GatewayState {
     std::uint32_t status = 0;       ///< its STATUS

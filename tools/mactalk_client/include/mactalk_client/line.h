@@ -12,14 +12,40 @@
 
 namespace nplc::mactalk_client {
 
-class LineError : public std::runtime_error {
+/// What a task may end with, as a program's exit code.
+enum Exit : int {
+    kOk = 0,
+    kRefused = 1,        ///< the other end said no, or two things differ
+    kUsageOrFile = 2,    ///< wrong usage, or a file that cannot be read, written or understood
+    kNoAnswer = 3,       ///< the port cannot be opened, or nobody answers
+    kNotConfirmed = 4,   ///< a stop, safe or hold that was not seen to be done
+    kInterrupted = 130,  ///< by SIGINT or SIGTERM, before it was done
+};
+
+/// A task ended before it was done.
+class Ended : public std::runtime_error {
+  public:
+    Ended(int exit_code, const std::string& what) : std::runtime_error(what), exit_code_(exit_code) {}
+    int exit_code() const { return exit_code_; }
+
+  private:
+    int exit_code_;
+};
+
+template <Exit kExit>
+class EndedWith : public Ended {
+  public:
+    explicit EndedWith(const std::string& what) : Ended(kExit, what) {}
+};
+
+class LineError : public EndedWith<kNoAnswer> {
   public:
     enum class Kind : std::uint8_t {
         port_gone,
         no_answer,
         no_message,  ///< what no message can say: register 0, a wrong length
     };
-    LineError(Kind kind, const std::string& what) : std::runtime_error(what), kind_(kind) {}
+    LineError(Kind kind, const std::string& what) : EndedWith(what), kind_(kind) {}
     Kind kind() const { return kind_; }
 
   private:
@@ -27,9 +53,8 @@ class LineError : public std::runtime_error {
 };
 
 /// The user has had enough: thrown by what takes long, between two questions.
-class Interrupted : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
+class Interrupted : public EndedWith<kInterrupted> {
+    using EndedWith::EndedWith;
 };
 
 /// What a master of any protocol does on a serial line on which one question is under way at a time:

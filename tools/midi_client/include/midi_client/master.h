@@ -13,10 +13,9 @@
 namespace nplc::midi_client {
 
 /// The module understood and said no.
-class Refused : public std::runtime_error {
+class Refused : public mactalk_client::EndedWith<mactalk_client::kRefused> {
   public:
-    explicit Refused(const std::string& what, bool by_18h = false)
-        : std::runtime_error(what), by_18h_(by_18h) {}
+    explicit Refused(const std::string& what, bool by_18h = false) : EndedWith(what), by_18h_(by_18h) {}
     /// It may have been carried out all the same: see Answer::by_18h.
     bool by_18h() const { return by_18h_; }
 
@@ -25,15 +24,13 @@ class Refused : public std::runtime_error {
 };
 
 /// Whether the module carried a command out is not known.
-class Unconfirmed : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
+class Unconfirmed : public mactalk_client::EndedWith<mactalk_client::kNoAnswer> {
+    using EndedWith::EndedWith;
 };
 
 /// More than one module answers to an address: what moves one moves both, and readings are of either.
-class SameAddress : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
+class SameAddress : public mactalk_client::EndedWith<mactalk_client::kRefused> {
+    using EndedWith::EndedWith;
 };
 
 /// A master of MIDI modules (000, 003). Asks again, up to `attempts` times, where that can do no harm:

@@ -7,9 +7,8 @@
 namespace nplc::midi_client {
 
 /// It was not carried out to its end, and why. Nothing moves any more, unless the text says so.
-class NotPlayed : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
+class NotPlayed : public mactalk_client::EndedWith<mactalk_client::kRefused> {
+    using EndedWith::EndedWith;
 };
 
 struct PlayOptions {

@@ -16,10 +16,10 @@ namespace nplc::nanoctl {
 namespace gw = registers::gateway;
 
 /// The gateway said no.
-class Refused : public std::runtime_error {
+class Refused : public mactalk_client::EndedWith<mactalk_client::kRefused> {
   public:
     Refused(gw::Result result, std::uint8_t reg, std::uint16_t detail, const std::string& what)
-        : std::runtime_error(what), result_(result), reg_(reg), detail_(detail) {}
+        : EndedWith(what), result_(result), reg_(reg), detail_(detail) {}
     gw::Result result() const { return result_; }
     std::uint8_t reg() const { return reg_; }
     std::uint16_t detail() const { return detail_; }
@@ -31,9 +31,8 @@ class Refused : public std::runtime_error {
 };
 
 /// What answers is no gateway, or one whose register map this program does not know.
-class WrongDevice : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
+class WrongDevice : public mactalk_client::EndedWith<mactalk_client::kNoAnswer> {
+    using EndedWith::EndedWith;
 };
 
 using mactalk_client::Interrupted;

@@ -10,9 +10,8 @@ namespace nplc::nanoctl {
 /// What every message says about a stop, safe or hold that was not seen to be done.
 inline constexpr const char* kMayStillRun = "THE MACHINE MAY STILL BE RUNNING";
 
-class NotConfirmed : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
+class NotConfirmed : public mactalk_client::EndedWith<mactalk_client::kNotConfirmed> {
+    using EndedWith::EndedWith;
 };
 
 /// Stop, safe or hold: sent before anything is asked, and again until the gateway's status shows that it was

@@ -14,15 +14,19 @@
 
 namespace nplc::macreg {
 
+struct Relation {
+    std::string_view sign;
+    bool (*holds)(std::int64_t value, std::int64_t raw);
+    std::string_view told{};  ///< the usual sign, if this is another
+};
+
 /// A register compared with a value: `V_IST>100 rpm`, `P_IST <= -4096`, `ERR_STAT & IN_POS`.
 struct Comparison {
-    enum class Relation : std::uint8_t { less, at_most, equal, unequal, at_least, more, any_bit };
-
     const registers::Register* reg = nullptr;
-    Relation relation = Relation::equal;
+    const Relation* relation = nullptr;
     std::int64_t raw = 0;
 
-    bool holds(std::int64_t value) const;
+    bool holds(std::int64_t value) const { return relation->holds(value, raw); }
 };
 
 struct ConditionReading {
@@ -37,15 +41,16 @@ ConditionReading read_condition(std::string_view text, registers::Model model);
 std::string condition_words(const Comparison& condition, registers::Model model);
 
 /// Registers that cannot be recorded so, a unit that does not record; one line with what to do.
-class CannotRecord : public std::runtime_error {
+class CannotRecord : public mactalk_client::Ended {
   public:
-    using std::runtime_error::runtime_error;
+    explicit CannotRecord(const std::string& what, int exit_code = mactalk_client::kRefused)
+        : Ended(exit_code, what) {}
 };
 
 /// What was asked for cannot be, of any motor.
 class NotRecordable : public CannotRecord {
   public:
-    using CannotRecord::CannotRecord;
+    explicit NotRecordable(const std::string& what) : CannotRecord(what, mactalk_client::kUsageOrFile) {}
 };
 
 struct RecordProgress {

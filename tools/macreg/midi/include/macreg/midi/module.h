@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+
 #include "macreg/midi/values.h"
 #include "midi_client/master.h"
 
@@ -8,17 +10,16 @@ namespace nplc::macreg::midi {
 
 /// All that a module tells, at about one time.
 struct Readings {
-    std::int32_t position = 0;
-    std::uint32_t status = 0;
-    std::int32_t upper_stop = 0, lower_stop = 0;
-    std::uint32_t release = 0;
-    std::uint32_t speeds = 0, settings = 0, measures = 0;
-    std::uint32_t imax = 0;  ///< the four bytes of RAM from AFh on
+    std::map<std::uint8_t, std::uint32_t> replies{};  ///< by query
 
+    std::uint32_t reply(reg::Query query) const { return replies.at(query); }
     /// Of a parameter that can be read.
-    std::int64_t raw(const Parameter& parameter) const;
+    std::int64_t raw(const Parameter& parameter) const { return raw_in(parameter, reply(*parameter.query)); }
     std::int64_t raw(std::string_view name) const { return raw(*find_parameter(name)); }
-    bool busy() const { return (measures & reg::kNotBusy) == 0; }
+    std::int32_t position() const { return static_cast<std::int32_t>(reply(reg::GET_POSITION)); }
+    std::uint32_t status() const { return reply(reg::GET_STATUS); }
+    std::uint32_t measures() const { return reply(reg::GET_MEASURES); }
+    bool busy() const { return (measures() & reg::kNotBusy) == 0; }
 };
 
 struct ChangeResult {

@@ -66,6 +66,9 @@ struct Quantity {
 /// `1500 rpm`, `-2.5rev`, `+10`, `50%`, `0x1F`; nothing if it is no number, or has more than 12 digits.
 std::optional<Quantity> read_quantity(std::string_view text);
 
+/// A module's on any kind of line, 0 to 127.
+std::optional<std::uint8_t> read_address(std::string_view text);
+
 /// The nearest whole number; nothing beyond 32 bits.
 std::optional<std::int64_t> nearest(const registers::Ratio& ratio);
 

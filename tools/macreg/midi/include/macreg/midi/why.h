@@ -9,8 +9,6 @@
 /// Why does it not move? (000 §VI, 003 §IV, §VII)
 namespace nplc::macreg::midi {
 
-using Finding = BasicFinding<std::string_view>;  ///< by parameters' names
-
 /// What `why` judges: the same readings twice, some time apart.
 struct Condition {
     Scale scale{};
