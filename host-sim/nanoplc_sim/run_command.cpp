@@ -260,7 +260,8 @@ int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted
     tell_stand_in(options, program);
     const auto flash = open_flash(options);
     Door door(options);
-    Session session(options, program, scenario, Palette(wants_colour()), flash.get());
+    const std::size_t columns = host::is_terminal(stdout) ? host::terminal_columns() : 0;
+    Session session(options, program, scenario, Palette(wants_colour()), columns, flash.get());
     session.heading();
     fmt::print(stderr, "{}", session.doubts());
     if (options.realtime) {

@@ -90,12 +90,12 @@ std::string list(const OrderList& orders, const Names& names) {
 }  // namespace
 
 Session::Session(const RunOptions& options, const Program& program, const Scenario& scenario,
-                 const Palette& palette, ports::Storage* storage)
+                 const Palette& palette, std::size_t columns, ports::Storage* storage)
     : program_(program),
       options_(options),
       scenario_(scenario),
       palette_(palette),
-      timeline_(program.names, palette),
+      timeline_(program.names, palette, columns),
       world_(program.table, world_options(options, program.names, scenario, storage)),
       runner_(scenario, program.names, world_),
       auditor_(options.old_register_codes ? protocol::fastmac::RegisterCode::older_example

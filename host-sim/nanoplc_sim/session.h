@@ -18,8 +18,9 @@ namespace nplc::sim {
 /// One run: the world, the scenario that plays on it and everything that is written about it.
 class Session {
   public:
+    /// `columns`: of the terminal, as for Timeline.
     Session(const RunOptions& options, const Program& program, const Scenario& scenario,
-            const Palette& palette, ports::Storage* storage = nullptr);
+            const Palette& palette, std::size_t columns = 0, ports::Storage* storage = nullptr);
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 

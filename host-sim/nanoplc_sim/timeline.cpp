@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
+#include <utility>
 
 namespace nplc::sim {
 namespace {
@@ -11,6 +13,8 @@ namespace {
 constexpr Time kWhileMoving = std::chrono::milliseconds{250};
 constexpr std::int64_t kMoved = 16;  // counts; below it is the regulator at work
 constexpr std::size_t kWidestSignals = 24;
+constexpr std::size_t kWidestStep = 12;  // on a narrow terminal
+constexpr std::size_t kLeastEvents = 20;
 
 std::string active(std::uint8_t levels, unsigned count, const auto& name_of) {
     std::string text;
@@ -31,6 +35,24 @@ std::size_t width_of(const std::array<std::string, Count>& names, std::string_vi
     return std::clamp(width, least, kWidestSignals);
 }
 
+/// Bytes of the character or escape code that begins here, and the room that it takes.
+std::pair<std::size_t, std::size_t> next_of(std::string_view text) {
+    if (text.front() == '\033') return {std::min(text.find('m'), text.size() - 1) + 1, 0};
+    std::size_t bytes = 1;
+    while (bytes < text.size() && (static_cast<unsigned char>(text[bytes]) & 0xC0U) == 0x80U) ++bytes;
+    return {bytes, 1};
+}
+
+std::size_t room_of(std::string_view text) {
+    std::size_t room = 0;
+    while (!text.empty()) {
+        const auto [bytes, takes] = next_of(text);
+        room += takes;
+        text.remove_prefix(bytes);
+    }
+    return room;
+}
+
 void mention(std::vector<std::string>& events, bool now, bool before, std::string_view on,
              std::string_view off) {
     if (now != before) events.emplace_back(now ? on : off);
@@ -48,11 +70,48 @@ Palette::Palette(bool on) {
     plain = "\033[0m";
 }
 
-Timeline::Timeline(const Names& names, const Palette& palette) : names_(names), palette_(palette) {
+std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
+    std::vector<std::string> lines(1);
+    std::size_t used = 0;
+    const auto begin_line = [&] {
+        lines.emplace_back();
+        used = 0;
+    };
+    while (!text.empty()) {
+        std::string_view word = text.substr(0, text.find(' '));
+        text.remove_prefix(std::min(word.size() + 1, text.size()));
+        const std::size_t room = room_of(word);
+        if (used != 0 && used + 1 + room > width) {
+            begin_line();
+        } else if (used != 0) {
+            lines.back() += ' ';
+            ++used;
+        }
+        while (!word.empty()) {
+            const auto [bytes, takes] = next_of(word);
+            if (used + takes > width) begin_line();
+            lines.back() += word.substr(0, bytes);
+            used += takes;
+            word.remove_prefix(bytes);
+        }
+    }
+    return lines;
+}
+
+Timeline::Timeline(const Names& names, const Palette& palette, std::size_t columns)
+    : names_(names), palette_(palette) {
     step_width_ = 4;
     for (const auto& [number, name] : names_.steps) step_width_ = std::max(step_width_, name.size());
     inputs_width_ = width_of(names_.inputs, "IN", 9);
     outputs_width_ = width_of(names_.outputs, "OUT", 9);
+    constexpr std::size_t kWideNumbers = 60, kNarrowNumbers = 33, kRoomForEvents = 40;
+    indent_ = kWideNumbers + step_width_ + inputs_width_ + outputs_width_;
+    narrow_ = columns != 0 && columns < indent_ + kRoomForEvents;
+    if (narrow_) {
+        step_width_ = std::min(step_width_, kWidestStep);
+        indent_ = kNarrowNumbers + step_width_;
+    }
+    events_width_ = columns == 0 ? SIZE_MAX : std::max(columns, indent_ + kLeastEvents) - indent_;
 }
 
 std::string Timeline::inputs(const Snapshot& s) const {
@@ -64,6 +123,14 @@ std::string Timeline::outputs(const Snapshot& s) const {
 }
 
 void Timeline::heading() const {
+    if (narrow_) {
+        const std::string unit = names_.machine ? names_.machine->name : "rev";
+        fmt::print("{}{:>10}  {:<{}}  {:>9}  {:>6}  {}{}\n", palette_.strong, "time", "step", step_width_,
+                   "P_IST", "V_IST", "what happens", palette_.plain);
+        fmt::print("{}{:>10}  {:<{}}  {:>9}  {:>6}{}\n", palette_.dim, "ms", "", step_width_, unit, "rpm",
+                   palette_.plain);
+        return;
+    }
     fmt::print("{}{:>12}  {:<{}}  {:<{}}  {:<{}}  {:>11} {:>10}  {:>6} {:>8}  {}{}\n", palette_.strong,
                "time", "step", step_width_, "inputs", inputs_width_, "outputs", outputs_width_, "P_IST", "",
                "V_IST", "", "what happens", palette_.plain);
@@ -91,6 +158,11 @@ std::vector<std::string> Timeline::events(const Snapshot& s) const {
         const bool now = (s.inputs >> i & 1) != 0;
         mention(list, now, (before.inputs >> i & 1) != 0, names_.input(i) + " on", names_.input(i) + " off");
     }
+    for (unsigned i = 0; narrow_ && i < kOutputs; ++i) {
+        const bool now = (s.outputs >> i & 1) != 0;
+        mention(list, now, (before.outputs >> i & 1) != 0, names_.output(i) + " on",
+                names_.output(i) + " off");
+    }
     mention(list, s.link_up, before.link_up, "link up", "link down");
     mention(list, s.running, before.running, "sequence runs", "sequence stopped");
     mention(list, s.error, before.error, "ERROR", "no ERROR");
@@ -110,16 +182,37 @@ void Timeline::observe(const Snapshot& s) {
     last_->orders.clear();
 }
 
-void Timeline::print(const Snapshot& s, const std::vector<std::string>& list) {
+std::string Timeline::step(const Snapshot& s) const {
+    const bool stepped = last_ && last_->step != s.step;
+    std::string name = names_.step(s.step);
+    if (name.size() > step_width_) name = name.substr(0, step_width_ - 1) + '~';
+    return fmt::format("{}{:<{}}{}", stepped ? palette_.strong : "", name, step_width_,
+                       stepped ? palette_.plain : "");
+}
+
+std::string Timeline::wide_columns(const Snapshot& s) const {
     const registers::Scale scale = registers::scale_of(names_.motor);
     const double rpm = s.v_ist * scale.samples_per_second * 60 / scale.counts_per_rev;
-    const bool stepped = last_ && last_->step != s.step;
-    fmt::print("{}{:>12}  {}{:<{}}{}  {:<{}}  {}{:<{}}{}  {:>11} {:>10.3f}  {:>6} {:>8.1f}  {}\n",
-               line_start_, in_milliseconds(s.time), stepped ? palette_.strong : "", names_.step(s.step),
-               step_width_, stepped ? palette_.plain : "", inputs(s), inputs_width_,
-               s.outputs != 0 ? palette_.good : "", outputs(s), outputs_width_,
-               s.outputs != 0 ? palette_.plain : "", s.p_ist,
-               static_cast<double>(s.p_ist) / scale.counts_per_rev, s.v_ist, rpm, fmt::join(list, ", "));
+    return fmt::format("{:>12}  {}  {:<{}}  {}{:<{}}{}  {:>11} {:>10.3f}  {:>6} {:>8.1f}  ",
+                       in_milliseconds(s.time), step(s), inputs(s), inputs_width_,
+                       s.outputs != 0 ? palette_.good : "", outputs(s), outputs_width_,
+                       s.outputs != 0 ? palette_.plain : "", s.p_ist,
+                       static_cast<double>(s.p_ist) / scale.counts_per_rev, s.v_ist, rpm);
+}
+
+std::string Timeline::narrow_columns(const Snapshot& s) const {
+    const registers::Scale scale = registers::scale_of(names_.motor);
+    const double rpm = s.v_ist * scale.samples_per_second * 60 / scale.counts_per_rev;
+    const double place =
+        s.p_ist * (names_.machine ? names_.machine->per_rev : 1) / static_cast<double>(scale.counts_per_rev);
+    return fmt::format("{:>10}  {}  {:>9.3f}  {:>6.0f}  ", in_milliseconds(s.time), step(s), place, rpm);
+}
+
+void Timeline::print(const Snapshot& s, const std::vector<std::string>& list) {
+    const std::vector<std::string> lines = wrapped(fmt::format("{}", fmt::join(list, ", ")), events_width_);
+    fmt::print("{}{}{}\n", line_start_, narrow_ ? narrow_columns(s) : wide_columns(s), lines.front());
+    for (std::size_t i = 1; i < lines.size(); ++i)
+        fmt::print("{}{:{}}{}\n", line_start_, "", indent_, lines[i]);
     printed_ = s;
 }
 

@@ -15,10 +15,16 @@ struct Palette {
     std::string_view dim, strong, good, bad, order, plain;
 };
 
-/// A run as a person reads it: one line for everything that happens, on standard output.
+/// Text in lines of at most `width` characters, broken between words where that is possible; escape codes of
+/// colours take no room.
+std::vector<std::string> wrapped(std::string_view text, std::size_t width);
+
+/// A run as a person reads it: one line for everything that happens, on standard output. On a terminal too
+/// narrow for all columns: time, step, position, speed, and what happens, outputs among it.
 class Timeline {
   public:
-    Timeline(const Names& names, const Palette& palette);
+    /// `columns` of the terminal; 0: as long as the lines are.
+    Timeline(const Names& names, const Palette& palette, std::size_t columns = 0);
 
     void heading() const;
     /// Prints a line if something happened, if there is a remark, or if the motor has been moving for a
@@ -32,6 +38,9 @@ class Timeline {
   private:
     std::vector<std::string> events(const Snapshot& snapshot) const;
     void print(const Snapshot& s, const std::vector<std::string>& list);
+    std::string wide_columns(const Snapshot& s) const;
+    std::string narrow_columns(const Snapshot& s) const;
+    std::string step(const Snapshot& s) const;
     std::string inputs(const Snapshot& snapshot) const;
     std::string outputs(const Snapshot& snapshot) const;
 
@@ -40,6 +49,9 @@ class Timeline {
     std::size_t step_width_;
     std::size_t inputs_width_;
     std::size_t outputs_width_;
+    bool narrow_ = false;
+    std::size_t indent_;
+    std::size_t events_width_;
     std::optional<Snapshot> last_;
     Snapshot printed_;
     std::vector<std::string> remarks_;
