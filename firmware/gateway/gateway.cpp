@@ -21,9 +21,13 @@ Gateway::Gateway(const Ports& ports, const Settings& settings, StartCause cause)
 
 void Gateway::block_start(SafeReason reason) {
     permission_.end_start_up();
+    block(reason);
+    motor_.stop();
+}
+
+void Gateway::block(SafeReason reason) {
     safe_.set_reason(permission_.shown(reason));
     note(static_cast<Event>(safe_.reason()));
-    motor_.stop();
 }
 
 void Gateway::lock(SafeReason reason) {
@@ -41,9 +45,11 @@ void Gateway::withdraw(SafeReason reason, base::Instant now) {
     enter_safe_state(reason, now);
 }
 
-Gateway::LoadResult Gateway::load(std::span<const std::uint8_t> bytes, base::Instant now) {
+Gateway::LoadResult Gateway::load(std::span<const std::uint8_t> bytes, base::Instant now, bool proven) {
     if (run_state_ != RunState::stopped) return {.fault = {base::Error::not_stopped, 0}};
     const auto fault = scan_.load(bytes);
+    is_proven_ = proven;
+    look_for_proof();
     if (fault) {
         enter_safe_state(SafeReason::bad_table, now);
     } else if (permission_.allows_autostart() && settings_.autostart) {
@@ -52,6 +58,18 @@ Gateway::LoadResult Gateway::load(std::span<const std::uint8_t> bytes, base::Ins
     permission_.end_start_up();
     if (fault) return {.fault = *fault};
     return {.ok = true};
+}
+
+bool Gateway::lacks_proof() const {
+    return settings_.require_proof && !is_proven_ && !scan_.table().empty();
+}
+
+void Gateway::look_for_proof() {
+    if (lacks_proof()) {
+        block(SafeReason::no_proof);
+    } else if (safe_reason() == SafeReason::no_proof) {
+        safe_.set_reason(SafeReason::not_started);
+    }
 }
 
 /// The pin itself, since nothing was debounced yet. Without it nothing stays armed.
@@ -65,6 +83,7 @@ void Gateway::autostart(base::Instant now) {
 base::Status Gateway::change(const Settings& settings) {
     if (run_state_ != RunState::stopped) return base::Error::not_stopped;
     settings_ = settings;
+    look_for_proof();
     signals_.set_debounce(settings.debounce);
     show_outputs();
     return {};
@@ -90,6 +109,7 @@ base::Status Gateway::run_until(After hold_after) {
     if (scan_.table().empty()) return base::Error::no_table;
     if (run_state_ != RunState::stopped && run_state_ != RunState::held) return base::Error::not_stopped;
     if (!enabled()) return base::Error::not_enabled;
+    if (lacks_proof()) return base::Error::no_proof;
     if (run_state_ == RunState::stopped) {
         scan_.reset();
         stop_ordered_ = false;
@@ -252,7 +272,7 @@ void Gateway::enter_safe_state(SafeReason reason, base::Instant now) {
 
 void Gateway::set_safe_reason(SafeReason reason, base::Instant now) {
     log_.advance(now);
-    reason = permission_.shown(reason);
+    reason = permission_.shown(lacks_proof() ? SafeReason::no_proof : reason);
     if (safe_.enter(reason, now, uptime())) note(static_cast<Event>(reason));
     show_outputs();
 }

@@ -47,6 +47,7 @@ std::uint32_t OwnRegisters::value(std::uint8_t reg, base::Instant now) const {
     if (reg >= LOG && reg < LOG + 2 * kLogEntries) return log_value(reg);
     if (reg >= STATUS && reg <= RESULT) return live_value(reg, now);
     if (reg >= LINK_LOSSES && reg <= REFUSED) return count_value(reg);
+    if (reg >= PROOF && reg < PROOF + kProofWords) return tables_.proof_word(reg - PROOF);
     if (reg >= LINE_FAULTS && reg < LINE_FAULTS + kLines) return line_faults(lines_[reg - LINE_FAULTS]);
     if (reg >= SETTINGS) {
         const auto id = static_cast<std::uint8_t>(reg - SETTINGS);
@@ -95,6 +96,8 @@ std::uint32_t OwnRegisters::table_value(std::uint8_t reg) const {
             return upload_crc_;
         case TABLE_POINTER:
             return pointer_;
+        case PROOF_BYTES:
+            return kProofBytes;
         case FIRED_SCAN:
             return fired_.scan;
         case FIRED_STEP:

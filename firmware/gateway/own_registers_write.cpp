@@ -94,7 +94,7 @@ Progress OwnRegisters::write_value(std::uint8_t reg, std::uint32_t value, base::
     const auto is_known = [](std::uint8_t number) {
         return (number >= IDENTITY && number <= STORE_FLAGS) ||
                (number >= STATUS && number < LINE_FAULTS + kLines) ||
-               (number >= UPLOAD_STATE && number <= TABLE_DATA) ||
+               (number >= UPLOAD_STATE && number < PROOF + kProofWords) ||
                (number >= FIRED_SCAN && number <= FIRED_KEY) ||
                (number >= FIRED && number < LOG + 2 * kLogEntries);
     };

@@ -35,7 +35,8 @@ Settings settings_of(const store::SettingValues& values) {
             .longest_wait = milliseconds(values, Setting::longest_wait),
             .virtual_motor = values.is_on(Setting::virtual_motor),
             .force_time = milliseconds(values, Setting::force_timeout),
-            .status_output = pin(values, Setting::status_output)};
+            .status_output = pin(values, Setting::status_output),
+            .require_proof = values.is_on(Setting::require_proof)};
 }
 
 store::SettingValues values_of(const Settings& settings) {
@@ -52,6 +53,7 @@ store::SettingValues values_of(const Settings& settings) {
     set(Setting::virtual_motor, settings.virtual_motor ? 1 : 0);
     set(Setting::force_timeout, in_milliseconds(settings.force_time));
     set(Setting::status_output, number(settings.status_output));
+    set(Setting::require_proof, settings.require_proof ? 1 : 0);
     return values;
 }
 

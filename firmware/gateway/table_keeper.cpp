@@ -2,11 +2,31 @@
 
 #include <algorithm>
 
+#include "base/bytes.h"
 #include "base/crc32.h"
+#include "registers/gateway.h"
 
 namespace nplc::gateway {
 
 using store::Phase;
+
+namespace {
+
+/// The mark and the digest, if nothing but they follow the end term.
+std::span<const std::uint8_t> trailer_of(std::span<const std::uint8_t> content) {
+    using namespace registers::gateway;
+    std::size_t end = 0;
+    while (end < content.size() && (content[end] & 0x3FU) != sequencer::kEndOfTable)
+        end += sequencer::kTermBytes;
+    end += sequencer::kTermBytes;
+    if (content.size() != end + kProofBytes) return {};
+    const auto trailer = content.subspan(end);
+    return std::equal(kProofMark.begin(), kProofMark.end(), trailer.begin())
+               ? trailer
+               : std::span<const std::uint8_t>();
+}
+
+}  // namespace
 
 void TableKeeper::mount() {
     is_readable_ = slots_.mount().ok();
@@ -31,7 +51,8 @@ Gateway::LoadResult TableKeeper::use(std::span<const std::uint8_t> table, base::
 }
 
 Gateway::LoadResult TableKeeper::take(std::size_t length, base::Instant now) {
-    const auto result = gateway_.load(memory_.first(length), now);
+    trailer_ = trailer_of(memory_.first(length));
+    const auto result = gateway_.load(memory_.first(length), now, !trailer_.empty());
     active_ = result.ok ? memory_.first((gateway_.table().size() + 1) * sequencer::kTermBytes)
                         : std::span<const std::uint8_t>();
     active_crc_ = active_.empty() ? 0 : base::crc32(active_);
@@ -102,7 +123,13 @@ std::uint32_t TableKeeper::capacity() const {
 
 bool TableKeeper::stored_is_active() const {
     const store::Header stored = slots_.current();
-    return stored.length == active_.size() && stored.crc == active_crc_;
+    return stored.length == active_.size() + trailer_.size() &&
+           stored.crc == base::crc32(trailer_, active_crc_);
+}
+
+std::uint32_t TableKeeper::proof_word(std::size_t index) const {
+    if (trailer_.empty()) return 0;
+    return base::load_u32(&trailer_[registers::gateway::kProofMark.size() + 4 * index]);
 }
 
 }  // namespace nplc::gateway

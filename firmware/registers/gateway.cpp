@@ -16,7 +16,8 @@ constexpr std::array kMap{
     Row{TABLE_BYTES, 1, "TABLE_BYTES", kRead, "length of the active table, end term included; 0 without one"},
     Row{STORED_CRC, 1, "STORED_CRC", kRead, "CRC-32 of the stored table as it was uploaded; 0 without one"},
     Row{STORED_BYTES, 1, "STORED_BYTES", kRead, "its length; 0 without one"},
-    Row{STORED_MAX, 1, "STORED_MAX", kRead, "bytes that a table may have"},
+    Row{STORED_MAX, 1, "STORED_MAX", kRead,
+        "bytes that a table may have, what follows it for its certificate included"},
     Row{STORE_FLAGS, 1, "STORE_FLAGS", kRead,
         "bit 0: the last stored table is damaged or gone, and an older one or none is in use; bit 1: the "
         "same "
@@ -71,6 +72,10 @@ constexpr std::array kMap{
     Row{TABLE_POINTER, 1, "TABLE_POINTER", kBoth,
         "byte at which TABLE_DATA goes on; upload_begin sets it to 0"},
     Row{TABLE_DATA, 1, "TABLE_DATA", kBoth, "the window on the table, see Upload and Read-back below"},
+    Row{PROOF_BYTES, 1, "PROOF_BYTES", kRead,
+        "40: what a certificate takes behind the end term; 0: this firmware takes none"},
+    Row{PROOF, kProofWords, "PROOF", kRead,
+        "SHA-256 of the certificate that the active table was uploaded with; 0 without one"},
     Row{FIRED_SCAN, 1, "FIRED_SCAN", kRead,
         "SCANS of the scan that FIRED is about; reading it (in a block too) takes a new one"},
     Row{FIRED_STEP, 1, "FIRED_STEP", kRead, "the step that it was in"},

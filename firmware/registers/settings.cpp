@@ -47,6 +47,8 @@ constexpr std::array<SettingInfo, kSettings> kAll{{
      "0: a JVL motor, 1: MIDI's MAC23, 2: MAC34-1, 3: MAC34-2; from the next reset on if kept"},
     {Setting::midi_address, "midi_address", "", 0, 0, 127, false, true,
      "a MIDI drive's address on its V24 line; from the next reset on if kept"},
+    {Setting::require_proof, "require_proof", "", 0, 0, 1, false, false,
+     "1: a table starts only if it was uploaded with a certificate of seqc verify"},
 }};
 
 /// What the firmware needs of a setting, in eight bytes: a board that shows no names has none in its memory.

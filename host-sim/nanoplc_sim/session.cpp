@@ -63,6 +63,8 @@ std::string_view in_words(gateway::SafeReason reason) {
         case gateway::SafeReason::no_store:
         case gateway::SafeReason::no_port:
             return "outputs safe: the board lacks something";
+        case gateway::SafeReason::no_proof:
+            return "outputs safe: the table has no certificate";
     }
     return "";
 }

@@ -155,7 +155,7 @@ struct PortBench {
 
     BenchBoard board;
     sim::SimStorage flash{kFlash};
-    std::array<std::uint8_t, (sequencer::kMaxTerms + 1) * sequencer::kTermBytes> memory{};
+    std::array<std::uint8_t, kTableMemory> memory{};
     OwnRegisters::Lines shown_lines{};
     std::optional<SettingsKeeper> keeper;
     std::optional<Controller> controller;

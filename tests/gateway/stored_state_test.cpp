@@ -91,6 +91,28 @@ TEST_F(StoredState, WhatStartsByItselfIsWhatWasStoredLast) {
     EXPECT_GT(stopped, 100U);
 }
 
+/// With require_proof: the digest that it was uploaded with, or nothing runs.
+TEST_F(StoredState, WhatStartsUnderRequireProofHasItsOwnDigest) {
+    const auto with_proof = [](std::span<const std::uint8_t> table, std::uint8_t digest) {
+        std::vector<std::uint8_t> content(table.begin(), table.end());
+        content.insert(content.end(), reg::kProofMark.begin(), reg::kProofMark.end());
+        content.insert(content.end(), reg::kDigestBytes, digest);
+        return content;
+    };
+    ASSERT_TRUE(upload(with_proof(kOlder, 0x11)));
+    ASSERT_TRUE(upload(with_proof(kStoredTable, 0x22)));
+    keep(Setting::require_proof, 1);
+    unsigned ran = 0;
+    damage_each([&] {
+        if (gateway->run_state() == RunState::stopped) return;
+        ++ran;
+        EXPECT_EQ(tables->active_crc(), base::crc32(kStoredTable));
+        for (std::size_t word = 0; word < reg::kProofWords; ++word)
+            EXPECT_EQ(tables->proof_word(word), 0x22222222U);
+    });
+    EXPECT_GT(ran, 100U);
+}
+
 TEST_F(StoredState, TheOnlySettingsAndTheOnlyTable) {
     ASSERT_TRUE(upload(kStoredTable));
     keep(Setting::longest_wait, 800);

@@ -264,6 +264,7 @@ TEST_F(UserPortTest, SettingsAreWrittenWhileStoppedAndKept) {
     ASSERT_TRUE(write(number(store::Setting::enable_input), registers::gateway::kNone));
     ASSERT_TRUE(write(number(store::Setting::status_output), registers::gateway::kNone));
     ASSERT_TRUE(write(number(store::Setting::motor_address), kMotor));
+    ASSERT_TRUE(write(number(store::Setting::require_proof), 0));
     ASSERT_TRUE(command(Command::keep_settings));
     EXPECT_EQ(status() & reg::kSettingsDiffer, 0U);
     start({});

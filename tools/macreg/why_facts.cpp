@@ -149,7 +149,11 @@ constexpr Word kWords[] = {
     {"restore", restore_words},
     {"resynchronise",
      [](const Facts& f) { return resynchronise_command(f.model(), f.at("CNTRL_BITS"), f.at("P_IST")); }},
-    {"safe reason", [](const Facts& f) { return std::to_string(f.gateway()->safe_reason); }},
+    {"safe reason",
+     [](const Facts& f) {
+         using namespace registers::gateway;
+         return std::string(name_of(static_cast<SafeReason>(f.gateway()->safe_reason)));
+     }},
     {"set load factor",
      [](const Facts& f) -> std::string {
          return f.is_passive() ? "`macreg set KVOUT 1`, more with inertia at the shaft."

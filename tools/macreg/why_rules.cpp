@@ -171,7 +171,7 @@ constexpr Rule<Facts> kRules[] = {
 
     // who gives the orders
     {"gateway_safe", stops, [](F f) { return f.gateway_has(registers::gateway::kSafe); },
-     "The gateway is in its safe state (reason {safe reason}).", "",
+     "The gateway is in its safe state: {safe reason}.", "",
      "`nanoctl status` names the reason and what ends it.", Lets::nothing, [](F f) { return f.moves(); }},
     {"gateway_held", stops,
      [](F f) { return f.gateway_is(RunState::held) || f.gateway_is(RunState::holding); },

@@ -141,7 +141,7 @@ class Axis {
     std::optional<TimelyPort> user_line_;  ///< on user_uart_
     std::optional<UserServer> user_server_;
 
-    std::array<std::uint8_t, (sequencer::kMaxTerms + 1) * sequencer::kTermBytes> table_memory_{};
+    std::array<std::uint8_t, gateway::kTableMemory> table_memory_{};
     std::optional<gateway::SettingsKeeper> settings_;
     std::optional<gateway::Controller> controller_;
 

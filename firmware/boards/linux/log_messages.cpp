@@ -59,6 +59,11 @@ LogMessage of_reason(SafeReason reason, unsigned step) {
         case SafeReason::no_port:
             return {LogLevel::error,
                     "SAFE: the user's port is missing; it does not run where nobody can stop it"};
+        case SafeReason::no_proof:
+            return {
+                LogLevel::error,
+                "SAFE: the table has no certificate, and setting require_proof asks for one; prove it with "
+                "`seqc verify --proof`, then `nanoctl upload --proof`"};
     }
     return {LogLevel::error, "SAFE: for an unknown reason"};
 }

@@ -95,7 +95,7 @@ class Rehearsal {
     NoInputs inputs_;
     NoOutputs outputs_;
     NoWatchdog watchdog_;
-    std::array<std::uint8_t, (sequencer::kMaxTerms + 1) * sequencer::kTermBytes> memory_{};
+    std::array<std::uint8_t, gateway::kTableMemory> memory_{};
     gateway::SettingsKeeper settings_;
     motor::AnyDriver driver_;
     std::optional<gateway::Controller> controller_;

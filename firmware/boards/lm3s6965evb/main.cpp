@@ -2,6 +2,7 @@
 
 #include "bare_metal/end.h"
 #include "bare_metal/run.h"
+#include "gateway/table_keeper.h"
 #include "hal_mcu/cortex_m/core.h"
 #include "hal_mcu/cortex_m/start.h"
 #include "hal_mcu/cortex_m/systick_clock.h"
@@ -12,7 +13,6 @@
 #include "hal_mcu/stellaris/uart.h"
 #include "hal_mcu/stellaris/watchdog.h"
 #include "interrupts.h"
-#include "sequencer/table.h"
 
 namespace nplc::board {
 namespace {
@@ -34,7 +34,7 @@ chip::Uart motor_line(chip::Uart::kUart1);
 chip::Uart motor_mactalk_line(chip::Uart::kUart2);
 chip::I2cMaster i2c;
 hal_mcu::I2cMemory memory(i2c, board_clock, hal_mcu::I2cMemory::k24C256);
-std::array<std::uint8_t, (sequencer::kMaxTerms + 1) * sequencer::kTermBytes> table;
+std::array<std::uint8_t, gateway::kTableMemory> table;
 
 constinit const bare_metal::Parts kParts{.clock = board_clock,
                                          .inputs = inputs,

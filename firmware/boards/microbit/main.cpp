@@ -2,6 +2,7 @@
 
 #include "bare_metal/end.h"
 #include "bare_metal/run.h"
+#include "gateway/table_keeper.h"
 #include "hal_mcu/cortex_m/core.h"
 #include "hal_mcu/cortex_m/start.h"
 #include "hal_mcu/no_line.h"
@@ -12,7 +13,6 @@
 #include "hal_mcu/nrf51/uart.h"
 #include "hal_mcu/nrf51/watchdog.h"
 #include "interrupts.h"
-#include "sequencer/table.h"
 
 namespace nplc::board {
 namespace {
@@ -40,7 +40,7 @@ chip::Watchdog watchdog;
 chip::Uart line;
 hal_mcu::NoLine no_line;
 chip::Flash flash(kStorageBegin, kStoragePages* chip::Flash::kPage);
-std::array<std::uint8_t, (sequencer::kMaxTerms + 1) * sequencer::kTermBytes> table;
+std::array<std::uint8_t, gateway::kTableMemory> table;
 bool serves_person = false;
 
 /// Outputs first.

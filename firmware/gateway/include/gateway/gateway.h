@@ -35,6 +35,7 @@ struct Settings {
     bool virtual_motor = false;                   ///< holding the sequence does not stop the motor
     base::Microseconds force_time{5'000'000};     ///< forced signals end when nobody renews them for so long
     std::optional<std::uint8_t> status_output{};  ///< output 0..3 that shows status_light()
+    bool require_proof = false;                   ///< a table without a certificate does not start
 };
 
 /// The loop of the NanoPLC (001 §6.1.9) on ports: debounced inputs, scan, orders, outputs, timer. `poll`
@@ -63,8 +64,9 @@ class Gateway {
 
     /// Makes a table the current one; only while stopped, and only if the motor has all its orders (else
     /// not_for_motor). The bytes must stay where they are. On a fault the
-    /// safe state is entered with bad_table, and nothing can run until a good table is loaded.
-    LoadResult load(std::span<const std::uint8_t> bytes, base::Instant now);
+    /// safe state is entered with bad_table, and nothing can run until a good table is loaded. `proven`: it
+    /// came with a certificate.
+    LoadResult load(std::span<const std::uint8_t> bytes, base::Instant now, bool proven = false);
 
     /// The start-up is over: no table starts by itself any more.
     void end_start_up() { permission_.end_start_up(); }
@@ -175,6 +177,9 @@ class Gateway {
     void watch_link(base::Instant now);
     void note_motor_fault();
     void expire_forces(base::Instant now);
+    void block(SafeReason reason);
+    bool lacks_proof() const;
+    void look_for_proof();
     void enter_safe_state(SafeReason reason, base::Instant now);
     void set_safe_reason(SafeReason reason, base::Instant now);
     void show_outputs();
@@ -184,6 +189,7 @@ class Gateway {
     ports::Watchdog& watchdog_;
     motor::Motor& motor_;
     RunState run_state_ = RunState::stopped;
+    bool is_proven_ = false;        ///< the table came with a certificate
     bool stop_ordered_ = false;     ///< on the way to running, or to being held
     bool stop_after_loss_ = false;  ///< the motor is to be stopped once the link delivers again
     std::uint8_t motor_fault_ = 0;  ///< as noted in the log

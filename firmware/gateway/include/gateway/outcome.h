@@ -72,6 +72,8 @@ constexpr Result result_of(base::Error error) {
             return Result::nothing_stored;
         case base::Error::cannot_go_on:
             return Result::cannot_go_on;
+        case base::Error::no_proof:
+            return Result::no_proof;
         case base::Error::bad_setting:
             return Result::bad_value;
     }

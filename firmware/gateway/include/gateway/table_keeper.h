@@ -6,10 +6,15 @@
 #include "gateway/gateway.h"
 #include "gateway/outcome.h"
 #include "gateway/standstill.h"
+#include "registers/gateway.h"
 #include "store/slots.h"
 #include "store/table_check.h"
 
 namespace nplc::gateway {
+
+/// For every table that a gateway takes, with its certificate's digest.
+inline constexpr std::size_t kTableMemory =
+    (sequencer::kMaxTerms + 1) * sequencer::kTermBytes + registers::gateway::kProofBytes;
 
 /// The table that the sequence runs, in the caller's memory; the stored one; and a new one on its way into
 /// the store. Uploading never touches the active table.
@@ -59,6 +64,8 @@ class TableKeeper final : private store::TermCheck {
         return active_;
     }  ///< end term included; empty without one
     std::uint32_t active_crc() const { return active_crc_; }
+    /// Of the digest of its certificate; 0 without one.
+    std::uint32_t proof_word(std::size_t index) const;
     store::Header stored() const { return slots_.current(); }
     std::uint32_t capacity() const;
     bool fell_back() const { return slots_.is_fallback(); }
@@ -74,6 +81,7 @@ class TableKeeper final : private store::TermCheck {
     bool is_readable_ = false;
     std::span<std::uint8_t> memory_;
     std::span<const std::uint8_t> active_;
+    std::span<const std::uint8_t> trailer_;  ///< behind active_: its certificate's mark and digest
     std::uint32_t active_crc_ = 0;
     Standstill standstill_;
     store::TableCheck check_{this};

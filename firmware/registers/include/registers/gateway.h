@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -70,6 +72,8 @@ enum Number : std::uint8_t {
     UPLOAD_CRC = 59,
     TABLE_POINTER = 60,
     TABLE_DATA = 61,
+    PROOF_BYTES = 62,
+    PROOF = 63,
 
     FIRED_SCAN = 80,
     FIRED_STEP = 81,
@@ -80,6 +84,7 @@ enum Number : std::uint8_t {
     SETTINGS = 200,
 };
 
+inline constexpr std::uint8_t kProofWords = 8;     ///< PROOF and the 7 after it
 inline constexpr std::uint8_t kLines = 3;          ///< LINE_FAULTS and the two after it
 inline constexpr std::uint8_t kFiredWords = 32;    ///< FIRED and the 31 after it: a bit a term
 inline constexpr std::uint8_t kLogEntries = 16;    ///< two registers each, from LOG on
@@ -98,6 +103,11 @@ constexpr std::optional<midi::Model> model_of_kind(std::uint32_t motor_kind) {
     if (motor_kind == 0) return std::nullopt;
     return static_cast<midi::Model>(motor_kind - 1);
 }
+
+/// What follows the end term of a table that is uploaded with a certificate: this, then its SHA-256.
+inline constexpr std::array<std::uint8_t, 8> kProofMark{'N', 'P', 'L', 'P', 'R', 'O', 'O', 'F'};
+inline constexpr std::size_t kDigestBytes = std::size_t{4} * kProofWords;
+inline constexpr std::size_t kProofBytes = kProofMark.size() + kDigestBytes;
 
 enum class Access : std::uint8_t { read, read_write, write };
 

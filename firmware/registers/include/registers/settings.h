@@ -31,6 +31,7 @@ enum class Setting : std::uint8_t {
     motor_silence = 19,
     motor_kind = 20,
     midi_address = 21,
+    require_proof = 22,
 };
 
 /// `none` in enable_input and status_output.
@@ -48,7 +49,7 @@ struct SettingInfo {
     std::string_view help;
 };
 
-inline constexpr std::size_t kSettings = 21;
+inline constexpr std::size_t kSettings = 22;
 const std::array<SettingInfo, kSettings>& all_settings();
 /// nullptr if there is none.
 const SettingInfo* find_setting(std::uint8_t id);

@@ -58,7 +58,8 @@ enum class SafeReason : std::uint8_t {
     bad_run_mark = 10,  ///< what says that the sequence runs is damaged, missing, or cannot be written
     no_lines = 11,      ///< 11 to 13: the board lacks what the axis needs and tries to have it again
     no_store = 12,
-    no_port = 13,  ///< the user's
+    no_port = 13,   ///< the user's
+    no_proof = 14,  ///< the table has no certificate, and setting require_proof asks for one
 };
 
 constexpr std::string_view name_of(SafeReason reason) {
@@ -76,7 +77,8 @@ constexpr std::string_view name_of(SafeReason reason) {
                                         {bad_run_mark, "bad run mark"},
                                         {no_lines, "GPIO lines missing"},
                                         {no_store, "no store"},
-                                        {no_port, "user's port missing"}});
+                                        {no_port, "user's port missing"},
+                                        {no_proof, "no certificate"}});
 }
 
 /// Bits 7..0 of a log entry's second register; below 16 they are a SafeReason.
@@ -241,6 +243,7 @@ enum class Result : std::uint8_t {
     not_enabled = 18,
     too_late = 19,
     cannot_go_on = 20,
+    no_proof = 21,
     table_no_end = 32,
     table_ragged = 33,
     bad_next_step = 34,
@@ -279,6 +282,8 @@ constexpr std::string_view describe(Result result) {
          {cannot_go_on,
           "the motor cannot take up again what it did before it was held (homing, gear, or what somebody "
           "else told it); stop, then run from the start"},
+         {no_proof,
+          "the table has no certificate, and setting require_proof asks for one; upload it with --proof"},
          {table_no_end, "the table has no end term"},
          {table_ragged, "the table ends inside a term"},
          {bad_next_step, "NEXT_STATE 3Fh in a term"},

@@ -25,6 +25,7 @@ enum class Error : std::uint8_t {
     damaged,         ///< stored bytes have changed
     bad_setting,     ///< no such setting, or not one of its values
     cannot_go_on,    ///< nobody knows what the motor did before it was held
+    no_proof,        ///< the table has no certificate, and one is required
 };
 
 }  // namespace nplc::base

@@ -169,7 +169,7 @@ class World final : public Stage, private gateway::Observer {
     std::unique_ptr<VirtualDrive> drive_;
     motor::AnyDriver driver_;
     motor::Motor* motor_ = nullptr;
-    std::array<std::uint8_t, (sequencer::kMaxTerms + 1) * sequencer::kTermBytes> table_memory_{};
+    std::array<std::uint8_t, gateway::kTableMemory> table_memory_{};
     std::optional<gateway::SettingsKeeper> settings_;
     std::optional<gateway::Controller> controller_;
     VirtualSerialLine user_line_;     ///< its "motor" is the person
