@@ -75,6 +75,7 @@ MODULES = [
     Module("tools/spelling", "spelling", ()),
     Module("tools/whole_files", "whole_files", ("host",)),
     Module("tools/intel_hex", "intel_hex", ("host",)),
+    Module("tools/proof", "proof", ()),
     Module("tools/arguments", "arguments", ()),
     Module("tools/mactalk_client", "mactalk_client", ("base", "protocol", "host")),
     Module("tools/midi_client", "midi_client", ("base", "ports", "protocol", "registers", "host", "mactalk_client")),
@@ -83,12 +84,12 @@ MODULES = [
         "tools/nanoctl",
         "nanoctl",
         ("arguments", "base", "sequencer", "protocol", "registers", "store", "seqc", "host", "intel_hex",
-         "mactalk_client", "command_line", "spelling", "whole_files"),
+         "mactalk_client", "command_line", "proof", "spelling", "whole_files"),
     ),
     Module("tools/registers_reference", "registers_reference", ("base", "registers")),
     Module("tools/verify", "verify", ("base", "sequencer", "protocol", "registers")),
     Module("tools/seqc", "seqc", ("arguments", "base", "sequencer", "protocol", "registers", "host", "intel_hex",
-                                    "spelling", "verify", "whole_files")),
+                                    "proof", "spelling", "verify", "whole_files")),
     Module(
         "tools/macreg",
         "macreg",
@@ -120,9 +121,9 @@ HOSTED_STANDARD = set(
     source_location spanstream sstream stack stacktrace stdexcept stop_token streambuf string strstream syncstream
     system_error thread typeindex typeinfo unordered_map unordered_set valarray vector""".split()
 )
-# Headers that take seconds to compile: one folder hides them from all others.
-HIDDEN = {"CLI/": "tools/arguments", "toml++/": "firmware/boards"}
-LIBRARIES = ("gtest/", "gmock/", "benchmark/", "fmt/", "CLI/", "nlohmann/", "stb/", "toml++/")
+# Headers that take seconds to compile, and one of libmd: one folder hides them from all others.
+HIDDEN = {"CLI/": "tools/arguments", "toml++/": "firmware/boards", "sha2.h": "tools/proof"}
+LIBRARIES = ("gtest/", "gmock/", "benchmark/", "fmt/", "CLI/", "nlohmann/", "stb/", "toml++/", "sha2.h")
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)

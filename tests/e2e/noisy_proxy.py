@@ -9,10 +9,11 @@ class NoisyProxy:
     """A socket between a client and the gateway's socket that damages a share of the bytes, both ways, and breaks after
     so many bytes. Like the gateway's, it serves one client at a time: the next one waits until the last has gone."""
 
-    def __init__(self, path, target, share, seed, breaks_after=None):
+    def __init__(self, path, target, share, seed, breaks_after=None, change=None):
         self.share = share
         self.swallow = 0  # messages of the client that never arrive
         self.left = breaks_after
+        self.change = change  # of what the gateway sends
         self.random = random.Random(seed)
         self.damaged = 0
         self.ends = []
@@ -48,6 +49,8 @@ class NoisyProxy:
                 if data and from_client and self.swallow > 0:
                     self.swallow -= 1
                     continue
+                if self.change and not from_client:
+                    data = self.change(data)
                 for i in range(len(data)):
                     if self.random.random() < self.share:
                         data[i] ^= 1 << self.random.randrange(8)

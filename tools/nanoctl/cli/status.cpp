@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cli/certificates.h"
 #include "cli/session.h"
 #include "nanoctl/words.h"
 
@@ -66,10 +67,19 @@ std::string table_text(std::uint32_t bytes, std::uint32_t crc) {
     return bytes == 0 ? "none" : fmt::format("{}, CRC {:08X}h", terms_text(bytes), crc);
 }
 
+/// Length and CRC of a stored table count its certificate too; of the active one they do not.
+std::string stored_text(const Block& about, const Status& status) {
+    const bool same = about[gw::STORED_BYTES - gw::IDENTITY] != 0 && !status.has(gw::kStoredDiffers);
+    const auto of = [&](gw::Number number) { return about[number - gw::IDENTITY]; };
+    return same ? table_text(of(gw::TABLE_BYTES), of(gw::TABLE_CRC))
+                : table_text(of(gw::STORED_BYTES), of(gw::STORED_CRC));
+}
+
 void show_status(Session& session) {
     session.right_names();
     GatewayClient& gateway = session.gateway();
     const Block about = gateway.read_block(gw::IDENTITY);
+    const std::optional<proof::Digest> digest = read_proof(gateway).digest;
     const Block counters = gateway.read_block(gw::LINK_LOSSES);
     const Status status = session.status();
     const auto of = [&](gw::Number number) { return about[number - gw::IDENTITY]; };
@@ -78,9 +88,9 @@ void show_status(Session& session) {
     std::string text = line_of(status, session.names());
     text +=
         fmt::format("\nfirmware {}, up for {}", version_text(of(gw::FW_VERSION)), time_text(status.uptime));
-    text +=
-        fmt::format("\nactive table {}; stored table {}", table_text(of(gw::TABLE_BYTES), of(gw::TABLE_CRC)),
-                    table_text(of(gw::STORED_BYTES), of(gw::STORED_CRC)));
+    text += fmt::format("\nactive table {}; stored table {}",
+                        table_text(of(gw::TABLE_BYTES), of(gw::TABLE_CRC)), stored_text(about, status));
+    if (digest) text += fmt::format("\ncertificate {}", proof::hex(*digest));
     if ((flags & 1) != 0) text += "\nDAMAGED: a stored table; an older one or none is in use, upload again";
     if ((flags & 2) != 0)
         text += "\nDAMAGED: the stored settings; older or initial ones are in use, set and keep them";
@@ -96,6 +106,7 @@ void show_status(Session& session) {
                      {"table_crc32", of(gw::TABLE_CRC)},
                      {"stored_bytes", of(gw::STORED_BYTES)},
                      {"stored_crc32", of(gw::STORED_CRC)},
+                     {"proof", digest ? proof::hex(*digest) : ""},
                      {"table_damaged", (flags & 1) != 0},
                      {"settings_damaged", (flags & 2) != 0},
                      {"link_losses", count(gw::LINK_LOSSES)},

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/crc32.h"
+#include "cli/certificates.h"
 #include "cli/files.h"
 #include "cli/session.h"
 #include "host/terminal.h"
@@ -19,6 +20,7 @@ using mactalk_client::LineError;
 
 struct UploadOptions {
     std::string file;
+    std::string proof;
     bool stop = false;
     bool only_store = false;
     bool run = false;
@@ -76,26 +78,54 @@ void make_active(Session& session, const UploadOptions& options) {
     }
 }
 
+/// Only a gateway that knows what they are gets the bytes behind the end term.
+void look_for_room(GatewayClient& gateway) {
+    if (!read_proof(gateway).is_taken)
+        throw Refused(
+            gw::Result::no_register, gw::PROOF_BYTES, 0,
+            "the gateway's firmware is too old for certificates: renew it, or upload without --proof");
+}
+
+/// The active table has the digest.
+void confirm(GatewayClient& gateway, const proof::Digest& digest) {
+    if (read_proof(gateway).digest != digest)
+        throw Refused(
+            gw::Result::wrong_check, gw::PROOF, 0,
+            "the active table does not have this certificate; another client changed it, upload it again");
+}
+
 void upload_file(Session& session, const UploadOptions& options) {
     const auto table = read_table(options.file);
     GatewayClient& gateway = session.gateway();
+    std::vector<std::uint8_t> content = table;
+    std::optional<proof::Digest> digest;
+    if (!options.proof.empty()) {
+        digest = certificate_for(options.proof, table);
+        look_for_room(gateway);
+        content = with_digest(table, *digest);
+    }
     double seconds = 0;
     {
         ProgressLine line("sent", session);
-        upload(gateway, table, line.callback());
+        upload(gateway, content, line.callback());
         seconds = line.seconds();
     }
-    if (!options.only_store) make_active(session, options);
+    if (!options.only_store) {
+        make_active(session, options);
+        if (digest) confirm(gateway, *digest);
+    }
     if (options.run) gateway.command(gw::Command::run);
     const std::uint32_t crc = base::crc32(table);
     const std::size_t terms = table.size() / 8 - 1;
-    session.tell(fmt::format("{} of {} {} in {:.1f} s, CRC {:08X}h{}", options.file, terms_text(table.size()),
-                             options.only_store ? "stored" : "stored and active", seconds, crc,
+    session.tell(fmt::format("{} of {} {} in {:.1f} s, CRC {:08X}h{}{}", options.file,
+                             terms_text(table.size()), options.only_store ? "stored" : "stored and active",
+                             seconds, crc, digest ? fmt::format(", certificate {}", options.proof) : "",
                              options.run ? ", started" : ""),
                  {{"file", options.file},
                   {"terms", terms},
                   {"bytes", table.size()},
                   {"crc32", crc},
+                  {"proof", digest ? proof::hex(*digest) : ""},
                   {"active", !options.only_store},
                   {"started", options.run},
                   {"seconds", seconds}});
@@ -103,19 +133,27 @@ void upload_file(Session& session, const UploadOptions& options) {
 
 struct VerifyOptions {
     std::string file;
+    std::string proof;
     bool all_bytes = false;
 };
 
 void verify(Session& session, const VerifyOptions& options) {
-    const auto& [file, all_bytes] = options;
+    const auto& [file, certificate, all_bytes] = options;
     const auto table = read_table(file);
+    std::optional<proof::Digest> asked;
+    if (!certificate.empty()) asked = certificate_for(certificate, table);
     const Block about = session.gateway().read_block(gw::IDENTITY);
+    const std::optional<proof::Digest> kept = read_proof(session.gateway()).digest;
     const std::uint32_t crc = base::crc32(table);
-    const auto is_same = [&](gw::Number crc_at, gw::Number bytes_at) {
-        return about[crc_at - gw::IDENTITY] == crc && about[bytes_at - gw::IDENTITY] == table.size();
+    const auto is_same = [&](std::span<const std::uint8_t> content, gw::Number crc_at, gw::Number bytes_at) {
+        return about[crc_at - gw::IDENTITY] == base::crc32(content) &&
+               about[bytes_at - gw::IDENTITY] == content.size();
     };
-    bool active = is_same(gw::TABLE_CRC, gw::TABLE_BYTES);
-    const bool stored = is_same(gw::STORED_CRC, gw::STORED_BYTES);
+    const auto is_stored_with = [&](const std::optional<proof::Digest>& digest) {
+        return is_same(digest ? with_digest(table, *digest) : table, gw::STORED_CRC, gw::STORED_BYTES);
+    };
+    bool active = is_same(table, gw::TABLE_CRC, gw::TABLE_BYTES) && (!asked || asked == kept);
+    const bool stored = is_stored_with(asked) || (!asked && is_stored_with(kept));
     if (active && all_bytes) {
         ProgressLine line("read", session);
         active = download(session.gateway(), line.callback()) == table;
@@ -126,10 +164,11 @@ void verify(Session& session, const VerifyOptions& options) {
             fmt::format("{}: the gateway has no table, neither stored nor active; upload it", file));
     if (!active || !stored)
         throw Refused(gw::Result::wrong_check, gw::TABLE_CRC, 0,
-                      fmt::format("{}: {} table of the gateway is another one", file,
+                      fmt::format("{}: {} table of the gateway is another one{}", file,
                                   active   ? "the stored"
                                   : stored ? "the active"
-                                           : "the stored and the active"));
+                                           : "the stored and the active",
+                                  asked ? ", or has not this certificate" : ""));
     session.tell(
         fmt::format("{}: stored and active in the gateway, CRC {:08X}h{}", file, crc,
                     all_bytes ? ", every byte read" : ""),
@@ -169,6 +208,10 @@ void add_transfers(arguments::App& app, Common& common) {
                     "stopped for that, and the motor stand still (it is waited for 5 s)",
                     upload_file);
     up.add_option("table", options.file, "The table that seqc built, F.bin or F.hex")->required();
+    up.add_option(
+          "--proof", options.proof,
+          "The table's certificate, of seqc verify --proof; without one the gateway forgets the last one")
+        ->type_name("F.proof");
     up.add_flag("--stop", options.stop, "Stop the sequence first if it runs");
     up.add_flag("--run", options.run, "Start the sequence afterwards");
     up.add_flag("--only-store", options.only_store,
@@ -179,6 +222,7 @@ void add_transfers(arguments::App& app, Common& common) {
     auto [check, verified] =
         add_command(app, common, "verify", "Is this table the stored and the active one?", verify);
     check.add_option("table", verified.file, "The table, F.bin or F.hex")->required();
+    check.add_option("--proof", verified.proof, "And with this certificate?")->type_name("F.proof");
     check.add_flag("--bytes", verified.all_bytes, "Read every byte back, not only length and CRC");
 
     auto [down, target] =

@@ -12,6 +12,7 @@
 #include "cli/json.h"
 #include "cli/subcommands.h"
 #include "cli/verify_emit.h"
+#include "cli/verify_proof.h"
 #include "sequencer/table.h"
 #include "verify/story.h"
 #include "views/line_time.h"
@@ -35,6 +36,7 @@ struct VerifyArguments {
     std::string scenario;
     std::string emit;
     std::string output;
+    std::string proof;
     bool json = false;
 };
 
@@ -250,8 +252,8 @@ int write_courses(const verify::Report& report, const VerifyArguments& options, 
 /// What does not go together.
 std::string contradiction(const VerifyArguments& options) {
     if (options.emit.empty()) return options.output.empty() ? "" : "-o goes with --emit";
-    if (options.json || !options.scenario.empty() || !options.stimulus.empty())
-        return "--emit decides nothing: it does not go with --json, --scenario or --stimulus";
+    if (options.json || !options.scenario.empty() || !options.stimulus.empty() || !options.proof.empty())
+        return "--emit decides nothing: it does not go with --json, --scenario, --stimulus or --proof";
     if (options.assume != "any") {
         return "--emit writes what --assume any asks, so say --assume any: the debounce time, the times of "
                "orders and the lost link of --assume driver are not written for foreign checkers";
@@ -295,6 +297,11 @@ int run(const VerifyArguments& options) {
     const verify::Report report = verify::verify(loaded.table, names, properties, how);
     if (const int written = write_courses(report, options, names); written != kOk) return written;
     const int verdict = exit_code_of(report);
+    if (!options.proof.empty()) {
+        const int written = write_certificate(options.proof, report, verdict == kOk, input, options.assume,
+                                              assumption_text(options.assume));
+        if (written != kOk) return written;
+    }
     if (options.json) return print_json(document_of(report, options, input, names), verdict);
     const int printed = print_or_write(text_of(report, options, input, names), {});
     return printed == kOk ? verdict : printed;
@@ -329,6 +336,10 @@ void add_verify(arguments::App& app, int& exit_code) {
         ->one_of({"promela", "smt2"});
     command.add_option("-o,--output", options->output, "Where --emit writes, instead of standard output (-)")
         ->type_name("FILE");
+    command
+        .add_option("--proof", options->proof,
+                    "Write a certificate of the table, for nanoctl upload --proof, if all is proved")
+        ->type_name("F.proof");
     command.footer(
         "Exit codes: 0 all properties proved, 1 one is broken, 4 none is broken and one is undecided,\n"
         "2 wrong usage, a program with errors, or a file that cannot be read, written or understood.");
