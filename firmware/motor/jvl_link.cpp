@@ -8,6 +8,11 @@ namespace {
 
 using protocol::fastmac::Status;
 
+constexpr base::Microseconds kLongestMessage{250'000};  ///< from its first byte to its echo, resends included
+constexpr std::uint8_t kMostResends = 3;
+/// Status bytes in a row, received after the whole message, that must show the old toggle before it is sent
+/// again. The first of them may have been on its way already, so 2 is the least.
+constexpr std::uint8_t kProofBytes = 3;
 constexpr std::uint8_t kStrangeBytes = 4;
 constexpr int kReadsPerPoll = 1024;  // far more than any port holds back
 constexpr base::Microseconds kTick{1};
@@ -114,9 +119,8 @@ base::Instant JvlLink::next_poll(base::Instant now) const {
     if (!adopted_) return next;
     not_after(last_status_ + settings_.silence + kTick);
     if (!busy()) return next;
-    not_after(started_ + settings_.longest_message + kTick);
-    if (old_shown_ >= settings_.proof_bytes && !repeat_is_harmless())
-        not_after(left_at_ + settings_.proof_time);
+    not_after(started_ + kLongestMessage + kTick);
+    if (old_shown_ >= kProofBytes && !repeat_is_harmless()) not_after(left_at_ + settings_.proof_time);
     return next;
 }
 
@@ -237,14 +241,14 @@ JvlLink::Result JvlLink::judge(base::Instant now) {
 }
 
 bool JvlLink::is_proven_lost(base::Instant now) const {
-    if (old_shown_ < settings_.proof_bytes) return false;
+    if (old_shown_ < kProofBytes) return false;
     return repeat_is_harmless() || now - left_at_ >= settings_.proof_time;
 }
 
 JvlLink::Result JvlLink::judge_message(base::Instant now) {
-    if (now - started_ > settings_.longest_message) return Result::refused;
+    if (now - started_ > kLongestMessage) return Result::refused;
     if (!is_proven_lost(now)) return Result::none;
-    if (resends_ == settings_.most_resends) return Result::refused;
+    if (resends_ == kMostResends) return Result::refused;
     ++resends_;
     ++resent_;
     rewind(now);

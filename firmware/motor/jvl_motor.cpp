@@ -22,7 +22,7 @@ JvlMotor::JvlMotor(ports::SerialPort& port, const Settings& settings)
     : safe_communication_(settings.safe_communication),
       register_code_(settings.register_code),
       registers_are_32_bit_(settings.registers_are_32_bit),
-      sample_period_(settings.sample_period),
+      hold_time_(2 * settings.sample_period),
       link_(port, settings.link) {}
 
 void JvlMotor::poll(base::Instant now) {
@@ -46,7 +46,7 @@ void JvlMotor::begin_orders(base::Instant now) {
     if (link_.busy()) return;
     follow_access(now);
     if (reply_until_ && !stop_wanted_ && orders_.empty()) return;
-    if (phase_ == Phase::up) {
+    if (is_up()) {
         work(now);
     } else {
         start_up(now);
@@ -64,15 +64,12 @@ base::Instant JvlMotor::next_poll(base::Instant now) const {
 }
 
 void JvlMotor::lose_link(base::Instant now) {
-    counters_.discarded +=
-        static_cast<std::uint32_t>(orders_.size()) + (sending_ == Sending::order ? 1U : 0U);
-    orders_.clear();
+    orders_.discard_all();
     if (was_up_) {
         link_error_ = true;
-        ++counters_.link_losses;
+        ++losses_;
     }
-    if (access_state_ == AccessState::waiting || access_state_ == AccessState::under_way)
-        end_access(AccessState::failed);
+    access_.fail_open();
     was_up_ = safe_now_ = slowed_ = holds_ = for_access_ = false;
     reply_until_.reset();
     sending_ = Sending::nothing;
@@ -90,22 +87,23 @@ void JvlMotor::on_accepted(base::Instant now) {
             phase_ = static_cast<Phase>(static_cast<int>(phase_) + 1);
             break;
         case Sending::order:
-            on_executed(current_, now);
+            orders_.end();
+            on_executed(orders_.current(), now);
             break;
         case Sending::stop:
             stop_wanted_ = false;
             hold_in_position(now);
             break;
         case Sending::access:
-            if (access_.is_write) {
-                hold_in_position(now);
-                end_access(AccessState::done);
-            } else {
+            if (!access_.access().is_write) {
                 reply_until_ = now + kLateReply;
+                break;
             }
+            access_.finish();
+            hold_in_position(now);
             break;
     }
-    if (phase_ == Phase::up && !was_up_) {
+    if (is_up() && !was_up_) {
         was_up_ = true;
         safe_now_ = safe_communication_;
         link_.clear_framing_error();
@@ -113,7 +111,6 @@ void JvlMotor::on_accepted(base::Instant now) {
 }
 
 void JvlMotor::on_executed(const Order& order, base::Instant now) {
-    ++counters_.orders;
     if (makes_in_position_stale(order)) hold_in_position(now);
     if (order.is_register_write) return;
     if (order.command == command_byte(Number::reset_error)) link_error_ = false;
@@ -172,17 +169,16 @@ void JvlMotor::free_the_line(base::Instant now) {
 
 /// Something would be sent.
 bool JvlMotor::has_work() const {
-    if (phase_ != Phase::up) return phase_ != Phase::down;
+    if (!is_up()) return phase_ != Phase::down;
     if (stop_wanted_ || !orders_.empty()) return true;
     if (reply_until_) return false;
-    return access_state_ == AccessState::waiting || link_.flexmac() ||
-           (link_.framing_error_seen() && !slowed_);
+    return access_.waits() || link_.flexmac() || (link_.framing_error_seen() && !slowed_);
 }
 
 void JvlMotor::work(base::Instant now) {
     const bool in_flexmac = link_.flexmac();
     const bool writes = stop_wanted_ || (!orders_.empty() && orders_.front().is_register_write);
-    const bool accesses = !stop_wanted_ && orders_.empty() && access_state_ == AccessState::waiting;
+    const bool accesses = !stop_wanted_ && orders_.empty() && access_.waits();
     if (in_flexmac && !writes && !accesses) {
         sending_ = Sending::link_command;
         return link_.leave_flexmac(now);
@@ -201,10 +197,9 @@ void JvlMotor::work(base::Instant now) {
     }
     if (accesses) return send_access(now);
     if (orders_.empty()) return;
-    current_ = orders_.front();
-    orders_.pop();
-    if (current_.is_register_write) return write_register(Sending::order, current_, now);
-    command(Sending::order, current_.command, now);
+    const Order& order = orders_.begin();
+    if (order.is_register_write) return write_register(Sending::order, order, now);
+    command(Sending::order, order.command, now);
 }
 
 void JvlMotor::write_register(Sending what, const Order& order, base::Instant now) {
@@ -217,19 +212,15 @@ void JvlMotor::write_register(Sending what, const Order& order, base::Instant no
 }
 
 void JvlMotor::send_access(base::Instant now) {
-    access_state_ = AccessState::under_way;
+    const Access& access = access_.access();
+    access_.start();
     sending_ = Sending::access;
-    const protocol::flexmac::Message message{.read = !access_.is_write,
-                                             .longword = access_.longword,
+    const protocol::flexmac::Message message{.read = !access.is_write,
+                                             .longword = access.longword,
                                              .level = protocol::flexmac::Level::reg,
-                                             .target = access_.reg,
-                                             .value = access_.is_write ? access_.value : 0};
-    access_.is_write ? link_.send_flexmac(message, now) : link_.send_read(message, now);
-}
-
-void JvlMotor::end_access(AccessState state) {
-    ++(state == AccessState::done ? counters_.accesses : counters_.access_fails);
-    access_state_ = state;
+                                             .target = access.reg,
+                                             .value = access.is_write ? access.value : 0};
+    access.is_write ? link_.send_flexmac(message, now) : link_.send_read(message, now);
 }
 
 /// The answer to a read that the motor has accepted.
@@ -238,26 +229,13 @@ void JvlMotor::follow_access(base::Instant now) {
     const auto value = link_.take_reply();
     if (!value && now < *reply_until_) return;
     reply_until_.reset();
-    if (access_state_ != AccessState::under_way) return;
-    access_value_ = value.value_or(0);
-    end_access(value ? AccessState::done : AccessState::failed);
-}
-
-bool JvlMotor::begin_access(const Access& access) {
-    if (phase_ != Phase::up) return false;
-    if (access_state_ == AccessState::waiting || access_state_ == AccessState::under_way) return false;
-    access_ = access;
-    access_state_ = AccessState::waiting;
-    return true;
-}
-
-void JvlMotor::drop_access() {
-    if (access_state_ != AccessState::under_way) access_state_ = AccessState::none;
+    if (!access_.is_under_way()) return;
+    value ? access_.finish(*value) : access_.fail();
 }
 
 void JvlMotor::command(Sending what, std::uint8_t command, base::Instant now) {
     sending_ = what;
-    const bool twice = safe_now_ || phase_ != Phase::up;
+    const bool twice = safe_now_ || !is_up();
     link_.send_command(on_the_wire(command), twice ? 2 : 1, now);
 }
 
@@ -266,52 +244,48 @@ std::uint8_t JvlMotor::on_the_wire(std::uint8_t command) const {
     return is_own_code ? command : recoded(command, register_code_);
 }
 
-void JvlMotor::send(const Order& order) {
-    if (phase_ != Phase::up || !orders_.push(order)) ++counters_.discarded;
-}
-
 /// R: a MAC800 knows longwords only.
 bool JvlMotor::can_execute(const Order& order) const {
     return !order.is_register_write || order.longword || !registers_are_32_bit_;
 }
 
 void JvlMotor::stop() {
-    counters_.discarded += static_cast<std::uint32_t>(orders_.size());
-    orders_.clear();
-    if (access_state_ == AccessState::waiting) end_access(AccessState::failed);
+    orders_.discard_waiting();
+    access_.fail_waiting();
     stop_wanted_ = true;
 }
 
 bool JvlMotor::settled() const {
-    if (phase_ != Phase::up) return true;
+    if (!is_up()) return true;
     const bool wants_slow = link_.framing_error_seen() && !slowed_;
     if (for_access_) return orders_.empty() && !stop_wanted_;
     return !link_.busy() && orders_.empty() && !stop_wanted_ && !link_.flexmac() && !wants_slow;
 }
 
 Counters JvlMotor::counters() const {
-    Counters counters = counters_;
-    counters.resent = link_.resent();
+    Counters counters{.link_losses = losses_, .resent = link_.resent()};
+    orders_.count(counters);
+    access_.count(counters);
     return counters;
 }
 
 bool JvlMotor::in_position() const {
-    return phase_ == Phase::up && !holds_ && !link_error_ && link_.status().in_position;
+    return is_up() && !holds_ && !link_error_ && link_.status().in_position;
 }
 
 bool JvlMotor::error() const {
-    return link_error_ || (phase_ == Phase::up && link_.status().error);
+    return link_error_ || (is_up() && link_.status().error);
 }
 
 Link JvlMotor::link() const {
     if (phase_ == Phase::down) return Link::down;
-    if (phase_ != Phase::up) return Link::starting;
+    if (!is_up()) return Link::starting;
     return link_error_ ? Link::unacknowledged : Link::up;
 }
 
 void JvlMotor::hold_in_position(base::Instant now) {
     holds_ = true;
-    hold_until_ = now + 2 * sample_period_;
+    hold_until_ = now + hold_time_;
     hold_counts_ = false;
 }
 

@@ -7,177 +7,108 @@ namespace nplc::motor {
 namespace {
 
 namespace midi = registers::midi;
+using registers::A_SOLL;
+using registers::INPOSWIN;
+using registers::MODE_REG;
+using registers::T_SOLL;
+using registers::V_SOLL;
 using Kind = MidiOutcome::Kind;
 
+constexpr std::uint8_t kMostRepeats = 3;  ///< of one command
 constexpr base::Microseconds kRetry{20'000};
-/// Between two messages while nobody answers.
-constexpr base::Microseconds kProbe{100'000};
 constexpr std::uint8_t kMostRefusals = 50;  ///< of a command that waits for standstill
 /// With a motion that nobody knows of; then it is ended.
 constexpr base::Microseconds kPatience{1'000'000};
-/// 000 §VI 00h: two seconds, and a little.
-constexpr base::Microseconds kDeaf{2'100'000};
-/// While answers cannot be read.
-constexpr std::uint8_t kBlindStops = 3;
-/// Beyond the ramp's own time.
-constexpr base::Microseconds kStopLate{500'000};
+/// Between two queries while something moves, and while nothing does.
+constexpr base::Microseconds kPace{5'000};
+constexpr base::Microseconds kRestPace{20'000};
+constexpr std::uint8_t kCommandMode = 3;
+constexpr std::uint8_t kNop = 0x60;
+
+/// ERR_STAT (001 §3.2.35).
+enum ErrorBit : std::uint32_t {
+    kI2t = 1U << 0,
+    kFollow = 1U << 1,
+    kUit = 1U << 3,
+    kInPos = 1U << 4,
+    kPositionLimit = 1U << 7,
+    kRelative = 1U << 9,
+};
+
+constexpr std::uint32_t bit(bool set, std::uint32_t mask) {
+    return set ? mask : 0;
+}
 
 constexpr MidiMessage query(midi::Query number) {
     return {.is_query = true, .number = number};
 }
 
-/// 240 x AA periods of 0.125 us (R: the ramp's 15 steps take as long each).
-constexpr base::Microseconds ramp_time(std::uint8_t ramp, std::uint16_t period) {
-    return base::Microseconds(std::uint32_t{30} * ramp * period);
+constexpr MidiMessage command(midi::Command number, std::uint32_t data = 0) {
+    return {.number = number, .data = data};
 }
 
 }  // namespace
 
-MidiMotor::MidiMotor(MidiLink& link, const Settings& settings) : link_(link), model_(settings.model) {}
-
 void MidiMotor::poll(base::Instant now) {
     const MidiOutcome outcome = link_.poll(now);
     if (outcome.kind != Kind::none) on_outcome(outcome, now);
-    if (link_.take_boot()) on_boot(now);
+    if (link_.take_boot() && session_.on_boot(now)) {
+        lose_link(MidiFault::restarted, now);
+        session_.ask_at(now);
+    }
     look_for_trouble(now);
     work(now);
 }
 
 base::Instant MidiMotor::next_poll(base::Instant now) const {
     if (link_.busy()) return link_.next_poll(now);
-    base::Instant next = link_.next_poll(now);
-    if (phase_ == Phase::resetting) return std::min(next, deaf_until_);
-    if (phase_ != Phase::down && (phase_ != Phase::up || has_work())) return now;
-    next = std::min(next, next_query_);
-    if (phase_ == Phase::up && refusals_ != 0 && retry_at_ > now) next = std::min(next, retry_at_);
-    if (phase_ == Phase::up && motion_ == Motion::stopping) next = std::min(next, std::max(now, ramp_end_));
+    base::Instant next = std::min(link_.next_poll(now), session_.next_send(has_work(), now));
+    if (!session_.is_up()) return next;
+    if (refusals_ != 0 && retry_at_ > now) next = std::min(next, retry_at_);
+    if (motion_.state() == MidiMotion::State::stopping)
+        next = std::min(next, std::max(now, motion_.ramp_end()));
     return next;
 }
 
 bool MidiMotor::has_work() const {
-    return resync_ || stop_wanted_ || reset_wanted_ || zero_wanted_ || base_ != 0 || order_open_ ||
-           !orders_.empty() || !status_is_new_ || doubtful_ || is_open(access_state_);
+    return stop_wanted_ || reset_wanted_ || zero_wanted_ || registers_.awaits_position() ||
+           orders_.is_executing() || !orders_.empty() || !status_is_new_ || motion_.is_doubtful() ||
+           access_.is_open();
 }
 
-void MidiMotor::work(base::Instant now) {
-    if (link_.busy()) return;
-    const Message message = next_message(now);
-    if (!message) return;
-    message_ = *message;
-    asked_at_ = static_cast<std::uint32_t>(now.time_since_epoch().count());
-    link_.begin(message_, now);
-}
-
-MidiMotor::Message MidiMotor::next_message(base::Instant now) {
-    if (phase_ == Phase::down) {
-        if (now < next_query_) return {};
-        next_query_ = now + kProbe;
-        if (blind_stops_ == 0) return query(midi::GET_STATUS);
-        --blind_stops_;
-        return MidiMessage{.number = midi::EMERGENCY_STOP};
-    }
-    if (phase_ != Phase::up) {
-        if (phase_ == Phase::resetting && now >= deaf_until_) phase_ = Phase::status;
-        return start_up_query();
-    }
-    if (resync_) return query(midi::GET_STATUS);
-    for (;;) {
-        if (const Message command = next_command(now)) return command;
-        if (zero_unclear_ || base_ != 0) return query(midi::GET_POSITION);
-        if (doubtful_) return next_query(now);
-        if (std::exchange(order_open_, false)) ++counters_.orders;
-        if (orders_.empty()) break;
-        const Order order = orders_.front();
-        orders_.pop();
-        order_open_ = true;
-        execute(order);
-    }
-    if (!status_is_new_) return query(midi::GET_STATUS);
-    if (const Message access = serve_access()) return access;
-    return next_query(now);
-}
-
-MidiMotor::Message MidiMotor::start_up_query() const {
-    switch (phase_) {
-        case Phase::status:
-            return query(midi::GET_STATUS);
-        case Phase::imax:
-            return MidiMessage{.is_query = true, .number = midi::GET_RAM, .sub_index = midi::kImaxAddress};
-        case Phase::speeds:
-            return query(midi::GET_SPEEDS);
-        case Phase::settings:
-            return query(midi::GET_SETTINGS);
-        case Phase::position:
-            return query(midi::GET_POSITION);
-        case Phase::down:
-        case Phase::up:
-        case Phase::resetting:
-            break;
-    }
-    return {};
-}
-
-MidiMotor::Message MidiMotor::next_query(base::Instant now) {
-    if (!doubtful_ && now < next_query_) return {};
-    turn_ = static_cast<std::uint8_t>(turn_ == 2 ? 0 : turn_ + 1);
-    if (turn_ == 2 && (moves() || needs_position())) return query(midi::GET_POSITION);
-    if (turn_ == 2) turn_ = 0;
-    return query(turn_ == 0 ? midi::GET_STATUS : midi::GET_MEASURES);
-}
-
-/// R: it says so on CAN only; on a serial line its two deaf seconds tell.
-void MidiMotor::on_boot(base::Instant now) {
-    if (phase_ == Phase::resetting) {
-        deaf_until_ = now;
-    } else if (phase_ == Phase::down) {
-        next_query_ = now;
-    } else {
-        lose_link(MidiFault::restarted, now);
-        next_query_ = now;
-    }
-}
+// How messages end.
 
 /// Both drives obey the stop, and where answers come damaged the requests may be understood.
 void MidiMotor::look_for_trouble(base::Instant now) {
     const MidiTrouble trouble = link_.trouble();
     if (trouble == MidiTrouble::none) return;
-    const bool down = phase_ == Phase::down;
+    const bool down = session_.is_down();
     if (trouble == MidiTrouble::no_bus) return down ? void() : lose_link(MidiFault::link_lost, now);
     if (down && fault_ == MidiFault::several) return;
-    was_up_ = true;  // told of at a start too, and before what is not acknowledged yet
+    session_.expect_up();  // told of at a start too, and before what is not acknowledged yet
     fault_ = MidiFault::none;
     lose_link(MidiFault::several, now);
 }
 
 void MidiMotor::drop_orders() {
-    counters_.discarded += static_cast<std::uint32_t>(orders_.size()) + (order_open_ ? 1U : 0U);
-    orders_.clear();
-    order_open_ = false;
+    orders_.discard_all();
     link_.withdraw();
 }
 
 void MidiMotor::lose_link(MidiFault why, base::Instant now) {
     drop_orders();
-    if (was_up_) {
-        raise(why);
-        link_error_ = true;
-        ++counters_.link_losses;
-    }
-    if (is_open(access_state_)) end_access(AccessState::failed);
-    was_up_ = resetting_ = reset_wanted_ = resync_ = doubtful_ = goal_holds_ = false;
-    phase_ = Phase::down;
-    failures_ = repeats_ = refusals_ = 0;
-    next_query_ = now + kProbe;
-    ignore_ = link_.busy();
-    if (why == MidiFault::link_lost || why == MidiFault::restarted) return;
-    blind_stops_ = kBlindStops;
-    next_query_ = now;
+    const bool stop_blindly = why != MidiFault::link_lost && why != MidiFault::restarted;
+    if (session_.lose(link_.busy(), stop_blindly, now)) raise(why);
+    access_.fail_open();
+    reset_wanted_ = false;
+    motion_.forget_goal();
+    repeats_ = refusals_ = 0;
 }
 
 void MidiMotor::on_outcome(const MidiOutcome& outcome, base::Instant now) {
-    if (std::exchange(ignore_, false)) return;
+    if (session_.ends_old_message()) return;
     // A probe: its answer counts as soon as only one module gives it.
-    if (phase_ == Phase::down) {
+    if (session_.is_down()) {
         probe_ = outcome;
         if (outcome.kind != Kind::value || link_.trouble() != MidiTrouble::none) return;
     }
@@ -185,56 +116,131 @@ void MidiMotor::on_outcome(const MidiOutcome& outcome, base::Instant now) {
         case Kind::none:
             return;
         case Kind::accepted:
-            failures_ = 0;
+            session_.note_success();
             return on_accepted(now);
         case Kind::value:
-            failures_ = 0;
+            session_.note_success();
             return on_value(outcome.value, now);
         case Kind::refused:
-            if (!message_.is_query || phase_ == Phase::imax) return on_refused(now);
+            if (session_.skips_refused()) return session_.note_success();
+            if (!message_.is_query) return on_refused(now);
             [[fallthrough]];
         case Kind::not_taken:
         case Kind::unclear:
-            if (++failures_ >= kMostRepeats)
+            if (session_.note_failure())
                 return lose_link(outcome.damaged ? MidiFault::unreadable : MidiFault::link_lost, now);
             if (outcome.kind != Kind::not_taken) return on_unclear(now);
-            ++counters_.resent;
+            ++resent_;
+    }
+}
+
+void MidiMotor::on_accepted(base::Instant now) {
+    status_is_new_ = false;
+    repeats_ = 0;
+    motion_.begin_command();
+    switch (message_.number) {
+        case midi::ZERO_POSITION:
+            zero_wanted_ = false;
+            drive_.set_origin();
+            return motion_.begin_origin();
+        case midi::TORQUE:
+            return drive_.set_torque(message_.data);
+        case midi::TOLERANCE:
+            return drive_.set_tolerance(message_.data);
+        case midi::SPEED:
+            refusals_ = 0;
+            return drive_.set_period(message_.data);
+        case midi::RAMP:
+            refusals_ = 0;
+            return drive_.set_ramp(message_.data);
+        case midi::GO_TO:
+            refusals_ = 0;
+            motion_.begin_move(static_cast<std::int32_t>(message_.data));
+            break;
+        case midi::RUN:
+            refusals_ = 0;
+            motion_.begin_run(message_.data, drive_, now);
+            break;
+        case midi::RESET:
+            return begin_reset(now);
+        default:
+            stop_wanted_ = stop_hard_ = false;
+            motion_.begin_stop(drive_, now);
+            break;
+    }
+    session_.ask_at(now);
+}
+
+void MidiMotor::on_value(std::uint32_t value, base::Instant now) {
+    drive_.take_answer(message_.number, value, now);
+    if (message_.number == midi::GET_STATUS) on_status();
+    if (message_.number == midi::GET_MEASURES) motion_.on_measures(drive_, now);
+    if (message_.number == midi::GET_POSITION) on_position(now);
+    if (session_.on_answer(motion_.at_rest() ? kRestPace : kPace, now)) motion_.restart();
+}
+
+/// 003 §VII 01h: a trip cuts the power.
+void MidiMotor::on_status() {
+    status_is_new_ = true;
+    if (!session_.is_up() || !drive_.trips()) return;
+    raise(MidiFault::tripped);
+    motion_.end_by_trip();
+}
+
+void MidiMotor::on_position(base::Instant now) {
+    if (std::exchange(zero_unclear_, false) && drive_.position() == 0) {
+        zero_wanted_ = false;
+        motion_.drop_goal();
+    }
+    registers_.on_position(drive_.counts());
+    if (access_.is_under_way() && !access_.access().is_write) finish_read();
+    on_motion(motion_.on_position(drive_, asked_at_, now));
+}
+
+void MidiMotor::on_motion(MidiMotion::Event event) {
+    switch (event) {
+        case MidiMotion::Event::none:
+            return;
+        case MidiMotion::Event::jumped:
+            return raise(MidiFault::jumped);
+        case MidiMotion::Event::end_stop:
+            return raise(MidiFault::end_stop);
+        case MidiMotion::Event::not_arrived:
+            return raise_and_stop(MidiFault::not_arrived);
+        case MidiMotion::Event::not_taken:
+            if (repeats_ > kMostRepeats) return raise_and_stop(MidiFault::unclear);
+            ++resent_;
     }
 }
 
 /// Parameters and stops may be sent again. A motion is asked after; a change of a run's speed and a new
 /// origin in mid-motion leave no trace that could be.
 void MidiMotor::on_unclear(base::Instant now) {
-    resync_ = phase_ == Phase::up;
+    session_.ask_first();
     if (message_.is_query) return;
-    const bool in_run = message_.number == midi::RUN && motion_ == Motion::running;
-    const bool moved_origin = message_.number == midi::ZERO_POSITION && motion_ != Motion::at_rest;
+    const bool in_run = message_.number == midi::RUN && motion_.state() == MidiMotion::State::running;
+    const bool moved_origin = message_.number == midi::ZERO_POSITION && !motion_.at_rest();
     if (in_run || moved_origin || ++repeats_ > kMostRepeats) {
         forget_parameter();
         raise(MidiFault::unclear);
         stop_wanted_ = true;
     } else if (message_.number == midi::ZERO_POSITION) {
         zero_unclear_ = true;
-        watched_ = false;
+        motion_.stop_watching();
     } else if (message_.number == midi::RESET) {
         begin_reset(now);
     } else if (message_.number == midi::GO_TO || message_.number == midi::RUN) {
         const std::uint8_t repeats = repeats_;
         on_accepted(now);
         repeats_ = repeats;
-        doubtful_ = true;
+        motion_.doubt();
     } else {
-        ++counters_.resent;
+        ++resent_;
     }
 }
 
 void MidiMotor::on_refused(base::Instant now) {
-    if (phase_ == Phase::imax) {
-        failures_ = 0;
-        phase_ = Phase::speeds;  // 80h stays
-        return;
-    }
-    failures_ = 0;
+    session_.note_success();
     status_is_new_ = false;
     switch (message_.number) {
         case midi::GO_TO:
@@ -247,8 +253,7 @@ void MidiMotor::on_refused(base::Instant now) {
             return;
         case midi::EMERGENCY_STOP:
             stop_wanted_ = stop_hard_ = false;
-            motion_ = Motion::unknown;
-            steady_begun_ = seen_moving_ = false;
+            motion_.forget();
             break;
         default:
             forget_parameter();
@@ -257,134 +262,337 @@ void MidiMotor::on_refused(base::Instant now) {
     raise(MidiFault::refused);
 }
 
-/// It moves, whatever was thought of it.
+/// It moves, whatever the driver has concluded before.
 void MidiMotor::on_refused_motion(base::Instant now) {
-    if (refusals_ == 0) ramp_end_ = std::max(ramp_end_, now + kPatience);
+    motion_.wait_for_rest(refusals_ == 0 ? now + kPatience : base::Instant{});
     retry_at_ = now + kRetry;
-    motion_ = Motion::stopping;
-    steady_begun_ = goal_holds_ = false;
     if (++refusals_ > kMostRefusals) raise(MidiFault::refused);
 }
 
 /// What cannot be brought into the module must not be tried for ever.
 void MidiMotor::forget_parameter() {
     repeats_ = 0;
-    if (message_.number == midi::TORQUE) registers_.unset(registers::T_SOLL);
-    if (message_.number == midi::TOLERANCE) registers_.unset(registers::INPOSWIN);
+    if (message_.number == midi::TORQUE) registers_.unset(T_SOLL);
+    if (message_.number == midi::TOLERANCE) registers_.unset(INPOSWIN);
     if (message_.number == midi::RESET) reset_wanted_ = false;
     zero_wanted_ = zero_unclear_ = false;
 }
 
-void MidiMotor::on_accepted(base::Instant now) {
-    status_is_new_ = steady_begun_ = measured_ = false;
-    repeats_ = 0;
-    const auto data = message_.data;
-    switch (message_.number) {
-        case midi::ZERO_POSITION:
-            zero_wanted_ = goal_holds_ = arrived_ = false;
-            position_at_ = {};
-            watched_ = false;
-            return;
-        case midi::TORQUE:
-            torque_ = static_cast<std::uint8_t>(data);
-            return;
-        case midi::TOLERANCE:
-            tolerance_ = static_cast<std::uint8_t>(data);
-            return;
-        case midi::SPEED:
-            period_ = static_cast<std::uint16_t>(data);
-            refusals_ = 0;
-            return;
-        case midi::RAMP:
-            ramp_ = static_cast<std::uint8_t>(data);
-            refusals_ = 0;
-            return;
-        case midi::GO_TO:
-            goal_ = static_cast<std::int32_t>(data);
-            begin_motion(Motion::going, now);
-            goal_holds_ = true;
-            return;
-        case midi::RUN:
-            run_period_ = static_cast<std::uint16_t>(data);
-            left_ = data >> 16 == midi::kTurnsLeft;
-            ramp_end_ = now + ramp_time(ramp_, run_period_);
-            return begin_motion(Motion::running, now);
-        case midi::RESET:
-            return begin_reset(now);
-        default:
-            return begin_stop(now);
-    }
-}
-
-void MidiMotor::begin_motion(Motion motion, base::Instant now) {
-    motion_ = motion;
-    refusals_ = 0;
-    doubtful_ = watched_ = arrived_ = at_speed_ = goal_holds_ = false;
-    next_query_ = now;
-}
-
-/// 003 §IV: catching up is ended by 18h only, so a stop that takes longer than its ramp is helped on.
-void MidiMotor::begin_stop(base::Instant now) {
-    stop_wanted_ = stop_hard_ = false;
-    goal_holds_ = arrived_ = at_speed_ = doubtful_ = seen_moving_ = false;
-    if (motion_ != Motion::at_rest) motion_ = Motion::stopping;
-    ramp_end_ = now + ramp_time(ramp_, std::max(run_period_, period_)) + kStopLate;
-    next_query_ = now;
-}
-
-/// 000 §VI 00h. The position stays (R: "a status similar to the startup status").
+/// The position stays (R: "a status similar to the startup status").
 void MidiMotor::begin_reset(base::Instant now) {
-    reset_wanted_ = link_error_ = resync_ = goal_holds_ = false;
+    reset_wanted_ = false;
     fault_ = MidiFault::none;
-    resetting_ = true;
-    phase_ = Phase::resetting;
-    deaf_until_ = now + kDeaf;
-    counters_.orders += order_open_ ? 1U : 0U;
-    order_open_ = false;
+    motion_.drop_goal();
+    session_.begin_reset(now);
+    orders_.end();
     drop_orders();
-    if (is_open(access_state_)) end_access(AccessState::failed);
+    access_.fail_open();
 }
 
-void MidiMotor::send(const Order& order) {
-    if (phase_ != Phase::up || !orders_.push(order)) ++counters_.discarded;
+/// The first reason counts. The drive is led to a stop.
+void MidiMotor::raise(MidiFault fault, Lack lack) {
+    if (fault_ == MidiFault::none) {
+        fault_ = fault;
+        lack_ = lack;
+    }
+    registers_.set_word(MODE_REG, 0);
+    registers_.drop_awaited();
+    refusals_ = 0;
+    zero_wanted_ = zero_unclear_ = false;
+}
+
+/// What it was told may still wait, for another master's SYNC; 18h ends that too.
+void MidiMotor::raise_and_stop(MidiFault fault) {
+    raise(fault);
+    stop_wanted_ = stop_hard_ = true;
+}
+
+// Which message is sent next.
+
+void MidiMotor::work(base::Instant now) {
+    if (link_.busy()) return;
+    const Message message = next_message(now);
+    if (!message) return;
+    message_ = *message;
+    asked_at_ = static_cast<std::uint32_t>(now.time_since_epoch().count());
+    link_.begin(message_, now);
+}
+
+MidiMotor::Message MidiMotor::next_message(base::Instant now) {
+    if (!session_.is_up()) return session_.start_up(now);
+    if (session_.must_ask()) return query(midi::GET_STATUS);
+    for (;;) {
+        if (const Message command = next_command(now)) return command;
+        if (zero_unclear_ || registers_.awaits_position()) return query(midi::GET_POSITION);
+        if (motion_.is_doubtful()) return next_query(now);
+        orders_.end();
+        if (orders_.empty()) break;
+        execute(orders_.begin());
+    }
+    if (!status_is_new_) return query(midi::GET_STATUS);
+    if (const Message access = next_access()) return access;
+    return next_query(now);
+}
+
+MidiMotor::Message MidiMotor::next_query(base::Instant now) {
+    return session_.next_query(motion_.moves() || motion_.needs_position(drive_), motion_.is_doubtful(), now);
+}
+
+/// What can be sent at once to lead the drive to what the registers say; nothing while that has to wait for
+/// standstill.
+MidiMotor::Message MidiMotor::next_command(base::Instant now) {
+    if (motion_.stops_late(now)) stop_wanted_ = stop_hard_ = true;
+    if (stop_wanted_) return command(stop_hard_ ? midi::EMERGENCY_STOP : midi::STOP);
+    if (reset_wanted_) return command(midi::RESET);
+    if (zero_unclear_ || motion_.is_doubtful()) return {};
+    if (zero_wanted_) return command(midi::ZERO_POSITION);
+    if (registers_.is_set(T_SOLL)) {
+        const auto torque = midi::torque_of_t_soll(registers_.word(T_SOLL), drive_.most_torque());
+        if (torque && *torque != drive_.torque()) return command(midi::TORQUE, *torque);
+    }
+    if (registers_.is_set(INPOSWIN)) {
+        const auto tolerance = midi::tolerance_of_window(drive_.model(), registers_.word(INPOSWIN));
+        if (tolerance && *tolerance != drive_.tolerance()) return command(midi::TOLERANCE, *tolerance);
+    }
+    if (registers_.mode() == 0)
+        return motion_.moves() || (motion_.is_stray() && error()) ? command(midi::STOP) : Message{};
+    if (refusals_ != 0 && now < retry_at_) return {};
+    if (motion_.is_stray()) return command(midi::STOP);
+    if (!session_.is_alone(now)) return {};
+    return registers_.mode() == 1 ? next_for_run() : next_for_move();
+}
+
+bool MidiMotor::fit_ramp(std::uint16_t period, std::uint8_t& ramp) {
+    ramp = drive_.ramp();
+    if (!registers_.is_set(A_SOLL)) return true;
+    const auto needed = midi::ramp_of_a_soll(drive_.model(), registers_.word(A_SOLL), period);
+    if (needed) {
+        ramp = *needed;
+        return true;
+    }
+    raise(MidiFault::bad_value, Lack::too_soft);
+    return false;
+}
+
+/// 000 §VI 15h: the speed may be changed in mid-run, the direction may not, nor the ramp.
+MidiMotor::Message MidiMotor::next_for_run() {
+    const std::int32_t speed = registers_.v_soll();
+    if (speed == 0) return motion_.moves() ? command(midi::STOP) : Message{};
+    const auto period = midi::period_of_v_soll(drive_.model(), static_cast<std::int16_t>(speed));
+    if (!period) {
+        raise(MidiFault::bad_value, Lack::too_slow);
+        return {};
+    }
+    const bool left = speed < 0;
+    const std::uint32_t run =
+        std::uint32_t{left ? std::uint8_t{midi::kTurnsLeft} : std::uint8_t{0}} << 16 | *period;
+    if (motion_.state() == MidiMotion::State::running && left == motion_.turns_left())
+        return *period == motion_.period() ? Message{} : command(midi::RUN, run);
+    if (motion_.moves()) return command(midi::STOP);
+    std::uint8_t ramp = 0;
+    if (!motion_.at_rest() || !fit_ramp(*period, ramp)) return {};
+    if (ramp != drive_.ramp()) return command(midi::RAMP, ramp);
+    return command(midi::RUN, run);
+}
+
+/// V_SOLL 0 holds a move back, as JVL's does; unset, the module's own speed holds.
+MidiMotor::Message MidiMotor::next_for_move() {
+    const bool has_speed = registers_.is_set(V_SOLL);
+    const bool is_held_back = has_speed && registers_.v_soll() == 0;
+    if (motion_.state() == MidiMotion::State::running || is_held_back)
+        return motion_.moves() ? command(midi::STOP) : Message{};
+    const auto goal = target();
+    if (!goal) {
+        raise(MidiFault::bad_value, Lack::too_far);
+        return {};
+    }
+    if (motion_.holds(*goal) || !motion_.at_rest()) return {};
+    std::uint16_t period = drive_.period();
+    if (has_speed) {
+        const auto wanted =
+            midi::period_of_v_soll(drive_.model(), static_cast<std::int16_t>(registers_.v_soll()));
+        if (!wanted) {
+            raise(MidiFault::bad_value, Lack::too_slow);
+            return {};
+        }
+        period = *wanted;
+    }
+    if (period == 0) {
+        raise(MidiFault::bad_value, Lack::no_speed);
+        return {};
+    }
+    std::uint8_t ramp = 0;
+    if (!fit_ramp(period, ramp)) return {};
+    if (period != drive_.period()) return command(midi::SPEED, period);
+    if (ramp != drive_.ramp()) return command(midi::RAMP, ramp);
+    return command(midi::GO_TO, static_cast<std::uint32_t>(*goal));
+}
+
+/// After all orders. A write is done when its commands are through.
+MidiMotor::Message MidiMotor::next_access() {
+    const Access& access = access_.access();
+    if (access_.is_under_way()) {
+        if (!access.is_write) return query(midi::GET_POSITION);
+        error() == access_error_ ? access_.finish() : access_.fail();
+    }
+    if (!access_.waits()) return {};
+    access_.start();
+    if (access.is_write) {
+        begin_write();
+        return {};
+    }
+    const unsigned last = access.reg + (access.longword ? 1U : 0U);
+    if (last >= registers::P_IST && access.reg <= registers::V_IST) return query(midi::GET_POSITION);
+    finish_read();
+    return {};
+}
+
+// What an order does.
+
+MidiMotor::Lack MidiMotor::lack_of(const Order& order) const {
+    return order.is_register_write
+               ? midi::lack_of_write(drive_.model(), order.reg, order.longword, order.value)
+               : midi::lack_of_command(order.command);
+}
+
+void MidiMotor::execute(const Order& order) {
+    const Lack lack = lack_of(order);
+    if (lack != Lack::none) return raise(MidiFault::bad_value, lack);
+    const unsigned number = order.command & 0x1FU;
+    const auto mode = static_cast<std::uint16_t>(order.command >> 5 & 3);
+    if (order.is_register_write) {
+        write(order);
+    } else if (mode != kCommandMode) {
+        registers_.select(number);
+        write_word(MODE_REG, mode);
+    } else if (number == 0x01) {
+        reset_error();
+    } else if (number == 0x03) {
+        zero_wanted_ = true;
+    } else {
+        registers_.execute(static_cast<std::uint8_t>(number));
+    }
+    if (!order.is_register_write && order.command == kNop) return;
+    if (const auto goal = target(); goal && registers_.mode() == 2) motion_.check_again(*goal);
+}
+
+void MidiMotor::write(const Order& order) {
+    if (order.reg == registers::P_IST) {
+        zero_wanted_ = true;
+        return;
+    }
+    write_word(order.reg, static_cast<std::uint16_t>(order.value));
+    if (order.longword) write_word(order.reg + 1U, static_cast<std::uint16_t>(order.value >> 16));
+}
+
+/// 001 §4.4: with an error the mode stays.
+void MidiMotor::write_word(unsigned number, std::uint16_t value) {
+    if (number == MODE_REG && value != 0 && error()) return;
+    registers_.write(number, value);
+}
+
+/// 003 §VII 01h: a trip is acknowledged by 00h only.
+void MidiMotor::reset_error() {
+    session_.acknowledge();
+    fault_ = MidiFault::none;
+    lack_ = Lack::none;
+    if (!drive_.trips()) return;
+    reset_wanted_ = true;
+    fault_ = MidiFault::tripped;
+}
+
+void MidiMotor::begin_write() {
+    const Access& access = access_.access();
+    const Order order{
+        .is_register_write = true, .reg = access.reg, .longword = access.longword, .value = access.value};
+    access_error_ = error();
+    const bool in_vain = order.reg == MODE_REG && access_error_;
+    if (in_vain || lack_of(order) != Lack::none) return access_.fail();
+    execute(order);
+}
+
+void MidiMotor::finish_read() {
+    const Access& access = access_.access();
+    std::uint32_t value = read_word(access.reg);
+    if (access.longword) value |= std::uint32_t{read_word(access.reg + 1U)} << 16;
+    access_.finish(value);
+}
+
+std::uint16_t MidiMotor::read_word(unsigned number) const {
+    const auto counts = static_cast<std::uint32_t>(drive_.counts());
+    switch (number) {
+        case registers::P_IST:
+            return static_cast<std::uint16_t>(counts);
+        case registers::P_IST + 1:
+            return static_cast<std::uint16_t>(counts >> 16);
+        case registers::V_IST:
+            return static_cast<std::uint16_t>(drive_.speed());
+        case registers::ERR_STAT:
+            return static_cast<std::uint16_t>(error_bits());
+        case V_SOLL:
+            if (!registers_.is_set(number))
+                return static_cast<std::uint16_t>(midi::v_soll_of_period(drive_.model(), drive_.period()));
+            break;
+        default:
+            break;
+    }
+    return registers_.word(number);
+}
+
+std::uint32_t MidiMotor::error_bits() const {
+    const bool supply = (drive_.status() & midi::kSupplyTrip) != 0;
+    return bit(drive_.trips() && !supply, kI2t) | bit(supply, kUit) | bit(in_position(), kInPos) |
+           bit(fault_ == MidiFault::end_stop, kPositionLimit) |
+           bit(error() && !drive_.trips() && fault_ != MidiFault::end_stop, kFollow) |
+           bit(registers_.is_relative(), kRelative);
+}
+
+std::optional<std::int32_t> MidiMotor::target() const {
+    return midi::increments_of_counts(drive_.model(), registers_.position(registers::P_SOLL));
 }
 
 void MidiMotor::stop() {
     drop_orders();
     reset_wanted_ = zero_wanted_ = zero_unclear_ = false;
-    base_ = refusals_ = 0;
-    registers_.set_word(registers::MODE_REG, 0);
-    if (access_state_ == AccessState::waiting) end_access(AccessState::failed);
+    registers_.drop_awaited();
+    refusals_ = 0;
+    registers_.set_word(MODE_REG, 0);
+    access_.fail_waiting();
     stop_wanted_ = true;
 }
 
+// What it says of itself.
+
 bool MidiMotor::settled() const {
-    if (phase_ != Phase::up) return true;
-    return orders_.empty() && !order_open_ && !stop_wanted_ && !reset_wanted_ && !resync_ && !doubtful_ &&
-           status_is_new_;
+    if (!session_.is_up()) return true;
+    return orders_.empty() && !orders_.is_executing() && !stop_wanted_ && !reset_wanted_ &&
+           !session_.must_ask() && !motion_.is_doubtful() && status_is_new_;
 }
 
 bool MidiMotor::error() const {
-    return link_error_ || resetting_ || fault_ != MidiFault::none ||
-           (phase_ == Phase::up && (status_ & midi::kTrips) != 0);
+    return session_.has_error() || fault_ != MidiFault::none || (session_.is_up() && drive_.trips());
 }
 
 MidiFault MidiMotor::fault() const {
     if (fault_ != MidiFault::none || !error()) return fault_;
-    return link_error_ ? MidiFault::link_lost : MidiFault::tripped;
-}
-
-Link MidiMotor::link() const {
-    if (phase_ == Phase::down) return Link::down;
-    if (phase_ != Phase::up) return Link::starting;
-    return link_error_ ? Link::unacknowledged : Link::up;
+    return session_.link_error() ? MidiFault::link_lost : MidiFault::tripped;
 }
 
 bool MidiMotor::in_position() const {
-    if (phase_ != Phase::up || error() || doubtful_) return false;
-    if (mode() == 2) return motion_ == Motion::at_rest && arrived_ && goal_holds_ && target() == goal_;
-    if (mode() != 1) return false;
-    return v_soll() == 0 ? motion_ == Motion::at_rest : motion_ == Motion::running && at_speed_;
+    if (!session_.is_up() || error() || motion_.is_doubtful()) return false;
+    if (registers_.mode() == 2) {
+        const auto goal = target();
+        return goal && motion_.has_arrived_at(*goal);
+    }
+    if (registers_.mode() != 1) return false;
+    return registers_.v_soll() == 0 ? motion_.at_rest() : motion_.at_speed();
+}
+
+Counters MidiMotor::counters() const {
+    Counters counters{.link_losses = session_.losses(), .resent = resent_};
+    orders_.count(counters);
+    access_.count(counters);
+    return counters;
 }
 
 }  // namespace nplc::motor

@@ -10,12 +10,6 @@ constexpr unsigned kSize[]{8, 8, 4, 4, 0, 4};
 
 }  // namespace
 
-MidiRegisters::MidiRegisters() {
-    set_word(MODE_REG, 0);
-    set_position(P_SOLL, 0);
-    for (unsigned p = P1; p < P1 + 16U; p += 2) set_position(p, 0);
-}
-
 unsigned MidiRegisters::place(unsigned number) {
     if (number >= MODE_REG && number <= T_SOLL) return number - MODE_REG;
     if (number == INPOSWIN) return 6;
@@ -59,11 +53,13 @@ void MidiRegisters::copy(unsigned from, unsigned to) {
     if (is_set(from)) set_word(to, word(from));
 }
 
-void MidiRegisters::select(unsigned low, bool relative) {
+void MidiRegisters::add_to_p_soll(std::uint32_t base, unsigned from) {
+    set_position(P_SOLL, static_cast<std::int32_t>(base + static_cast<std::uint32_t>(position(from))));
+}
+
+void MidiRegisters::select(unsigned low) {
     if (low < kFirst[1]) {
-        const auto from = static_cast<std::uint32_t>(position(P1 + 2 * low));
-        const auto base = relative ? static_cast<std::uint32_t>(position(P_SOLL)) : 0U;
-        set_position(P_SOLL, static_cast<std::int32_t>(base + from));
+        add_to_p_soll(relative_ ? static_cast<std::uint32_t>(position(P_SOLL)) : 0U, P1 + 2 * low);
     } else if (low < kFirst[2]) {
         copy(V1 + low - kFirst[1], V_SOLL);
     } else if (low < kFirst[3]) {
@@ -75,13 +71,44 @@ void MidiRegisters::select(unsigned low, bool relative) {
     }
 }
 
-void MidiRegisters::select_set(unsigned n, bool relative) {
-    for (const unsigned first : kFirst) select(first + n - 1, relative);
+/// A set is P, V, A, T and Z; L is none of a MIDI drive's.
+void MidiRegisters::execute(std::uint8_t number) {
+    switch (number) {
+        case 0x02:
+            return set_position(P_SOLL, 0);
+        case 0x05:
+            return set_word(V_SOLL, 0);
+        case 0x06:
+            return set_word(T_SOLL, 0);
+        case 0x0C:
+        case 0x0D:
+        case 0x0E:
+        case 0x0F:
+            for (const unsigned first : kFirst) select(first + number - 0x0CU);
+            return;
+        case 0x11:
+        case 0x12:
+            base_ = static_cast<std::uint8_t>(number - 0x0A);
+            return;
+        case 0x14:
+        case 0x15:
+            relative_ = number == 0x15;
+            return;
+        default:
+            return;  // NOP, 07h, and what concerns JVL's line
+    }
 }
 
-void MidiRegisters::select_by_pointer(unsigned number, std::uint16_t n, bool relative) {
+void MidiRegisters::write(unsigned number, std::uint16_t value) {
+    if (number < P_REG_P || number > Z_REG_P) return set_word(number, value);
     const unsigned group = number - P_REG_P;
-    if (n >= 1 && n <= kSize[group]) select(kFirst[group] + n - 1U, relative);
+    if (value >= 1 && value <= kSize[group]) select(kFirst[group] + value - 1U);
+}
+
+void MidiRegisters::on_position(std::int32_t counts) {
+    if (!awaits_position()) return;
+    add_to_p_soll(static_cast<std::uint32_t>(counts), P1 + 2U * (base_ - 1U));
+    base_ = 0;
 }
 
 }  // namespace nplc::motor

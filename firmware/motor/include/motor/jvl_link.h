@@ -20,11 +20,6 @@ class JvlLink {
         std::uint32_t baud = 19'200;
         base::Microseconds silence{
             20'000};  ///< no status byte, or nobody who listened, for this long: the link is lost
-        base::Microseconds longest_message{250'000};  ///< from its first byte to its echo, resends included
-        std::uint8_t most_resends = 3;
-        /// Status bytes in a row, received after the whole message, that must show the old toggle before it
-        /// is sent again. The first of them may have been on its way already, so 2 is the least.
-        std::uint8_t proof_bytes = 3;
         /// A FlexMAC message or a change of protocol, which would act twice, also waits this long for an echo
         /// that may be late. Raise it with an adapter that holds characters back for longer.
         base::Microseconds proof_time{20'000};
@@ -122,7 +117,7 @@ class JvlLink {
     base::Microseconds character_;
     StatusFilter filter_;
     protocol::flexmac::ReplyDecoder replies_;
-    std::array<std::uint8_t, protocol::flexmac::kMaxBytes> message_{};
+    std::array<std::uint8_t, protocol::flexmac::kMaxBytes> message_;
 };
 
 }  // namespace nplc::motor

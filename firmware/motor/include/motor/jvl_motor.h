@@ -3,9 +3,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "base/ring.h"
+#include "motor/access_slot.h"
 #include "motor/jvl_link.h"
 #include "motor/motor.h"
+#include "motor/order_queue.h"
 
 namespace nplc::motor {
 
@@ -31,13 +32,13 @@ class JvlMotor final : public Motor {
     base::Instant next_poll(base::Instant now) const;
     bool settled() const override;
     bool has_room() const override { return !orders_.full(); }
-    void send(const Order& order) override;
+    void send(const Order& order) override { orders_.push(order, is_up()); }
     bool can_execute(const Order& order) const override;
     void stop() override;
-    bool begin_access(const Access& access) override;
-    AccessState access_state() const override { return access_state_; }
-    std::uint32_t access_value() const override { return access_value_; }
-    void drop_access() override;
+    bool begin_access(const Access& access) override { return is_up() && access_.begin(access); }
+    AccessState access_state() const override { return access_.state(); }
+    std::uint32_t access_value() const override { return access_.value(); }
+    void drop_access() override { access_.drop(); }
     bool in_position() const override;
     bool error() const override;
     Link link() const override;
@@ -49,6 +50,7 @@ class JvlMotor final : public Motor {
     enum class Phase : std::uint8_t { down, look, first_safety, second_safety, first_nop, second_nop, up };
     enum class Sending : std::uint8_t { nothing, start_up, link_command, order, stop, access };
 
+    bool is_up() const { return phase_ == Phase::up; }
     void lose_link(base::Instant now);
     void on_accepted(base::Instant now);
     void on_executed(const Order& order, base::Instant now);
@@ -59,7 +61,6 @@ class JvlMotor final : public Motor {
     void work(base::Instant now);
     void write_register(Sending what, const Order& order, base::Instant now);
     void send_access(base::Instant now);
-    void end_access(AccessState state);
     void follow_access(base::Instant now);
     void command(Sending what, std::uint8_t command, base::Instant now);
     std::uint8_t on_the_wire(std::uint8_t command) const;
@@ -69,8 +70,7 @@ class JvlMotor final : public Motor {
     bool safe_communication_;
     protocol::fastmac::RegisterCode register_code_;
     bool registers_are_32_bit_;
-    base::Microseconds sample_period_;
-    Order current_;  ///< what the message under way carries, when sending_ is `order`
+    base::Microseconds hold_time_;
     Sending sending_ = Sending::nothing;
     Phase phase_ = Phase::down;
     bool safe_now_ = false;  ///< the motor wants two equal bytes
@@ -83,14 +83,12 @@ class JvlMotor final : public Motor {
     bool hold_counts_ = false;
     std::uint32_t hold_count_ = 0;
     base::Instant next_blind_{};
-    Access access_;
-    AccessState access_state_ = AccessState::none;
-    std::uint32_t access_value_ = 0;
+    AccessSlot access_;
     bool for_access_ = false;  ///< in FlexMAC, or on the way there and back, for accesses only
     std::optional<base::Instant> reply_until_;
-    Counters counters_;
+    std::uint32_t losses_ = 0;
     JvlLink link_;
-    base::Ring<Order, 8> orders_;
+    OrderQueue orders_;
 };
 
 }  // namespace nplc::motor

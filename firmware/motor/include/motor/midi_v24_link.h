@@ -50,7 +50,7 @@ class MidiV24Link final : public MidiLink {
     base::Instant heard_{};
     base::Instant deadline_{};
     base::Microseconds character_;
-    protocol::midi_v24::RequestBytes bytes_{};
+    protocol::midi_v24::RequestBytes bytes_;
 };
 
 }  // namespace nplc::motor
