@@ -7,11 +7,11 @@ namespace nplc::gateway {
 Controller::Controller(const Ports& ports, const store::Area& tables, std::span<std::uint8_t> table,
                        SettingsKeeper& settings, StartCause cause)
     : motor_(ports.motor),
+      registers_(sequence_, tables_, settings, ports.shown_lines),
+      user_port_(ports.user_line, ports.motor_mactalk_line, sequence_, ports.motor, registers_, settings),
       sequence_({ports.inputs, ports.outputs, ports.watchdog, ports.motor}, settings_of(settings.values()),
                 cause),
-      tables_(sequence_, ports.motor, ports.storage, tables, table),
-      registers_(sequence_, tables_, settings, ports.shown_lines),
-      user_port_(ports.user_line, ports.motor_mactalk_line, sequence_, ports.motor, registers_, settings) {
+      tables_(sequence_, ports.motor, ports.storage, tables, table) {
     settings.attach(sequence_);
     tables_.mount();
 }

@@ -1,6 +1,7 @@
 #include "gateway/own_registers.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "base/bytes.h"
 #include "gateway/version.h"
@@ -153,25 +154,11 @@ std::uint32_t OwnRegisters::live_value(std::uint8_t reg, base::Instant now) cons
 }
 
 std::uint32_t OwnRegisters::count_value(std::uint8_t reg) const {
-    const motor::Counters counters = gateway_.motor().counters();
-    switch (reg) {
-        case LINK_LOSSES:
-            return counters.link_losses;
-        case RESENT:
-            return counters.resent;
-        case ORDERS:
-            return counters.orders;
-        case DISCARDED:
-            return counters.discarded;
-        case ACCESSES:
-            return counters.accesses;
-        case ACCESS_FAILS:
-            return counters.access_fails;
-        case MESSAGES:
-            return port_.messages;
-        default:
-            return port_.refused;
-    }
+    if (reg == MESSAGES) return port_.messages;
+    if (reg == REFUSED) return port_.refused;
+    const auto counters =
+        std::bit_cast<std::array<std::uint32_t, MESSAGES - LINK_LOSSES>>(gateway_.motor().counters());
+    return counters[reg - LINK_LOSSES];
 }
 
 std::uint32_t OwnRegisters::line_faults(const ports::SerialPort* line) const {

@@ -108,7 +108,7 @@ void UserPort::begin_own(const Request& request, base::Instant now) {
 void UserPort::begin_motor(const Request& request, base::Instant now) {
     if (!motor_allows(request)) return refuse();
     if (!only_reads(request.kind)) gateway_.forget_mode();
-    if (!MotorBridge::carries(request.kind)) return pass_on(request, now);
+    if (!MotorBridge::carries(request.kind)) return pass_on(now);
     bridge_.begin(request, now);
     serving_ = Serving::motor;
 }
@@ -122,12 +122,12 @@ bool UserPort::motor_allows(const Request& request) const {
     return settings_.get(store::Setting::motor_writes) >= needed;
 }
 
-void UserPort::pass_on(const Request& request, base::Instant now) {
+void UserPort::pass_on(base::Instant now) {
     if (motor_line_ == nullptr) return refuse();
     std::array<ports::ReceivedByte, 16> stale;
     while (motor_line_->read(stale) == stale.size()) {
     }
-    passed_ = mactalk::encode(request);
+    std::copy(decoder_.bare().begin(), decoder_.bare().end(), passed_.begin());
     passed_sent_ = 0;
     begun_ = now;
     serving_ = Serving::motor_line;
@@ -135,7 +135,8 @@ void UserPort::pass_on(const Request& request, base::Instant now) {
 }
 
 void UserPort::transmit_to_motor() {
-    if (passed_sent_ < passed_.size) passed_sent_ += motor_line_->write(passed_.view().subspan(passed_sent_));
+    if (passed_sent_ == passed_.size()) return;
+    passed_sent_ += motor_line_->write(std::span(passed_).subspan(passed_sent_));
 }
 
 void UserPort::go_on(base::Instant now) {

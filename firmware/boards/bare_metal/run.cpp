@@ -1,5 +1,6 @@
 #include "bare_metal/run.h"
 
+#include <cstring>
 #include <new>
 #include <utility>
 
@@ -55,22 +56,23 @@ void rest() {
     core::reset();
 }
 
-/// Memory of an object that is made when its turn comes; a local static would be asked each time whether it
-/// is.
+/// Memory of an object that is made at the start and never ends. Cleared before, so that its members that
+/// begin with 0 take no code of their own.
 template <class T>
-union Later {
-    constexpr Later() {}
-    ~Later() {}  // NOLINT: never: the firmware does not end
+union StartedObject {
+    constexpr StartedObject() {}
+    ~StartedObject() {}  // NOLINT: never: the firmware does not end
     template <class... Arguments>
     T& make(Arguments&&... arguments) {
+        std::memset(static_cast<void*>(this), 0, sizeof(*this));
         return *::new (&object) T(std::forward<Arguments>(arguments)...);
     }
     T object;
 };
 
-Later<gateway::SettingsKeeper> settings_memory;
-Later<gateway::Controller> controller_memory;
-Later<motor::AnyDriver> driver_memory;
+StartedObject<gateway::SettingsKeeper> settings_memory;
+StartedObject<gateway::Controller> controller_memory;
+StartedObject<motor::AnyDriver> driver_memory;
 
 // Apart from the loop, these need no stack while it runs.
 

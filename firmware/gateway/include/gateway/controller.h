@@ -43,11 +43,12 @@ class Controller {
     bool reset_asked() const { return registers_.reset_asked(); }
 
   private:
+    // Made in this order: those first that only note where the others are.
     motor::Motor& motor_;
-    Gateway sequence_;
-    TableKeeper tables_;
     OwnRegisters registers_;
     UserPort user_port_;
+    Gateway sequence_;
+    TableKeeper tables_;
 };
 
 }  // namespace nplc::gateway

@@ -38,7 +38,7 @@ class MotorBridge {
 
     motor::Motor& motor_;
     protocol::mactalk::Request request_;
-    std::array<std::uint8_t, protocol::mactalk::kMaxReplyData> data_{};
+    std::array<std::uint8_t, protocol::mactalk::kMaxReplyData> data_;
     std::size_t have_ = 0;
     std::uint8_t failures_ = 0;
     bool asked_ = false;

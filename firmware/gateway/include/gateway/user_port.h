@@ -40,7 +40,7 @@ class UserPort {
     void begin_motor(const protocol::mactalk::Request& request, base::Instant now);
     bool motor_allows(const protocol::mactalk::Request& request) const;
     bool is_for_motor(std::uint8_t address) const;
-    void pass_on(const protocol::mactalk::Request& request, base::Instant now);
+    void pass_on(base::Instant now);
     void drop();
     void go_on(base::Instant now);
     void serve_motor(base::Instant now);
@@ -65,9 +65,9 @@ class UserPort {
     MotorBridge bridge_;
     protocol::mactalk::RequestDecoder decoder_;
     protocol::mactalk::EncodedReply out_;
-    protocol::mactalk::EncodedRequest passed_;
+    std::array<std::uint8_t, protocol::mactalk::kBareRequestBytes> passed_{};
     /// Of a write that is not done yet; the decoder may be receiving already.
-    std::array<std::uint8_t, protocol::mactalk::kMaxLongWrite> data_{};
+    std::array<std::uint8_t, protocol::mactalk::kMaxLongWrite> data_;
 };
 
 }  // namespace nplc::gateway

@@ -104,7 +104,7 @@ class ReplyDecoder {
   private:
     Event outside_reply(std::uint8_t byte);
 
-    std::array<std::uint8_t, kMaxBytes> bytes_{};
+    std::array<std::uint8_t, kMaxBytes> bytes_;
     std::uint8_t count_ = 0;
     bool doubt_ = false;
     std::uint8_t run_ = 0;   // in doubt: equal status bytes in a row

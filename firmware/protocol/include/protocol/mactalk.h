@@ -36,6 +36,7 @@ struct Request {
 
 /// Three sync bytes; address, register and length; four data bytes; two end bytes.
 inline constexpr std::size_t kMaxRequestBytes = 19;
+inline constexpr std::size_t kBareRequestBytes = 7;  ///< without register and data
 /// The gateway's table window takes more in one write; no motor does. In whole longwords.
 inline constexpr std::size_t kMaxLongWrite = 128;
 inline constexpr std::size_t kMaxLongRequestBytes = 3 + 2 * (3 + kMaxLongWrite) + 2;
@@ -84,12 +85,16 @@ class RequestDecoder {
     void take_long_writes(std::uint8_t address) { long_address_ = address; }
     /// Of the write that receive() reported last, until the next call.
     std::span<const std::uint8_t> data() const { return {bytes_.data(), data_size_}; }
+    /// The request without a register that receive() reported last, as it came, until the next call.
+    std::span<const std::uint8_t, kBareRequestBytes> bare() const {
+        return std::span(bytes_).first<kBareRequestBytes>();
+    }
     /// To be called at a framing error or an overrun. A pause is no fault: the manuals bound none.
     void abandon() { count_ = 0; }
     bool in_message() const { return count_ != 0; }
 
   private:
-    std::array<std::uint8_t, kMaxLongRequestBytes> bytes_{};
+    std::array<std::uint8_t, kMaxLongRequestBytes> bytes_;
     std::uint16_t count_ = 0;
     std::uint8_t data_size_ = 0;
     std::uint8_t long_address_ = 0;

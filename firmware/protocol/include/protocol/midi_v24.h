@@ -82,7 +82,7 @@ class FrameReader {
 
     std::uint8_t fields_;
     std::uint8_t count_ = 0;  ///< characters of the frame so far, Stx among them
-    std::array<std::uint8_t, kRequestFields + 2> bytes_{};
+    std::array<std::uint8_t, kRequestFields + 2> bytes_;
 };
 
 /// A module's receiving end. It reports each frame on the line, whatever its address: which are its own is
