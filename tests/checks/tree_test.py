@@ -31,10 +31,22 @@ class Tree(unittest.TestCase):
             ["README.md: does not name tools/test", "README.md: dead link: a/b.md"],
         )
 
-    def test_file_length(self):
-        self.assertEqual(self.findings(tree.file_length, {"a.cpp": "\n" * 500, "a.csv": "\n" * 501}), [])
-        self.assertRegex(self.findings(tree.file_length, {"a.cpp": "\n" * 501})[0], "^a.cpp: 501 lines")
-        self.assertRegex(self.findings(tree.file_length, {"run": "#!/usr/bin/env bash\n" + "\n" * 500})[0], "^run: 501")
+    def test_members(self):
+        def with_members(count):
+            body = "".join(f"    std::array<int, 2> m{i}_{{}};  ///< one\n" for i in range(count))
+            return f"class A final : public B {{\n  public:\n    int get() const {{ return m0_; }}\n{body}}};\n"
+
+        self.assertEqual(self.findings(tree.sizes, {"a.h": with_members(30)}), [])
+        self.assertRegex(self.findings(tree.sizes, {"a.h": with_members(31)})[0], "^a.h: A has 31 data members, 30 at")
+        inner = "class C {\n" + with_members(20).replace("\n", "\n    ").join(["    ", "\n"]) + "    int a_ = 0;\n};\n"
+        self.assertEqual(self.findings(tree.sizes, {"a.h": inner}), [])
+
+    def test_functions(self):
+        def of_lines(count):
+            return "void f(int a,\n       int b) {\n".replace("\n", "", 1) + "    g();\n" * (count - 2) + "}\n"
+
+        self.assertEqual(self.findings(tree.sizes, {"a.cpp": of_lines(60) * 3, "tests/a.cpp": of_lines(90)}), [])
+        self.assertRegex(self.findings(tree.sizes, {"a.cpp": of_lines(60) + of_lines(61)})[0], "^a.cpp:61: 61 lines of one function")
 
     def test_scripts(self):
         helpful = '#!/usr/bin/env bash\necho "usage: a"\n'
