@@ -14,6 +14,8 @@ from machine import Machine
 from meaning import Program
 from tools import Tools, as_columns, sent_in_order
 
+# What a whole machine would have and a fragment leaves out: exits, presets, values, RESET_ERROR.
+OVERSIGHTS = {"W019", "W020", "W021", "W022", "W023"}
 SEQC = NANOPLC_SIM = LANGUAGE = REGISTERS = ""
 
 
@@ -43,7 +45,9 @@ class Reference(unittest.TestCase):
                 found = self.tools.build(example.program)
                 elsewhere = [d for d in found if d["line"] not in here and d["severity"] == "error"]
                 self.assertEqual(elsewhere, [])
-                self.assertEqual(sorted((d["line"], d["code"]) for d in found if d["line"] in here), example.said())
+                said = sorted((d["line"], d["code"]) for d in found
+                              if d["line"] in here and d["code"] not in OVERSIGHTS)
+                self.assertEqual(said, example.said())
 
     def test_examples_are_in_the_grammar_and_the_faults_are_known(self):
         for example in self.document.examples:

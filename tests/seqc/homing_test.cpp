@@ -75,7 +75,7 @@ TEST(Homing, IsCutShortByASelectionInTheSameScan) {
 }
 
 std::string limited(const std::string& wait, const std::string& limit, const std::string& motor = "MAC140") {
-    return "PROGRAM P MOTOR " + motor + ";\nVAR_MOTOR v AT V1 := 100; l AT " + limit +
+    return "PROGRAM P MOTOR " + motor + ";\nVAR_MOTOR v AT V1 := 100; p AT P1; l AT " + limit +
            "; END_VAR\nPOWER_UP INIT(v); NEXT := S; END_POWER_UP\n"
            "STEP S: OWN ERROR; IF IN0 THEN TIMER := T#9s; POSITION(P1); NEXT := Wait; END_IF END_STEP\n"
            "STEP Wait: OWN ERROR; " +

@@ -95,7 +95,8 @@ TEST(Language, ValuesOfPowerUpGoOutWithAnErrorToo) {
         sound(
             "PROGRAM P MOTOR MAC140; VAR_MOTOR v AT V1 := 100; END_VAR ON ERROR NEXT := Fault;\n"
             "POWER_UP INIT(v); NEXT := S; END_POWER_UP STEP S: END_STEP\n"
-            "STEP Fault: OWN ERROR; IF ANY ERROR AND IN0 THEN NEXT := S; END_IF END_STEP END_PROGRAM")
+            "STEP Fault: OWN ERROR; IF ANY ERROR AND IN0 THEN RESET_ERROR; NEXT := S; END_IF END_STEP "
+            "END_PROGRAM")
             .table;
     EXPECT_EQ(test::scan(t, 0, 0x00, true, true).sends, (std::vector<std::string>{"65=100", "08"}));
     EXPECT_EQ(test::scan(t, 0, 0x80, true, true).sends, (std::vector<std::string>{"65=100"}));

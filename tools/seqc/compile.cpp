@@ -5,6 +5,7 @@
 
 #include "lowering/lower.h"
 #include "semantics/checker.h"
+#include "semantics/oversights.h"
 #include "semantics/scope.h"
 #include "seqc/seqc.h"
 #include "syntax/lexer.h"
@@ -125,7 +126,7 @@ Compilation compile(std::string_view source) {
               [](const StepOrigin& a, const StepOrigin& b) { return a.number < b.number; });
     if (syntax_sound && !checks.has_errors()) check_fewest_terms(plan, program.name.span, checks);
     if (syntax_sound && !checks.has_errors()) {
-        check_motor_state(plan, result.symbols.motor, checks);
+        check_motor_state(plan, result.symbols, checks);
         check_invisible_limits(plan, result.symbols.motor, checks);
         if (result.symbols.drive != nullptr) {
             check_drive_motion(plan, *result.symbols.drive, checks, result.roundings);
@@ -140,6 +141,7 @@ Compilation compile(std::string_view source) {
             terms.insert(terms.end(), own.begin(), own.end());
         }
     }
+    if (syntax_sound && !checks.has_errors()) check_oversights(plan, result.symbols, checks);
     if (!checks.has_errors()) check_length(terms.size(), plan, program.name.span, checks);
     merge(report, checks, syntax_sound);
     result.ok = !report.has_errors();

@@ -71,6 +71,9 @@ constexpr auto kCodes = std::to_array<CodeRow>({
     {"W012", Severity::warning, Phase::motion},   {"W013", Severity::warning, Phase::motion},
     {"W014", Severity::warning, Phase::motion},   {"W015", Severity::warning, Phase::motion},
     {"W016", Severity::warning, Phase::motion},   {"W017", Severity::warning, Phase::motion},
+    {"W018", Severity::warning, Phase::motor},    {"W019", Severity::warning, Phase::steps},
+    {"W020", Severity::warning, Phase::steps},    {"W021", Severity::warning, Phase::steps},
+    {"W022", Severity::warning, Phase::steps},    {"W023", Severity::warning, Phase::motor},
 });
 
 constexpr const CodeRow* find_code(std::string_view code) {

@@ -57,8 +57,14 @@ Action ActionBuilder::build(const std::vector<Statement>& statements) {
 void ActionBuilder::add(const Statement& statement) {
     if (statement.every_scan && !marked_ && statement.kind != Statement::Kind::next)
         marked_ = statement.every_scan_span;
-    if (!statement.every_scan && !unmarked_ && statement.kind != Statement::Kind::next)
+    const std::size_t errors_before = scope_.report().error_count() + scope_.faulty_names_met();
+    add_by_kind(statement);
+    const bool sound = scope_.report().error_count() + scope_.faulty_names_met() == errors_before;
+    if (sound && !statement.every_scan && !unmarked_ && statement.kind != Statement::Kind::next)
         unmarked_ = statement.span;
+}
+
+void ActionBuilder::add_by_kind(const Statement& statement) {
     switch (statement.kind) {
         case Statement::Kind::next:
             return add_next(statement);
@@ -150,6 +156,8 @@ void ActionBuilder::add_command(const Statement& statement) {
             help = "to write a register: Name := value;";
         if (scope_.is_input(statement.name.text)) help = "inputs are tested: IF Name THEN ... END_IF";
         if (scope_.is_output(statement.name.text)) help = "to switch an output: OUT Name; in the step";
+        if (scope_.is_step(statement.name.text))
+            help = fmt::format("to go to the step: NEXT := {};", statement.name.text);
         if (help.empty())
             help =
                 "motor commands are INIT(..), VELOCITY(..), POSITION(..), STOP, HOME, RESET_ERROR and "
@@ -190,12 +198,21 @@ void ActionBuilder::add_selections(const Statement& statement, Mode mode) {
     if (statement.arguments.empty()) {
         scope_.report().add("E050", statement.span,
                             fmt::format("{} needs the registers to select", upper(statement.name.text)),
-                            fmt::format("name at least one, as in {}(V1)", upper(statement.name.text)));
+                            fmt::format("name at least one, as in {}({}1)", upper(statement.name.text),
+                                        mode == Mode::position ? 'P' : 'V'));
         return;
     }
     std::vector<Selection> selections;
     std::vector<Span> places;
     for (const ast::Name& argument : statement.arguments) {
+        if (argument.text.front() >= '0' && argument.text.front() <= '9') {
+            scope_.report().add("E050", argument.span,
+                                fmt::format("{} takes a register, not a value", upper(statement.name.text)),
+                                fmt::format("name a register with this value in VAR_MOTOR, as in Place AT P1 "
+                                            ":= 80 mm; and write {}(Place)",
+                                            upper(statement.name.text)));
+            continue;
+        }
         const registers::Register* reg = scope_.reg(argument);
         if (reg == nullptr) continue;
         const auto selection = selection_of(reg->number);
@@ -263,7 +280,8 @@ void ActionBuilder::add_counter(const Statement& statement) {
     const bool plain = value.unit.text.empty() && !value.is_time && std::floor(value.number) == value.number;
     if (!plain || !(value.number >= 0 && value.number <= kLongest)) {
         scope_.report().add("E063", value.span, "the counter holds whole numbers 0..65535",
-                            "for more, count in tens or hundreds");
+                            value.number < 0 ? "it counts down to 0, where COUNTER.Q is true"
+                                             : "for more, count in tens or hundreds");
         return;
     }
     if (!once(uses_counter(action_), statement, "the counter is changed", action_.counter_span)) return;

@@ -22,6 +22,7 @@ class ActionBuilder {
     std::optional<Span> marked() const { return marked_; }
 
   private:
+    void add_by_kind(const ast::Statement& statement);
     void add(const ast::Statement& statement);
     void add_next(const ast::Statement& statement);
     void add_assignment(const ast::Statement& statement, const registers::Register* reg,

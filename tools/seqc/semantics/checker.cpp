@@ -85,7 +85,7 @@ class Checker {
                 report_.add("W006", *marked, "ENTRY happens once by itself", "leave EVERY_SCAN out");
             }
             if (entry.next) {
-                report_.add("E064", entry.span, "ENTRY cannot hold NEXT",
+                report_.add("E064", entry.next_span, "ENTRY cannot hold NEXT",
                             "name the step where the sequence really goes");
                 entry.next.reset();
             }
@@ -186,7 +186,7 @@ class Checker {
         plan.name = written.name.text;
         plan.span = written.name.span;
         plan.number = number;
-        plan.own_error = written.own_error;
+        plan.own_error = written.own_error || number == fault_;  // E081 says it
         add_outputs(written, plan);
         SeenBranches seen;
         for (std::size_t i = 0; i < written.choices.size(); ++i)
@@ -309,10 +309,15 @@ class Checker {
                 "E060", *builder.unmarked(),
                 action.next ? "the branch stays in its step, so this would happen again in every scan"
                             : "without NEXT this would happen again in every scan",
-                "go on to another step with NEXT, or write EVERY_SCAN in front if that is what you want");
+                branch.condition || action.next
+                    ? "go on to another step with NEXT, or write EVERY_SCAN in front if that is what you want"
+                    : "write ENTRY in front: it then happens once, when the step is entered; or EVERY_SCAN "
+                      "if "
+                      "that is what you want");
             if (action.next) d.notes.push_back({action.next_span, "this names the step it is in already"});
             if (repeats_entry)
                 d.notes.push_back({entries_[number].span, "the step's ENTRY would be repeated too"});
+            if (!action.next) action = {};  // what it would do beside others does not matter
         } else if (repeats_entry) {
             report_
                 .add("E060", action.next_span,

@@ -12,7 +12,7 @@ Plan check(const ast::Program& program, Scope& scope, Report& report);
 
 /// Follows the motor's mode from step to step: what would start it towards an old target, or not at all, and
 /// what waits for an INPOS that never comes.
-void check_motor_state(const Plan& plan, registers::Model model, Report& report);
+void check_motor_state(const Plan& plan, const Symbols& symbols, Report& report);
 
 /// What a drive that the gateway translates for makes of a program's moves: ramps, which depend on velocity
 /// and acceleration together and go into `roundings`, and orders that wait until it stands.

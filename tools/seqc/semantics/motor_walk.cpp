@@ -148,8 +148,10 @@ class MotorWalk {
   public:
     using State = MotorState;
 
-    MotorWalk(registers::Model model, Report& report)
-        : start_mode_(registers::find(model, registers::STARTMODE)->name), report_(report) {}
+    MotorWalk(const Symbols& symbols, Report& report)
+        : symbols_(symbols),
+          start_mode_(registers::find(symbols.motor, registers::STARTMODE)->name),
+          report_(report) {}
 
     /// An error puts the motor in INIT (001 §3.2.35), so where ERROR is dealt with it may be there.
     static void enter(MotorState& state, const StepPlan& step, const Rule& rule) {
@@ -200,19 +202,43 @@ class MotorWalk {
             Diagnostic* said =
                 complain("E052", send, rule,
                          fmt::format("{} may start the motor towards an old P_SOLL: it may be in INIT here",
-                                     describe_command(send.command)),
+                                     named(send, rule)),
                          "select it first: INIT(..); and then only the position: POSITION(P..);");
             note_init(said, state);
         } else if (select.mode == Mode::velocity && group != Group::v && may_start) {
             Diagnostic* said =
                 complain("E052", send, rule,
                          fmt::format("{} may start the motor at an old V_SOLL: it may be in INIT here",
-                                     describe_command(send.command)),
+                                     named(send, rule)),
                          "name the velocity too: VELOCITY(V.., A..);");
             note_init(said, state);
         } else if (select.mode == Mode::position && group == Group::p && state.stopped) {
             warn_stopped(send, rule, state);
         }
+    }
+
+    /// "POSITION(V1) names a velocity (Fast) and no position, and"
+    std::string named(const Send& send, const Rule& rule) const {
+        constexpr std::array<std::string_view, 6> kKinds = {"a position", "a velocity",    "an acceleration",
+                                                            "a torque",   "a load factor", "a window"};
+        const auto select = select_command(send.command);
+        std::string shown = describe_command(send.command);
+        const Group wanted = select->mode == Mode::position ? Group::p : Group::v;
+        const bool has_wanted =
+            std::any_of(rule.action.sends.begin(), rule.action.sends.end(), [&](const Send& other) {
+                const auto also = select_command(other.command);
+                return other.reg == nullptr && other.span.offset == send.span.offset && also &&
+                       also->selection.group == wanted;
+            });
+        if (has_wanted) return shown;
+        const std::string_view reg = std::string_view(shown).substr(shown.find('(') + 1, 2);
+        std::string text =
+            fmt::format("{} names {}", shown, kKinds.at(static_cast<std::size_t>(select->selection.group)));
+        for (const MotorName& variable : symbols_.motor_names) {
+            if (variable.reg == reg) text += fmt::format(" ({})", variable.name);
+        }
+        return text +
+               (select->mode == Mode::position ? " and no position, so it" : " and no velocity, so it");
     }
 
     void warn_stopped(const Send& send, const Rule& rule, const MotorState& state) {
@@ -264,6 +290,7 @@ class MotorWalk {
         return true;
     }
 
+    const Symbols& symbols_;
     std::string start_mode_;
     Report& report_;
     std::vector<std::uint32_t> said_;
@@ -271,8 +298,8 @@ class MotorWalk {
 
 }  // namespace
 
-void check_motor_state(const Plan& plan, registers::Model model, Report& report) {
-    MotorWalk walk(model, report);
+void check_motor_state(const Plan& plan, const Symbols& symbols, Report& report) {
+    MotorWalk walk(symbols, report);
     MotorState at_power_up;
     at_power_up.modes = kAnyMode;
     walk_steps(plan, at_power_up, walk);

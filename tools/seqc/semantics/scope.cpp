@@ -48,6 +48,10 @@ Scope::Scope(const ast::Program& program, std::string_view source, Report& repor
     for (std::size_t i = 0; i < kInputs; ++i) result.symbols.inputs[i] = fmt::format("IN{}", i);
     for (std::size_t i = 0; i < kOutputs; ++i) result.symbols.outputs[i] = fmt::format("OUT{}", i);
     result.symbols.program = program.name.text;
+    names_missing_ = program.names_missing;
+    scale_missing_ = program.scale_missing && !program.scale;
+    motor_known_ = program.motor_missing;
+    for (std::string_view name : program.faulty_names) faulty_.insert(upper(name));
     declare_motor(program);
     declare_scale(program);
     declare_steps(program);
@@ -79,7 +83,7 @@ void Scope::declare_motor(const ast::Program& program) {
     const auto names = motor_names();
     std::string help = suggestion(program.motor->text, {names.begin(), names.end()});
     report_.add("E030", program.motor->span, fmt::format("there is no motor '{}'", program.motor->text),
-                help.empty() ? motor_names_text() : help);
+                help.empty() ? motor_names_text() : fmt::format("{} ({})", help, motor_names_text()));
 }
 
 void Scope::declare_scale(const ast::Program& program) {
@@ -195,9 +199,13 @@ void Scope::declare_motor_variables(const ast::Program& program) {
 }
 
 bool Scope::is_faulty(std::string_view name) {
-    const bool known = faulty_.contains(upper(name));
+    const bool known = names_missing_ || faulty_.contains(upper(name));
     if (known) ++faulty_names_met_;
     return known;
+}
+
+bool Scope::is_step(std::string_view name) const {
+    return step_places_.contains(upper(name));
 }
 
 std::optional<std::uint8_t> Scope::step(const ast::Name& name) {
@@ -364,7 +372,7 @@ void Scope::number_steps() {
         } else if (!too_many) {
             too_many = true;
             report_.add("E083", steps_[i]->name.span,
-                        fmt::format("a table holds at most {} named steps",
+                        fmt::format("{} steps: a table holds at most {} named ones", steps_.size(),
                                     kLastNamed + (owners[0] != nullptr ? 1 : 0)),
                         "join steps, or use the counter for repetitions");
         }

@@ -45,6 +45,7 @@ class Scope {
     /// How often a name was met whose faulty declaration was reported: it is not reported again.
     std::size_t faulty_names_met() const { return faulty_names_met_; }
     bool is_input(std::string_view name) const { return find(inputs_, name) != nullptr; }
+    bool is_step(std::string_view name) const;
     bool is_output(std::string_view name) const { return find(outputs_, name) != nullptr; }
 
     /// The bits to write, after unit, range and rounding; reports what does not fit.
@@ -110,6 +111,8 @@ class Scope {
     std::unordered_map<std::string, std::size_t> step_places_;  ///< in `steps_`, by upper-case name
     std::vector<std::uint8_t> numbers_;
     bool steps_missing_ = false;
+    bool names_missing_ = false;
+    bool scale_missing_ = false;
     std::vector<Variable> inputs_;
     std::vector<Variable> outputs_;
     std::vector<Variable> motor_variables_;

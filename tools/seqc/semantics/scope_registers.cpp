@@ -109,7 +109,9 @@ void Scope::note_value(Diagnostic& diagnostic, const ast::Value& value, std::str
 std::string Scope::unit_help(const Register& reg, std::string_view unit) const {
     const std::vector<std::string> fitting = fitting_units(reg, length_);
     const std::string near = suggestion(unit, {fitting.begin(), fitting.end()});
-    const std::string units = fmt::format("use {}", units_for(reg, length_));
+    std::string units = fmt::format("use {}", units_for(reg, length_));
+    if (unit == "ms" && reg.unit != registers::Unit::samples)
+        units += "; the one timer is set with TIMER := T#500ms;";
     if (!near.empty()) return fmt::format("{} ({})", near, units);
     const bool could_scale = !length_ && !fitting.empty() && reg.unit != registers::Unit::torque &&
                              reg.unit != registers::Unit::samples && !is_known_unit(unit);
@@ -162,6 +164,11 @@ void Scope::report_no_register(const ast::Name& name) {
     std::string help = is_set_register(name.text)
                            ? "there are P1..P8, V1..V8, A1..A4, T1..T4, L1..L4 and Z1..Z4"
                            : suggestion(name.text, names);
+    if (is_output(name.text)) help = fmt::format("to switch an output: OUT {}; in the step", name.text);
+    if (is_input(name.text)) help = "an input is wired: it cannot be written";
+    if (mode_named(name.text))
+        help = fmt::format("{0} is a command: select a register that holds the value, as in POSITION(P1)",
+                           upper(name.text));
     if (help.empty()) help = "declare it under VAR_MOTOR, or use the manual's name or REG(number)";
     report_.add("E040", name.span, message, help);
 }
@@ -193,6 +200,7 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& value, const Registe
     std::string_view unit = value.unit.text;
     if (value.is_time) unit = "ms";
     auto per_unit = raw_per_unit(reg, model_, length_, unit);
+    if (!per_unit && scale_missing_ && !is_known_unit(unit)) return std::nullopt;
     if (!per_unit) {
         Diagnostic& d =
             report_.add("E043", value.unit.text.empty() ? value.span : value.unit.span,

@@ -144,6 +144,10 @@ struct Program {
     std::optional<Step> power_up;
     std::vector<Step> steps;
     bool steps_missing = false;  ///< some could not be read: an unknown name may be one of them
+    bool names_missing = false;  ///< the same with inputs, outputs and registers
+    bool motor_missing = false;  ///< the same with MOTOR and SCALE
+    bool scale_missing = false;
+    std::vector<std::string_view> faulty_names;  ///< declared, but with a mistake
     std::vector<RawTerm> terms;
     std::vector<Span> properties;   ///< PROPERTY Name: ... ; each
     std::deque<std::string> texts;  ///< of units that are written with blanks or comments in them

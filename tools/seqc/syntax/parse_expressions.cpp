@@ -29,7 +29,9 @@ bool Parser::parse_expression(Expression& result) {
 
 bool Parser::parse_operators(Expression& result, std::size_t level) {
     if (level == kOperators.size()) {
+        const Token first = token();
         if (!parse_primary(result)) return false;
+        if (at_comparison()) return refuse_comparison(first, result);
         mend({"AND", "OR", "XOR"}, "AND, OR, XOR or the end of the condition");
         return true;
     }
@@ -79,8 +81,9 @@ bool Parser::parse_primary(Expression& result) {
 }
 
 bool Parser::parse_named_primary(Expression& result) {
-    if (token(1).kind == TokenKind::symbol && token(1).text == ".") mend({"TIMER", "COUNTER"}, "a condition");
+    if (is_symbol_at(1, ".")) mend({"TIMER", "COUNTER"}, "a condition");
     if (in_property_ && at("STEP")) return parse_step_test();
+    if (refuse_call_or_part()) return true;
     if (at("TRUE") || at("FALSE")) {
         result.kind = Kind::constant;
         result.value = at("TRUE");
@@ -101,9 +104,11 @@ bool Parser::parse_named_primary(Expression& result) {
     }
     if (at("TIMER") || at("COUNTER")) {
         result.kind = at("TIMER") ? Kind::timer_q : Kind::counter_q;
+        const Token first = token();
         ++at_;
         if (take_symbol(".") && take("Q")) return true;
-        report_.add("E014", tokens_[at_ - 1].span,
+        if (is_word_at(0)) ++at_;
+        report_.add("E014", span_since(first),
                     "only TIMER.Q and COUNTER.Q can be tested: they are true at zero",
                     "write TIMER.Q or COUNTER.Q");
         return false;
@@ -114,8 +119,17 @@ bool Parser::parse_named_primary(Expression& result) {
         ++at_;
         return true;
     }
+    const std::string_view expected = "an input, INPOS, ERROR, TIMER.Q or COUNTER.Q";
+    if (at("THEN") || at("AND") || at("OR") || at("XOR")) {
+        error_here(expected);
+        return false;
+    }
+    if (at_symbol("/")) {
+        error_here(expected, "write NOT in front of what must be off");
+        return false;
+    }
     result.kind = Kind::name;
-    return expect_name(result.name, "an input, INPOS, ERROR, TIMER.Q or COUNTER.Q");
+    return expect_name(result.name, expected);
 }
 
 bool Parser::at_symbolic_term() const {

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "syntax/foreign_words.h"
 #include "syntax/names.h"
 #include "syntax/parser.h"
 
@@ -82,9 +83,18 @@ bool parse_time(std::string_view text, double& milliseconds) {
 bool Parser::parse_if(ast::Choice& choice) {
     const Span opened = token().span;
     bool last = false;
+    std::size_t ends_too_many = 0;
     do {
         ast::Branch branch;
         branch.span = token().span;
+        if (at("ELSE") && same_name(token(1).text, "IF")) {
+            const Token first = token();
+            ++at_;
+            ++ends_too_many;
+            report_.add("E010", {first.span.offset, token().span.offset + 2 - first.span.offset},
+                        "an IF cannot stand inside another: ELSE IF is the word ELSIF",
+                        "write ELSIF, and one END_IF for all of it");
+        }
         last = at("ELSE");
         ++at_;
         if (!last) {
@@ -99,13 +109,17 @@ bool Parser::parse_if(ast::Choice& choice) {
         choice.branches.push_back(std::move(branch));
     } while (!last && (at("ELSIF") || at("ELSE")));
     end_block("END_IF", opened);
+    for (; ends_too_many > 0 && take("END_IF"); --ends_too_many) take_symbol(";");
     return true;
 }
 
 /// What stands too much between the condition and THEN is one mistake.
 void Parser::take_then() {
     if (take("THEN") || (mend({"THEN"}, "THEN after the condition") && take("THEN"))) return;
-    error_here("THEN after the condition", "write IF condition THEN; AND, OR and XOR join two conditions");
+    error_here("THEN after the condition",
+               at_symbol(")") ? "there is no '(' for this ')'"
+                              : "write IF condition THEN; AND, OR and XOR join two conditions");
+    if (take_symbol(":")) return;
     const std::size_t before = at_;
     while (!at("THEN") && !at_boundary() && !at_symbol(";")) ++at_;
     if (!take("THEN")) at_ = before;
@@ -155,7 +169,10 @@ bool Parser::parse_statement(Statement& statement) {
 bool Parser::parse_simple_statement(Statement& statement) {
     if (take("NEXT")) {
         statement.kind = Statement::Kind::next;
-        if (!expect_symbol(":=", "after NEXT")) return false;
+        if (is_word_at(0)) {
+            error_here("':=' after NEXT", fmt::format("write NEXT := {};", token().text));
+        } else if (!expect_symbol(":=", "after NEXT"))
+            return false;
         if (at("POWER_UP")) {
             statement.name = name_of(token());
             ++at_;
@@ -173,7 +190,13 @@ bool Parser::parse_simple_statement(Statement& statement) {
     }
     if (at("TIMER") || at("COUNTER")) {
         statement.kind = at("TIMER") ? Statement::Kind::timer : Statement::Kind::counter;
+        const ForeignWord* usual = foreign_word(at("TIMER") ? "TON" : "CTU");
         ++at_;
+        const bool is_preset = at_symbol(":=") || at_symbol("=");
+        if (!is_preset || same_name(token(1).text, "COUNTER") || same_name(token(1).text, "TIMER")) {
+            error_here("':=' and a constant to preset it", std::string(usual->help));
+            return false;
+        }
         return expect_symbol(":=", "to preset it, as in TIMER := T#500ms;") && parse_value(statement.value);
     }
     if (take("REG")) {
@@ -181,12 +204,17 @@ bool Parser::parse_simple_statement(Statement& statement) {
         return parse_register_number(statement.register_number) &&
                expect_symbol(":=", "after the register") && parse_value(statement.value);
     }
+    if (refuse_foreign_word()) return false;
     if (token().kind == TokenKind::identifier && is_reserved(token().text)) {
         error_here("a statement", "statements are NEXT := Step; TIMER := T#1s; commands and register values");
         return false;
     }
     if (!expect_name(statement.name, "a statement")) return false;
     if (at_symbol(":=")) return parse_assignment(statement);
+    if (at_symbol("=")) {
+        error_here(fmt::format("':=' after {}", statement.name.text), "write := with a colon");
+        return parse_assignment(statement);
+    }
     statement.kind = Statement::Kind::command;
     return !at_symbol("(") || parse_arguments(statement);
 }
@@ -204,6 +232,18 @@ bool Parser::parse_arguments(Statement& statement) {
     do {
         if (token().kind != TokenKind::identifier && token().kind != TokenKind::number) {
             error_here("a register or a number");
+            return false;
+        }
+        const Token first = token();
+        if (first.kind == TokenKind::number && is_word_at(1)) {
+            ast::Value value;
+            if (!parse_value(value)) return false;
+            report_.add("E050", span_since(first),
+                        fmt::format("{} takes a register, not a value", upper(statement.name.text)),
+                        fmt::format("name a register with this value in VAR_MOTOR, as in Place AT P1 := 80 "
+                                    "mm; and write {}(Place)",
+                                    upper(statement.name.text)));
+            while (!at_symbol(")") && !at_symbol(";") && !at_boundary()) ++at_;
             return false;
         }
         statement.arguments.push_back(name_of(token()));
@@ -227,10 +267,12 @@ bool Parser::parse_value(ast::Value& value) {
     const bool is_literal = literal.kind == TokenKind::number || literal.kind == TokenKind::based ||
                             literal.kind == TokenKind::time;
     if (!is_literal) {
-        error_here("a value",
-                   at("TRUE") || at("FALSE")
-                       ? "an output belongs to its step: OUT Name; or OUT Name WHEN condition;"
-                       : "only constants can be written; another step is named with NEXT := Name;");
+        error_here(
+            "a value",
+            at("TRUE") || at("FALSE")
+                ? "an output belongs to its step: OUT Name; or OUT Name WHEN condition;"
+                : "only constants can be written; a register's value is brought in by selecting it, as "
+                  "in POSITION(P1), and another step is named with NEXT := Name;");
         return false;
     }
     ++at_;
@@ -254,6 +296,21 @@ bool Parser::parse_value(ast::Value& value) {
     if (negative) value.number = -value.number;
     if (literal.kind == TokenKind::number) parse_unit(value);
     value.span = span_since(first);
+    return !refuse_decimal_comma(first);
+}
+
+/// 80,5 mm; in a TERM the comma parts two bytes.
+bool Parser::refuse_decimal_comma(const Token& first) {
+    const Token& last = tokens_[at_ - 1];
+    const Token& digits = token(1);
+    const bool touches = token().span.offset == last.span.offset + last.span.length &&
+                         digits.span.offset == token().span.offset + 1;
+    if (in_term_ || !at_symbol(",") || last.kind != TokenKind::number || digits.kind != TokenKind::number ||
+        !touches)
+        return false;
+    at_ += 2;
+    report_.add("E003", span_since(first), "a number has a decimal point",
+                fmt::format("write {}.{}", last.text, digits.text));
     return true;
 }
 
@@ -283,7 +340,10 @@ bool Parser::parse_raw_term(std::vector<ast::RawTerm>& terms) {
     bool sound = true;
     do {
         ast::Value value;
-        if (!parse_value(value)) return false;
+        in_term_ = true;
+        const bool is_value = parse_value(value);
+        in_term_ = false;
+        if (!is_value) return false;
         const bool is_byte = value.number >= 0 && value.number <= 255 &&
                              std::floor(value.number) == value.number && value.unit.text.empty() &&
                              !value.is_time;

@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "syntax/foreign_words.h"
 #include "syntax/names.h"
 
 namespace nplc::seqc {
@@ -122,7 +123,7 @@ bool Parser::mend(const std::vector<std::string_view>& words, std::string_view e
 
 /// Misspelt is a word where no statement can go on like this: "ELIF Guard", "ENDIF END_STEP", "NXT := Idle".
 void Parser::mend_statement(std::vector<std::string_view> end_words) {
-    if (!is_word_at(0)) return;
+    if (!is_word_at(0) || foreign_word(token().text) != nullptr) return;
     const Token& after = token(1);
     const bool symbol = after.kind == TokenKind::symbol;
     if (symbol && after.text == ":=") {
@@ -146,7 +147,7 @@ bool Parser::expect_symbol(std::string_view symbol, std::string_view where) {
 
 bool Parser::expect_name(ast::Name& name, std::string_view what) {
     if (token().kind != TokenKind::identifier) {
-        error_here(what);
+        error_here(what, token().kind == TokenKind::text ? "names stand without quotes" : "");
         return false;
     }
     name = name_of(token());

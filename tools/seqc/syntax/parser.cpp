@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "syntax/foreign_words.h"
 #include "syntax/names.h"
 
 namespace nplc::seqc {
@@ -26,6 +27,8 @@ ast::Program Parser::parse() {
     while (token().kind != TokenKind::end && !at("END_PROGRAM") && !report_.full()) parse_item(program);
     end_block("END_PROGRAM", opened);
     program.texts = std::move(texts_);
+    program.names_missing = program.names_missing || names_missing_;
+    program.faulty_names = std::move(faulty_names_);
     if (token().kind != TokenKind::end && !report_.full()) {
         report_.add("E010", token().span, fmt::format("{} stands after END_PROGRAM", shown(token())),
                     "a file holds one program");
@@ -44,7 +47,17 @@ void Parser::parse_item(ast::Program& program) {
     if (take_symbol(";") || (program.steps_missing && take("END_STEP"))) return;
     if (take("MOTOR")) {
         ast::Name motor;
+        program.motor_missing = true;
+        if (at_symbol(":=")) {
+            error_here("the motor, such as MAC140", "write MOTOR MAC140;");
+            ++at_;
+        }
         if (!expect_name(motor, "the motor, such as MAC140")) return recover();
+        if (token().kind == TokenKind::number) {
+            report_.add("E010", span_since(tokens_[at_ - 1]), "a motor's name is one word",
+                        fmt::format("write MOTOR {}{};", motor.text, token().text));
+            return recover();
+        }
         if (program.motor) twice(motor.span, "MOTOR", program.motor->span);
         program.motor = motor;
         return end_statement();
@@ -64,16 +77,17 @@ void Parser::parse_item(ast::Program& program) {
     const std::string_view expected =
         "MOTOR, SCALE, VAR_INPUT, VAR_OUTPUT, VAR_MOTOR, ON ERROR, POWER_UP, STEP, TERM, PROPERTY or "
         "END_PROGRAM";
-    if (mend({"MOTOR", "SCALE", "VAR_INPUT", "VAR_OUTPUT", "VAR_MOTOR", "POWER_UP", "STEP", "TERM",
+    if (foreign_word(token().text) == nullptr &&
+        mend({"MOTOR", "SCALE", "VAR_INPUT", "VAR_OUTPUT", "VAR_MOTOR", "POWER_UP", "STEP", "TERM",
               "PROPERTY", "END_PROGRAM"},
              expected)) {
         return;
     }
+    if (refuse_foreign_item(program)) return;
     error_here(expected, "this belongs into a step, or something above it ends too early");
     program.steps_missing = true;
-    const std::size_t before = at_;
-    recover();
-    if (at_ == before) ++at_;
+    ++at_;
+    recover_item();
 }
 
 void Parser::parse_scale(ast::Program& program) {
@@ -82,6 +96,11 @@ void Parser::parse_scale(ast::Program& program) {
     ast::Scale scale;
     ast::Value left;
     ast::Value right;
+    program.scale_missing = true;
+    if (at_symbol(":=")) {
+        error_here("how far a revolution moves", "write SCALE 1 rev = 10 mm;");
+        return recover();
+    }
     if (!parse_value(left) || !expect_symbol("=", "in SCALE, as in SCALE 1 rev = 5 mm;") ||
         !parse_value(right)) {
         return recover();
@@ -94,8 +113,11 @@ void Parser::parse_scale(ast::Program& program) {
                        right.number > 0 && !left.is_raw && !right.is_raw && !left.is_time && !right.is_time &&
                        right.unit.text.find_first_of("/%") == std::string_view::npos;
     if (!sound) {
+        const bool turned = same_name(right.unit.text, "rev") && !left.unit.text.empty();
         report_.add("E032", scale.span, "SCALE must say how far the machine moves in some revolutions",
-                    "write it as SCALE 1 rev = 5 mm;");
+                    turned ? fmt::format("write the revolutions first: SCALE {:g} rev = {:g} {};",
+                                         right.number, left.number, left.unit.text)
+                           : "write it as SCALE 1 rev = 5 mm;");
     } else if (program.scale) {
         twice(scale.span, "SCALE", program.scale->span);
     } else {
@@ -137,22 +159,51 @@ void Parser::parse_variable(std::vector<ast::Variable>& variables, bool motor) {
         if (token().kind == TokenKind::identifier) ++at_;
         return recover();
     }
+    faulty_names_.push_back(variable.name.text);
+    if (!motor && at_symbol(":")) {
+        error_here("AT and an address", fmt::format("write where it is wired: {} AT IN0 : BOOL; (or AT OUT0)",
+                                                    variable.name.text));
+        return recover();
+    }
+    if (motor && at_symbol(":=")) {
+        names_missing_ = true;
+        error_here("AT and a register", fmt::format("write Name AT {} := value;", variable.name.text));
+        return recover();
+    }
     if (!expect("AT", motor ? "and a register, as in AT P1" : "and an address, as in AT %IX0.0"))
         return recover();
     if (motor && take("REG")) {
         if (!parse_register_number(variable.register_number)) return recover();
     } else if (token().kind == TokenKind::direct || token().kind == TokenKind::identifier) {
-        variable.address = name_of(token());
+        const Token first = token();
         ++at_;
+        while (!motor && (at_symbol(".") || token().kind == TokenKind::number)) ++at_;  // E0.2
+        variable.address.span = span_since(first);
+        variable.address.text = source_.substr(first.span.offset, variable.address.span.length);
     } else {
         error_here(motor ? "a register, such as P1 or V_SOLL" : "an address, such as %IX0.0 or IN0");
         return recover();
     }
-    if (!motor && take_symbol(":") && !expect("BOOL", "as the type")) return recover();
+    if (!motor && take_symbol(":") && !take("BOOL") && !mend({"BOOL"}, "BOOL as the type")) {
+        error_here("BOOL as the type",
+                   "inputs and outputs are BOOL; values of the motor are registers, in VAR_MOTOR");
+        return recover();
+    }
+    take("BOOL");
+    if (!motor && at_symbol(":=")) {
+        report_.add("E010", token().span, "an input or output has no value of its own here",
+                    "leave it out: outputs are off at power-up, and OUT in a step switches them on");
+        return recover();
+    }
+    if (motor && at_symbol("=")) {
+        error_here("':=' before the value", "write := with a colon");
+        tokens_[at_].text = ":=";
+    }
     if (motor && take_symbol(":=")) {
         variable.value.emplace();
         if (!parse_value(*variable.value)) return recover();
     }
+    faulty_names_.pop_back();
     variables.push_back(variable);
     end_statement();
 }
@@ -162,15 +213,13 @@ void Parser::parse_step(ast::Program& program) {
     ++at_;
     ast::Step step;
     if (!expect_name(step.name, "the step's name")) {
+        if (token().kind == TokenKind::number)
+            report_.last().help = fmt::format("give it a name: STEP Name: or STEP Name AT {}:", token().text);
         step.name = {"", opened};
         program.steps_missing = true;
         if (!at_boundary()) ++at_;
     }
-    if (take("AT")) {
-        step.number.emplace();
-        if (!parse_value(*step.number)) step.number.reset();
-    }
-    if (!take_symbol(":")) error_here("':' after the step's name");
+    parse_step_head(program, step);
     parse_step_body(step, "END_STEP");
     end_block("END_STEP", opened);
     if (!step.name.text.empty()) program.steps.push_back(std::move(step));
@@ -269,7 +318,17 @@ void Parser::parse_out(ast::Step& step) {
     const Token first = token();
     ++at_;
     std::vector<ast::Name> outputs;
+    if (at("NOT")) {
+        report_.add("E010", token().span, "OUT names what is on in the step",
+                    "leave it out: an output that OUT does not name is off");
+        return recover();
+    }
     if (!parse_outputs(outputs)) return recover();
+    if (at_symbol(":=") || at_symbol("=") || at("ON") || at("TRUE") || at("FALSE")) {
+        report_.add("E010", token().span, "OUT takes no value: it names what is on in the step",
+                    "write OUT Name; an output that it does not name is off");
+        return recover();
+    }
     if (!at("WHEN")) mend({"WHEN"}, "';' or WHEN");
     if (take("WHEN")) {
         ast::ConditionalOutput conditional;

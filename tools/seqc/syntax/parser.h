@@ -68,6 +68,18 @@ class Parser {
     void parse_allowance(ast::Step& step);
     bool parse_outputs(std::vector<ast::Name>& outputs);
 
+    // parse_foreign.cpp: what other languages have
+    bool is_symbol_at(std::size_t ahead, std::string_view symbol) const;
+    /// Says what to write for a word such as WAIT or FOR; reading stands at it, or behind its block.
+    bool refuse_foreign_word();
+    bool refuse_foreign_item(ast::Program& program);
+    /// To the next thing that may stand outside of a step.
+    void recover_item();
+    bool at_comparison() const;
+    bool refuse_comparison(const Token& first, ast::Expression& result);
+    bool refuse_call_or_part();
+    void parse_step_head(ast::Program& program, ast::Step& step);
+
     // parse_statements.cpp
     bool parse_if(ast::Choice& choice);
     void take_then();
@@ -79,6 +91,7 @@ class Parser {
     bool parse_register_number(std::optional<ast::Value>& number);
     bool parse_value(ast::Value& value);
     void parse_unit(ast::Value& value);
+    bool refuse_decimal_comma(const Token& first);
     bool parse_raw_term(std::vector<ast::RawTerm>& terms);
 
     // parse_terms.cpp
@@ -105,9 +118,12 @@ class Parser {
     std::size_t at_ = 0;
     int depth_ = 0;
     std::deque<std::string> texts_;
+    std::vector<std::string_view> faulty_names_;
+    bool names_missing_ = false;
     bool comment_is_open_;
     bool end_reported_ = false;
     bool in_property_ = false;
+    bool in_term_ = false;
 };
 
 /// Milliseconds of T#1s500ms; false if it is malformed.

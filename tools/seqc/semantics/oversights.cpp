@@ -1,0 +1,233 @@
+#include "semantics/oversights.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "semantics/commands.h"
+#include "semantics/scope.h"
+#include "semantics/units.h"
+
+namespace nplc::seqc {
+namespace {
+
+using protocol::fastmac::Group;
+using protocol::fastmac::Mode;
+using protocol::fastmac::Number;
+
+/// The makers' data sheets; a MAC800 above it stops with an error (004).
+constexpr double kTopSpeedSmall = 4000;
+constexpr double kTopSpeedMac800 = 3600;
+
+bool leaves(const StepPlan& step, const Rule& rule) {
+    return rule.action.next && *rule.action.next != step.number;
+}
+
+bool is_number(const Send& send, Number number) {
+    return send.reg == nullptr && !select_command(send.command) &&
+           static_cast<Number>(send.command & 0x1F) == number;
+}
+
+/// Holds when the bit is 1 and not when it is 0.
+bool waits_for(const Truth& when, std::size_t bit) {
+    const Truth with = when & truth_of_bit(bit);
+    return (with & ~(when << (std::size_t{1} << bit))).any();
+}
+
+class Oversights {
+  public:
+    Oversights(const Plan& plan, const Symbols& symbols, Report& report)
+        : plan_(plan), symbols_(symbols), report_(report) {
+        for (const StepPlan& step : plan.steps) has_terms_ = has_terms_ || !step.terms.empty();
+        has_terms_ = has_terms_ || !plan.terms.empty();
+    }
+
+    void run() {
+        check_speeds();
+        check_unset_registers();
+        if (has_terms_) return;  // they may do what is missing
+        check_presets(kTimerZero, "W020", "TIMER.Q", "the timer", "TIMER := T#500ms; on the way to the step");
+        check_presets(kCounterZero, "W020", "COUNTER.Q", "the counter",
+                      "COUNTER := 5; on the way to the step");
+        check_exits();
+        check_reset();
+        check_watchdogs();
+    }
+
+  private:
+    template <class Visit>
+    void for_each_rule(const Visit& visit) const {
+        for (const StepPlan& step : plan_.steps) {
+            for (const Rule& rule : step.rules) visit(step, rule);
+        }
+    }
+
+    void check_speeds() {
+        if (symbols_.drive != nullptr) return;
+        const bool large = symbols_.motor == registers::Model::mac800;
+        const double top = large ? kTopSpeedMac800 : kTopSpeedSmall;
+        std::set<std::uint32_t> said;
+        for_each_send(plan_, [&](const Send& send) {
+            const bool is_speed = send.reg != nullptr && (send.reg->number == registers::V_SOLL ||
+                                                          is_selectable(send.reg->number, Group::v));
+            if (!is_speed) return;
+            const auto per_rpm = raw_per_unit(*send.reg, symbols_.motor, {}, "rpm");
+            if (!per_rpm) return;
+            const double rpm = std::fabs(number_of_bits(send.value, send.reg->format)) / *per_rpm;
+            if (rpm <= top + 1 || !said.insert(send.span.offset).second) return;
+            report_.add("W018", send.span,
+                        fmt::format("{:.0f} rpm is more than a {} reaches: {:.0f} rpm", rpm,
+                                    registers::name_of(symbols_.motor), top),
+                        "write less, or look at SCALE: it says how far the machine moves in a revolution");
+        });
+    }
+
+    static bool is_selectable(std::uint8_t number, Group group) {
+        const auto selection = selection_of(number);
+        return selection && selection->group == group;
+    }
+
+    /// A program that sets none relies on the motor's own; a name without a value says that it means to.
+    void check_unset_registers() {
+        if (symbols_.drive != nullptr) return;
+        std::set<std::pair<Group, std::uint8_t>> set;
+        const auto add = [&](std::uint8_t number) {
+            if (const auto selection = selection_of(number)) set.emplace(selection->group, selection->index);
+        };
+        for_each_send(plan_, [&](const Send& send) {
+            if (send.reg != nullptr) add(send.reg->number);
+        });
+        if (set.empty()) return;
+        for (const MotorName& named : symbols_.motor_names) add(named.number);
+        for_each_send(plan_, [&](const Send& send) {
+            const auto select = select_command(send.command);
+            if (send.reg != nullptr || !select) return;
+            if (!set.emplace(select->selection.group, select->selection.index).second) return;
+            const std::string shown = describe_command(send.command);
+            const std::string reg = shown.substr(shown.find('(') + 1, 2);
+            report_.add("W023", send.span,
+                        fmt::format("{} is selected here, and nothing gives it a value", reg),
+                        fmt::format("write Name AT {0} := value; in VAR_MOTOR, or Name AT {0}; if the motor "
+                                    "has it in its memory or somebody else sets it",
+                                    reg));
+        });
+    }
+
+    void check_presets(std::size_t bit, Code code, const char* test, const char* what, const char* how) {
+        bool is_preset = false;
+        const Rule* first = nullptr;
+        for_each_rule([&](const StepPlan&, const Rule& rule) {
+            is_preset = is_preset ||
+                        (bit == kTimerZero ? rule.action.timer.has_value() : rule.action.counter.has_value());
+            if (first == nullptr && waits_for(rule.when, bit)) first = &rule;
+        });
+        if (is_preset || first == nullptr) return;
+        report_.add(code, first->condition, fmt::format("{} is true at once: nothing presets {}", test, what),
+                    fmt::format("write {}", how));
+    }
+
+    void check_exits() {
+        std::bitset<64> entered;
+        for_each_rule([&](const StepPlan& step, const Rule& rule) {
+            if (step.number != 0 && leaves(step, rule)) entered.set(*rule.action.next);
+        });
+        for (const StepPlan& step : plan_.steps) {
+            const bool leads_on = std::any_of(step.rules.begin(), step.rules.end(), [&](const Rule& rule) {
+                return leaves(step, rule) && (rule.when & ~truth_of_bit(kErrorBit)).any();
+            });
+            const bool under_error =
+                step.own_error && std::any_of(step.rules.begin(), step.rules.end(),
+                                              [&](const Rule& rule) { return leaves(step, rule); });
+            const bool is_empty = step.outputs == 0 && step.conditional.empty() &&
+                                  std::all_of(step.rules.begin(), step.rules.end(), [](const Rule& rule) {
+                                      return (rule.when & ~truth_of_bit(kErrorBit)).none();
+                                  });
+            if (leads_on || under_error || is_empty || !entered.test(step.number)) continue;
+            stuck_.set(step.number);
+            report_.add("W019", step.span,
+                        fmt::format("'{}' is entered and never left{}", step.name,
+                                    step.own_error || step.rules.empty() ? "" : " but by an ERROR"),
+                        "write a branch with NEXT, such as IF condition THEN NEXT := Step; END_IF");
+        }
+    }
+
+    /// An error stays until RESET_ERROR is sent, and a condition that does not name ERROR means NOT ERROR.
+    void check_reset() {
+        const Rule* reset = nullptr;
+        bool under_error = false;
+        const StepPlan* fault = nullptr;
+        for_each_rule([&](const StepPlan& step, const Rule& rule) {
+            const bool on_error = (rule.when & truth_of_bit(kErrorBit)).any();
+            if (on_error && leaves(step, rule) && !step.own_error) fault = step_numbered(*rule.action.next);
+            for (const Send& send : rule.action.sends) {
+                if (!is_number(send, Number::reset_error)) continue;
+                reset = &rule;
+                under_error = under_error || on_error;
+            }
+        });
+        if (fault == nullptr || under_error || stuck_.test(fault->number)) return;
+        if (reset != nullptr) {
+            report_.add("W021", reset->condition.length != 0 ? reset->condition : reset->action.span,
+                        "RESET_ERROR is never sent while there is an ERROR: this means NOT ERROR too",
+                        "write ANY ERROR AND in front of the condition");
+            return;
+        }
+        report_.add("W021", fault->span,
+                    "nothing sends RESET_ERROR: once there was an error the motor stays still",
+                    "write IF ANY ERROR AND Ack THEN RESET_ERROR; NEXT := POWER_UP; END_IF");
+    }
+
+    const StepPlan* step_numbered(std::uint8_t number) const {
+        const auto found = std::find_if(plan_.steps.begin(), plan_.steps.end(),
+                                        [&](const StepPlan& step) { return step.number == number; });
+        return found == plan_.steps.end() ? nullptr : &*found;
+    }
+
+    static const Rule* timer_exit(const StepPlan& step) {
+        for (const Rule& rule : step.rules) {
+            if (leaves(step, rule) && (rule.when & ~truth_of_bit(kTimerZero)).none()) return &rule;
+        }
+        return nullptr;
+    }
+
+    /// A step that waits for the timer is entered while the time limit of the step before it runs, and the
+    /// two do not lead to the same step.
+    void check_watchdogs() {
+        for_each_rule([&](const StepPlan& from, const Rule& rule) {
+            if (!leaves(from, rule) || rule.action.timer || (rule.when & ~truth_of_bit(kTimerZero)).none())
+                return;
+            const Rule* limit = timer_exit(from);
+            const StepPlan* to = step_numbered(*rule.action.next);
+            const Rule* dwell = to == nullptr ? nullptr : timer_exit(*to);
+            if (limit == nullptr || dwell == nullptr || limit->action.next == dwell->action.next) return;
+            const bool waits_only = std::none_of(to->rules.begin(), to->rules.end(), [&](const Rule& other) {
+                return &other != dwell && leaves(*to, other) && (other.when & ~truth_of_bit(kErrorBit)).any();
+            });
+            if (!waits_only) return;
+            report_
+                .add(
+                    "W022", dwell->condition,
+                    fmt::format("'{}' waits for what is left of the time limit of '{}'", to->name, from.name),
+                    fmt::format("preset the timer on the way: TIMER := T#500ms; NEXT := {};", to->name))
+                .notes.push_back({rule.action.next_span, "it is entered from here, with the timer running"});
+        });
+    }
+
+    const Plan& plan_;
+    const Symbols& symbols_;
+    Report& report_;
+    bool has_terms_ = false;
+    std::bitset<64> stuck_;
+};
+
+}  // namespace
+
+void check_oversights(const Plan& plan, const Symbols& symbols, Report& report) {
+    Oversights(plan, symbols, report).run();
+}
+
+}  // namespace nplc::seqc
