@@ -23,6 +23,7 @@ MidiModule::MidiModule(Model model, const MidiOptions& options)
     : model_(model),
       options_(options),
       memory_(factory_memory(model, options.can, options.imax)),
+      shaft_(midi::facts_of(model).increments_per_rev, options.imax),
       supply_(midi::facts_of(model).max_supply * 3 / 5) {
     memory_.address = options.address;
 }
@@ -116,7 +117,7 @@ void MidiModule::look_at_switches() {
     for (const Input input : {Input::upper_stop, Input::lower_stop, Input::reference, Input::security}) {
         const std::optional<Switch>& connected = switches_[index(input)];
         if (connected)
-            change_input(input, connected->on_above ? shaft_ > connected->at : shaft_ < connected->at);
+            change_input(input, connected->on_above ? shaft() > connected->at : shaft() < connected->at);
     }
 }
 

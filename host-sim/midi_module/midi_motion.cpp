@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 
 #include "registers/midi_scale.h"
 #include "sim/midi_module.h"
@@ -11,15 +12,7 @@ namespace midi = registers::midi;
 
 constexpr std::uint8_t kHardwareStops = 1;
 constexpr std::uint8_t kSoftwareStops = 8;
-/// A shaft that slips is moved on every 250 us.
-constexpr std::int64_t kDragSteps = 4'000;  ///< a second
-constexpr std::int64_t kDragStep = std::int64_t{midi::kTicksPerSecond} / kDragSteps;
-constexpr std::int64_t kFraction = 1 << 20;
-/// Revolutions a second^2 of the whole holding torque on the rotor alone: 6 Nm / 2.7e-4 kg m^2 / 2 pi, and 9
-/// Nm / 4.05e-4 kg m^2 of a MAC34-2 are the same (003 §III). R: of a MAC23 too.
-constexpr std::int64_t kFullAcceleration = 3'537;
-/// R: of that the friction, as the virtual JVL motors have it, which slows down a shaft without supply.
-constexpr std::int64_t kFriction = 5, kWhole = 1'023;
+constexpr std::int64_t kDragStep = std::int64_t{midi::kTicksPerSecond} / MidiShaft::kDragSteps;
 /// R: braking that the supply cannot take is cut for 5 ms.
 constexpr std::int64_t kRelease = std::int64_t{midi::kTicksPerSecond} / 200;
 
@@ -147,15 +140,7 @@ bool MidiModule::adjusts() const {
 }
 
 bool MidiModule::can_turn(int direction) const {
-    return powered_ && !held_ && !at_end(direction) && torque() > std::abs(load_);
-}
-
-bool MidiModule::at_end(int direction) const {
-    return direction > 0 ? ends_.high && shaft_ >= *ends_.high : ends_.low && shaft_ <= *ends_.low;
-}
-
-void MidiModule::stop_shaft(bool above, std::int64_t at) {
-    (above ? ends_.high : ends_.low) = above ? std::max(at, shaft_) : std::min(at, shaft_);
+    return powered_ && shaft_.can_turn(direction, torque());
 }
 
 /// The supply is gone: the shaft goes on as fast as it is.
@@ -163,53 +148,30 @@ void MidiModule::run_out() {
     const bool turns = mode_ == Mode::coast || (profile_.running() && !pause_ && can_turn(direction_));
     const Ticks interval = mode_ == Mode::coast ? coast_interval_ : profile_.last_interval();
     if (!turns || interval <= 0) return;
-    drag_speed_ = direction_ * kDragStep * kFraction / interval;
-    drag_rest_ = 0;
+    shaft_.let_go(direction_ * std::int64_t{midi::kTicksPerSecond} / interval);
     if (!next_drag_) next_drag_ = ticks_ + kDragStep;
 }
 
-void MidiModule::slow_down() {
-    const std::int64_t full = kFullAcceleration * midi::facts_of(model_).increments_per_rev;
-    const std::int64_t loss = full * kFriction * kFraction / kWhole / kDragSteps / kDragSteps;
-    drag_speed_ = drag_speed_ > 0 ? std::max<std::int64_t>(drag_speed_ - loss, 0)
-                                  : std::min<std::int64_t>(drag_speed_ + loss, 0);
-}
-
 void MidiModule::set_load(std::int32_t torque) {
-    load_ = torque;
-    if (load_ != 0 && !next_drag_) next_drag_ = ticks_ + kDragStep;
+    shaft_.set_load(torque);
+    if (shaft_.slips() && !next_drag_) next_drag_ = ticks_ + kDragStep;
 }
 
-/// 003 §III and §VII 19h: at rest the shaft is held by TORQUE's share of the holding torque, half of it in
-/// standby, and by nothing with power off. R: what pulls more gives it the acceleration of the rest; a shaft
-/// that is held again stands at once.
 void MidiModule::drag() {
-    const std::int32_t beyond = std::abs(load_) - torque();
-    const bool is_held = held_ || mode_ == Mode::coast || (powered_ && beyond <= 0);
-    if (is_held) {
-        drag_speed_ = drag_rest_ = 0;
-    } else if (load_ == 0) {
-        slow_down();
+    std::int32_t by = 0;
+    if (mode_ == Mode::coast) {
+        shaft_.stand();
     } else {
-        const std::int64_t full = kFullAcceleration * midi::facts_of(model_).increments_per_rev;
-        const std::int64_t gain = full * beyond * kFraction / options_.imax / kDragSteps / kDragSteps;
-        drag_speed_ += load_ > 0 ? gain : -gain;
+        by = shaft_.drag(powered_ ? std::optional<std::int32_t>(torque()) : std::nullopt);
     }
-    if (load_ != 0 || drag_speed_ != 0) next_drag_ = ticks_ + kDragStep;
-    drag_rest_ += drag_speed_;
-    const std::int64_t whole = drag_rest_ / kFraction;
-    drag_rest_ -= whole * kFraction;
-    if (whole != 0) turn_shaft(static_cast<std::int32_t>(whole));
+    if (shaft_.slips()) next_drag_ = ticks_ + kDragStep;
+    if (by != 0) turn_shaft(by);
 }
 
 void MidiModule::turn_shaft(std::int32_t increments) {
-    const std::int64_t to = std::clamp(shaft_ + increments, ends_.low.value_or(shaft_ + increments),
-                                       ends_.high.value_or(shaft_ + increments));
-    if (to != shaft_ + increments) drag_speed_ = drag_rest_ = 0;
-    increments = static_cast<std::int32_t>(to - shaft_);
-    shaft_ = to;
+    const std::int32_t moved = shaft_.turn_by(increments);
     if (!on_) return;
-    position_ = wrapped(std::int64_t{position_} + increments);
+    position_ = wrapped(std::int64_t{position_} + moved);
     if (mode_ == Mode::idle) set_point_ = goal_ = position_;
     if (adjusts() && !next_step_) schedule(Ticks{memory_.unstall} * midi::kTicksPerLongPeriod);
     if (!moving()) remember();
@@ -241,13 +203,13 @@ bool MidiModule::blocked(int direction) {
 
 void MidiModule::turn(int direction) {
     position_ = wrapped(std::int64_t{position_} + direction);
-    shaft_ += direction;
+    shaft_.turn(direction);
 }
 
 void MidiModule::step() {
     if (mode_ == Mode::coast) {
         if (!braking_is_cut()) return stop_hard();
-        if (!at_end(direction_)) turn(direction_);
+        if (!shaft_.at_end(direction_)) turn(direction_);
         set_point_ = goal_ = position_;
         return schedule(coast_interval_);
     }

@@ -137,6 +137,15 @@ TEST(MidiLoad, WithoutSupplyTheShaftRunsOutUncounted) {
     }
 }
 
+TEST(MidiLoad, AnEndBelowHoldsItToo) {
+    MidiBench bench = at_rest(kWhole, false);
+    bench->stop_shaft(false, 40);
+    bench->set_load(-2 * kWhole);
+    bench.pass(seconds{1});
+    EXPECT_EQ(bench->position(), 40);
+    EXPECT_EQ(bench->shaft(), 40);
+}
+
 TEST(MidiLoad, AMechanicalEndHoldsTheShaft) {
     MidiBench bench;
     bench->stop_shaft(true, 500);

@@ -9,6 +9,7 @@
 #include "registers/midi.h"
 #include "sim/midi_memory.h"
 #include "sim/midi_profile.h"
+#include "sim/midi_shaft.h"
 #include "sim/text.h"
 
 namespace nplc::sim {
@@ -75,10 +76,10 @@ class MidiModule {
     void set_temperature(std::int32_t thousandths);
     void connect_encoder(bool connected);
     void overload_amplifier() { trip(registers::midi::kAmplifierTrip); }
-    void hold_shaft(bool held) { held_ = held; }
+    void hold_shaft(bool held) { shaft_.hold(held); }
     /// A mechanical end, in increments of shaft(); one that the shaft is beyond holds it where it is.
-    void stop_shaft(bool above, std::int64_t at);
-    void free_shaft() { ends_ = {}; }
+    void stop_shaft(bool above, std::int64_t at) { shaft_.stop(above, at); }
+    void free_shaft() { shaft_.free(); }
     /// A switch at an input: active on one side of a place, in increments of shaft().
     void connect(Input input, bool on_above, std::int64_t at);
     /// A constant pull in steps of TORQUE, positive clockwise. Below the motor's torque it only has to be
@@ -91,7 +92,7 @@ class MidiModule {
     bool is_on() const { return on_; }
     std::int32_t position() const { return position_; }
     /// Increments that the shaft has really turned, whatever the position was set to.
-    std::int64_t shaft() const { return shaft_; }
+    std::int64_t shaft() const { return shaft_.turned(); }
     bool moving() const;
     bool powered() const { return powered_; }
     std::uint8_t torque() const;  ///< what the motor has now, of Imax
@@ -154,12 +155,10 @@ class MidiModule {
     void turn(int direction);
     bool adjusts() const;
     bool can_turn(int direction) const;
-    bool at_end(int direction) const;
     void look_at_switches();
     void change_input(Input which, bool active);
     void run_out();
     void drag();
-    void slow_down();
     bool is_over_release(std::int32_t millivolts) const;
     bool braking_is_cut() const;
     bool blocked(int direction);
@@ -181,24 +180,16 @@ class MidiModule {
         std::int64_t at;
         bool on_above;
     };
-    struct Ends {
-        std::optional<std::int64_t> low, high;
-    };
 
     bool inputs_[4] = {};
     std::array<std::optional<Switch>, 4> switches_;
-    Ends ends_;
-    std::int64_t shaft_ = 0;
+    MidiShaft shaft_;
     bool reference_enabled_ = false;
     std::int32_t supply_;
     std::int32_t regeneration_ = 0;
     std::int32_t temperature_ = 25'000;
     bool encoder_ = true;
-    bool held_ = false;
-    std::int32_t load_ = 0;
     std::optional<Ticks> next_drag_;  ///< while there is a load, or the shaft runs out
-    std::int64_t drag_speed_ = 0;     ///< of a shaft that slips, increments a step of it, x 2^20
-    std::int64_t drag_rest_ = 0;      ///< less than an increment, x 2^20
 
     std::uint32_t trips_ = 0;
     std::uint32_t stopped_by_ = 0;

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace nplc::sim {
+
+/// The shaft of a MIDI module and what it is coupled to, in increments. The motor turns it as far as it can;
+/// a load above the motor's torque drags it, and without supply it runs out.
+class MidiShaft {
+  public:
+    static constexpr int kDragSteps = 4'000;  ///< a second: how often a shaft that slips is moved on
+
+    MidiShaft(std::int32_t increments_per_rev, std::uint8_t imax)
+        : full_acceleration_(kFullAcceleration * increments_per_rev), imax_(imax) {}
+
+    /// Increments since it was built.
+    std::int64_t turned() const { return turned_; }
+    bool at_end(int direction) const;
+    bool can_turn(int direction, std::int32_t torque) const;
+    /// By the motor, an increment.
+    void turn(int direction) { turned_ += direction; }
+    /// By a hand or a load, as far as the ends let it. Answers how far.
+    std::int32_t turn_by(std::int32_t increments);
+
+    /// One that the shaft is beyond holds it where it is.
+    void stop(bool above, std::int64_t at);
+    void free() { low_ = high_ = std::nullopt; }
+    void hold(bool held) { held_ = held; }
+    void set_load(std::int32_t torque) { load_ = torque; }
+
+    /// drag() has something to do.
+    bool slips() const { return load_ != 0 || speed_ != 0; }
+    /// Goes on by itself from now on, signed, increments a second.
+    void let_go(std::int64_t increments_per_second);
+    /// 1 / kDragSteps of a second. `torque`: what the motor holds it with; nothing: it has no power. Answers
+    /// how far the shaft wants to be turned.
+    std::int32_t drag(std::optional<std::int32_t> torque);
+    /// The motor stands in its way.
+    void stand() { speed_ = rest_ = 0; }
+
+  private:
+    /// Revolutions a second^2 of the whole holding torque on the rotor alone: 6 Nm / 2.7e-4 kg m^2 / 2 pi,
+    /// and 9 Nm / 4.05e-4 kg m^2 of a MAC34-2 are the same (003 §III). R: of a MAC23 too.
+    static constexpr std::int64_t kFullAcceleration = 3'537;
+
+    void slow_down();
+
+    std::int64_t full_acceleration_;  // increments a second^2
+    std::int32_t imax_;
+    std::int64_t turned_ = 0;
+    std::optional<std::int64_t> low_, high_;
+    bool held_ = false;
+    std::int32_t load_ = 0;
+    std::int64_t speed_ = 0;  // of a shaft that slips, increments a step of it, x 2^20
+    std::int64_t rest_ = 0;   // less than an increment, x 2^20
+};
+
+}  // namespace nplc::sim
