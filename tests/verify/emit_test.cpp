@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace nplc::verify {
 namespace {
 
@@ -27,7 +29,7 @@ bool contains(const std::string& text, const std::string& part) {
 TEST(Emit, PromelaHasTheManualsExample) {
     const Emission model = promela_of(example(), properties("PROPERTY P: NEVER step = 2 AND IN1;"));
     EXPECT_TRUE(contains(model.text,
-                         "step == 0 ->\n         if :: in0 && !in3 && inpos && !error -> "
+                         "step == 0 -> d_step {\n         if :: in0 && !in3 && inpos && !error -> "
                          "wrote = true; output_byte = 5; next_step = 2; timer_preset = 300 :: else fi;"));
     EXPECT_TRUE(contains(model.text, "ltl p_P { [] !bad_P }"));
     EXPECT_TRUE(contains(model.text, "#define bad_P (scanned && ((step == 2) && in1))"));
@@ -41,6 +43,25 @@ TEST(Emit, TimerAndCounterBitsThatAre0AskForZero) {
     table[0] = 0x00;
     EXPECT_TRUE(contains(promela_of(table, properties("PROPERTY P: NEVER ERROR;")).text,
                          "!timer_runs && counter == 0 && in0"));
+}
+
+/// Spin refuses a d_step of some 60 terms.
+TEST(Emit, ALongStepIsSplitForSpin) {
+    Bytes table;
+    for (int i = 0; i < 100; ++i) table.insert(table.end(), {0xC0, 0, 0, 0x01, 0x80, 0, 0, 0});
+    table.push_back(0x3F);
+    table.resize(table.size() + 7);
+    const std::string text = promela_of(table, properties("PROPERTY P: NEVER IN0;")).text;
+    std::size_t most = 0;
+    for (std::size_t at = text.find("step == 0"); at != std::string::npos; at = text.find("d_step", at + 1)) {
+        const std::string part = text.substr(at, text.find("d_step", at + 10) - at);
+        std::size_t terms = 0;
+        for (std::size_t t = part.find("next_step = 1"); t != std::string::npos;
+             t = part.find("next_step = 1", t + 1))
+            ++terms;
+        most = std::max(most, terms);
+    }
+    EXPECT_EQ(most, 16U);
 }
 
 TEST(Emit, WhatLinearTimeCannotSayIsLeftOutOfPromela) {

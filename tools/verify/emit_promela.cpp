@@ -83,15 +83,25 @@ std::string commands_of(const ManualTerm& term) {
     return text;
 }
 
+/// Spin takes no d_step of any length. Between two of them nothing is chosen, so a scan stays one course.
 std::string terms_text(const std::vector<ManualTerm>& terms) {
-    std::map<std::uint8_t, std::string> steps;
+    constexpr unsigned kAtOnce = 16;
+    struct Step {
+        std::string text;
+        unsigned terms = 0;
+    };
+    std::map<std::uint8_t, Step> steps;
     for (const ManualTerm& term : terms) {
         if (term.is_flexmac) continue;  // an order to the motor and nothing else
-        steps[term.state] +=
+        Step& step = steps[term.state];
+        if (step.terms++ % kAtOnce == 0)
+            step.text += step.text.empty() ? "d_step {\n" : "         };\n         d_step {\n";
+        step.text +=
             fmt::format("         if :: {} -> {} :: else fi;\n", condition_of(term), commands_of(term));
     }
     std::string text = "      if\n";
-    for (const auto& [step, own] : steps) text += fmt::format("      :: step == {} ->\n{}", step, own);
+    for (const auto& [number, step] : steps)
+        text += fmt::format("      :: step == {} -> {}         }}\n", number, step.text);
     return text + "      :: else\n      fi;\n";
 }
 
@@ -174,7 +184,8 @@ Emission promela_of(std::span<const std::uint8_t> table, const std::vector<Prope
         "{}{}\n{}\nactive proctype gateway() {{\n   do\n   :: atomic {{\n"
         "      d_step {{ scanned = false;{} }};\n"
         "      if :: timer_runs -> timer_runs = false :: skip fi;\n{}"
-        "      d_step {{\n      next_step = 62; wrote = false; timer_preset = 0; counter_preset = 0;\n{}{}"
+        "      d_step {{ next_step = 62; wrote = false; timer_preset = 0; counter_preset = 0 }};\n{}"
+        "      d_step {{{}"
         "      next_step = 0; wrote = false; output_byte = 0; timer_preset = 0; counter_preset = 0;\n"
         "     {} scanned = true\n      }} }}\n   od\n}}\n{}",
         kPromelaHeader, kVariables, declared, begun, chosen, terms_text(terms), kExecution, forgotten,
