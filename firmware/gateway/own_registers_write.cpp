@@ -30,7 +30,7 @@ base::Instant OwnRegisters::next_poll(base::Instant now) {
         case Waiting::nothing:
             break;
         case Waiting::room:
-        case Waiting::keeping:
+        case Waiting::saving:
             return std::min(next, write_begun_ + kLongestWait + base::Microseconds(1));
         case Waiting::activation:
         case Waiting::reset:
@@ -72,8 +72,8 @@ Progress OwnRegisters::continue_write(std::span<const std::uint8_t> bytes, base:
             reset_asked_ = active.is_done();
             return active;
         }
-        case Waiting::keeping:
-            if (const Progress kept = settings_.poll_keeping()) return kept;
+        case Waiting::saving:
+            if (const Progress kept = settings_.poll_save()) return kept;
             if (late) return Outcome{Result::busy};
             return std::nullopt;
         case Waiting::nothing:
@@ -174,8 +174,8 @@ Progress OwnRegisters::command(std::uint32_t value, base::Instant now) {
             return reset(now);
         case Command::keep_settings:
             if (gateway_.run_state() != gateway::RunState::stopped) return Outcome{Result::not_stopped};
-            settings_.begin_keeping();
-            waiting_ = Waiting::keeping;
+            settings_.begin_save();
+            waiting_ = Waiting::saving;
             return std::nullopt;
         case Command::upload_begin:
         case Command::upload_commit:

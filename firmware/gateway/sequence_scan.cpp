@@ -21,7 +21,7 @@ std::optional<sequencer::TableFault> SequenceScan::load(std::span<const std::uin
 }
 
 void SequenceScan::reset() {
-    quiet_key_.reset();
+    unchanged_key_.reset();
     engine_.reset();
 }
 
@@ -33,7 +33,7 @@ void SequenceScan::start(base::Instant now) {
 }
 
 void SequenceScan::resume() {
-    quiet_key_.reset();
+    unchanged_key_.reset();
     resumes_ = true;
 }
 
@@ -76,12 +76,12 @@ SequenceScan::Result SequenceScan::begin(std::uint8_t inputs, base::Instant now)
     progress_ = now;
     image_ = present_image(inputs);
     if ((image_ & sequencer::kError) != 0) mode_.set_passive();
-    if (quiet_key_ == engine_.key(image_)) {
+    if (unchanged_key_ == engine_.key(image_)) {
         idle_ = true;
         times_.note_end(now);
         return Result::skipped;
     }
-    quiet_key_ = engine_.key(image_);
+    unchanged_key_ = engine_.key(image_);
     before_ = engine_.state();
     engine_.begin(image_);
     in_scan_ = true;
@@ -112,7 +112,7 @@ void SequenceScan::finish(base::Instant now) {
     const sequencer::ScanEffect effect = engine_.finish();
     idle_ = !effect.any();
     if (effect.any()) {
-        quiet_key_.reset();
+        unchanged_key_.reset();
         next_scan_ = now + pace_;
     }
     if (effect.timer_preset) ticked_ = now;
@@ -131,7 +131,7 @@ base::Instant SequenceScan::next_poll(std::uint8_t inputs, base::Microseconds lo
     if (!motor_.settled()) return idle_ ? now : patience(longest_wait);
     // At once unless a scan would do nothing; else when the timer is 0, the only part of a key that nobody
     // brings.
-    if (quiet_key_ != engine_.key(present_image(inputs))) return std::max(now, next_scan_);
+    if (unchanged_key_ != engine_.key(present_image(inputs))) return std::max(now, next_scan_);
     const std::uint16_t timer = engine_.state().timer;
     return timer == 0 ? base::kNever : ticked_ + base::Milliseconds(timer);
 }

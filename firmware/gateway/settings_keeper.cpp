@@ -98,12 +98,12 @@ Result SettingsKeeper::set(std::uint8_t id, std::uint32_t value) {
     return Result::done;
 }
 
-void SettingsKeeper::begin_keeping() {
+void SettingsKeeper::begin_save() {
     saving_ = values_;
     begun_ = store_.save(saving_);
 }
 
-Progress SettingsKeeper::poll_keeping() {
+Progress SettingsKeeper::poll_save() {
     if (!begun_) return Outcome{result_of(begun_.error())};
     if (store_.phase() == store::Phase::failed) return Outcome{result_of(store_.error())};
     if (store_.phase() != store::Phase::done) return std::nullopt;

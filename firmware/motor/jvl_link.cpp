@@ -81,10 +81,10 @@ void JvlLink::rewind(base::Instant now) {
     transmit(now);
 }
 
-void JvlLink::adopt() {
+void JvlLink::synchronize() {
     toggle_ = status().toggle;
     flexmac_ = status().flexmac;
-    adopted_ = true;
+    synchronized_ = true;
     strange_shown_ = 0;
 }
 
@@ -92,7 +92,7 @@ void JvlLink::forget(base::Instant now) {
     filter_.forget();
     replies_.abandon();
     expect_ = Expect::nothing;
-    accepted_ = adopted_ = false;
+    accepted_ = synchronized_ = false;
     size_ = sent_ = 0;
     strange_shown_ = 0;
     reads_ = false;
@@ -116,7 +116,7 @@ base::Instant JvlLink::next_poll(base::Instant now) const {
     } else if (size_ != 0 && !on_the_line_) {
         not_before(line_free_);
     }
-    if (!adopted_) return next;
+    if (!synchronized_) return next;
     not_after(last_status_ + settings_.silence + kTick);
     if (!busy()) return next;
     not_after(started_ + kLongestMessage + kTick);
@@ -145,7 +145,7 @@ void JvlLink::receive(base::Instant now) {
     last_poll_ = now;
     heard_ = base::Microseconds(0);
     read_all(now);
-    overslept_ = unwatched - heard_ > settings_.silence;
+    polled_late_ = unwatched - heard_ > settings_.silence;
 }
 
 void JvlLink::read_all(base::Instant now) {
@@ -212,7 +212,7 @@ bool JvlLink::is_done() const {
 }
 
 void JvlLink::settle() {
-    adopt();
+    synchronize();
     expect_ = Expect::nothing;
     accepted_ = true;
 }
@@ -231,10 +231,10 @@ bool JvlLink::in_step(const Status& seen) const {
 }
 
 JvlLink::Result JvlLink::judge(base::Instant now) {
-    if (adopted_ && overslept_)
+    if (synchronized_ && polled_late_)
         return Result::silent;  // even if accepted: what waits behind it would be late
     if (std::exchange(accepted_, false)) return Result::accepted;
-    if (!adopted_) return Result::none;
+    if (!synchronized_) return Result::none;
     if (now - last_status_ > settings_.silence) return Result::silent;
     if (strange_shown_ >= kStrangeBytes) return Result::out_of_step;
     return busy() ? judge_message(now) : Result::none;

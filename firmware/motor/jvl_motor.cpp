@@ -126,7 +126,7 @@ void JvlMotor::start_up(base::Instant now) {
     switch (phase_) {
         case Phase::down:
             if (link_.known()) {
-                link_.adopt();
+                link_.synchronize();
                 phase_ = Phase::look;
             } else {
                 free_the_line(now);
@@ -295,8 +295,8 @@ void JvlMotor::update_hold(base::Instant now) {
     if (!holds_ || now < hold_until_) return;
     if (!hold_counts_) {
         hold_counts_ = true;
-        hold_count_ = link_.believed();
-    } else if (link_.believed() - hold_count_ >= 2) {
+        hold_count_ = link_.confirmed();
+    } else if (link_.confirmed() - hold_count_ >= 2) {
         holds_ = false;
     }
 }

@@ -20,7 +20,7 @@ struct LinkTest : testing::Test {
         motor.hear(status);
         motor.hear(status);
         ASSERT_TRUE(link.known());
-        link.adopt();
+        link.synchronize();
     }
     /// Hears `byte` up to `times` times; how many it took until something was sent or decided.
     int hear_until_sent(std::uint8_t byte, int times) {

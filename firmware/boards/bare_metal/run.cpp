@@ -4,7 +4,7 @@
 #include <new>
 #include <utility>
 
-#include "bare_metal/end.h"
+#include "bare_metal/fault_reset.h"
 #include "gateway/controller.h"
 #include "hal_mcu/cortex_m/core.h"
 #include "motor/any_driver.h"
@@ -22,7 +22,7 @@ constexpr base::Milliseconds kStartUp{3'000};
 /// With the run before not ended by us it was the watchdog's second bite, or a reset that looks the same.
 gateway::StartCause start_cause(bool for_service) {
     const bool bitten = take_watchdog_reset() || run_marker().is_set();
-    if (bitten && !crash_record().valid()) crash_record().set(EndCause::without_a_word, 0);
+    if (bitten && !crash_record().valid()) crash_record().set(EndCause::unrecorded, 0);
     run_marker().set();
     if (for_service) return gateway::StartCause::service;
     return crash_record().valid() ? gateway::StartCause::watchdog : gateway::StartCause::power_up;

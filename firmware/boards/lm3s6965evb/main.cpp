@@ -1,6 +1,6 @@
 // The gateway on a Stellaris LM3S6965: which pins, ports and areas it has.
 
-#include "bare_metal/end.h"
+#include "bare_metal/fault_reset.h"
 #include "bare_metal/run.h"
 #include "gateway/table_keeper.h"
 #include "hal_mcu/cortex_m/core.h"
@@ -53,7 +53,7 @@ void begin_chip() {
     if (chip::was_reset_from_outside()) bare_metal::run_marker().clear();
     const bool has_clock = chip::begin_clock();
     outputs.begin(bare_metal::safe_outputs());
-    if (!has_clock) bare_metal::give_up(hal_mcu::EndCause::no_clock, 0);
+    if (!has_clock) bare_metal::reset_after_fault(hal_mcu::EndCause::no_clock, 0);
     inputs.begin();
     board_clock.begin(chip::kHertz);
     core::allow_interrupts();
@@ -114,5 +114,5 @@ void run_firmware() {
 }
 
 void end_firmware(std::uint32_t exception, std::uint32_t code_address) {
-    nplc::bare_metal::give_up_after(exception, nplc::board::chip::Watchdog::kInterrupt, code_address);
+    nplc::bare_metal::reset_after_exception(exception, nplc::board::chip::Watchdog::kInterrupt, code_address);
 }

@@ -1,6 +1,6 @@
 // The gateway on a BBC micro:bit v1: which pins and areas it has, and whom its one UART serves.
 
-#include "bare_metal/end.h"
+#include "bare_metal/fault_reset.h"
 #include "bare_metal/run.h"
 #include "gateway/table_keeper.h"
 #include "hal_mcu/cortex_m/core.h"
@@ -112,5 +112,5 @@ void run_firmware() {
 }
 
 void end_firmware(std::uint32_t exception, std::uint32_t code_address) {
-    nplc::bare_metal::give_up_after(exception, nplc::board::chip::Watchdog::kInterrupt, code_address);
+    nplc::bare_metal::reset_after_exception(exception, nplc::board::chip::Watchdog::kInterrupt, code_address);
 }

@@ -45,7 +45,7 @@ class OwnRegisters {
 
   private:
     /// What poll_write() still has to wait for.
-    enum class Waiting : std::uint8_t { nothing, room, activation, reset, keeping };
+    enum class Waiting : std::uint8_t { nothing, room, activation, reset, saving };
 
     std::uint32_t value(std::uint8_t reg, base::Instant now) const;
     std::uint32_t live_value(std::uint8_t reg, base::Instant now) const;

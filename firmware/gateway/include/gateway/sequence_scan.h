@@ -121,8 +121,8 @@ class SequenceScan {
     bool idle_ = false;  ///< nothing could change at the last look
     MotorMode mode_;
     sequencer::InputImage image_ = 0;
-    std::optional<sequencer::Key> quiet_key_;  ///< a scan with this key would do nothing
-    sequencer::State before_;                  ///< as the last scan found it
+    std::optional<sequencer::Key> unchanged_key_;  ///< a scan with this key would do nothing
+    sequencer::State before_;                      ///< as the last scan found it
     std::optional<sequencer::MotorOrder> waiting_order_;
     sequencer::Engine engine_{table_};
     base::Instant progress_{};  ///< last time that a scan did not have to wait

@@ -32,8 +32,8 @@ class SettingsKeeper {
     /// All below need attach(). Only while stopped; not 255 or the motor's address for the gateway.
     Result set(std::uint8_t id, std::uint32_t value);
 
-    void begin_keeping();
-    Progress poll_keeping();
+    void begin_save();
+    Progress poll_save();
     void poll();
     base::Instant next_poll(base::Instant now) { return store_.next_poll(now); }
     bool differ() const { return values_ != stored_; }

@@ -43,7 +43,6 @@ class DriverPlace {
     Motor& start(const DriverPorts& ports, const DriverSettings& settings) {
         return start_one<Others..., First>(ports, settings);
     }
-    bool is_started() const { return driver_.index() != 0; }
 
     /// When to poll the driver at the latest, asked after each poll() and each call that gives it something
     /// to do; `now` or earlier: at once. Not with no driver.

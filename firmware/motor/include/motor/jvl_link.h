@@ -53,7 +53,7 @@ class JvlLink {
     void send_blind(std::span<const std::uint8_t> bytes, base::Instant now);
 
     /// Takes the motor's toggle and protocol as they are now; needs known().
-    void adopt();
+    void synchronize();
     /// Drops the message under way and all belief; the next two equal status bytes begin anew.
     void forget(base::Instant now);
 
@@ -62,7 +62,7 @@ class JvlLink {
     bool toggle() const { return toggle_; }
     bool flexmac() const { return flexmac_; }
     /// How often two equal status bytes in a row were heard.
-    std::uint32_t believed() const { return filter_.believed(); }
+    std::uint32_t confirmed() const { return filter_.confirmed(); }
     std::uint32_t resent() const { return resent_; }
     bool framing_error_seen() const { return framing_seen_; }
     void clear_framing_error() { framing_seen_ = false; }
@@ -100,7 +100,7 @@ class JvlLink {
     bool reads_ = false;  ///< an answer to request_ is still to come
     protocol::flexmac::Message request_;
     std::optional<std::uint32_t> reply_;
-    bool adopted_ = false;
+    bool synchronized_ = false;
     bool toggle_ = false;
     bool flexmac_ = false;
     bool framing_seen_ = false;
@@ -111,7 +111,7 @@ class JvlLink {
     base::Instant last_status_{};
     base::Instant last_poll_{};
     base::Microseconds heard_{};  ///< on the line since the poll before: characters read now
-    bool overslept_ = false;      ///< nobody listened for longer than `silence`
+    bool polled_late_ = false;    ///< nobody listened for longer than `silence`
     std::uint32_t resent_ = 0;
     Settings settings_;
     base::Microseconds character_;

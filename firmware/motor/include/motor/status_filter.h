@@ -13,7 +13,7 @@ class StatusFilter {
         if (has_previous_ && byte == previous_) {
             status_ = protocol::fastmac::decode_status(byte);
             known_ = true;
-            ++believed_;
+            ++confirmed_;
         }
         previous_ = byte;
         has_previous_ = true;
@@ -22,13 +22,13 @@ class StatusFilter {
     void forget() { known_ = has_previous_ = false; }
 
     bool known() const { return known_; }
-    std::uint32_t believed() const { return believed_; }                 ///< pairs heard
+    std::uint32_t confirmed() const { return confirmed_; }               ///< pairs heard
     const protocol::fastmac::Status& status() const { return status_; }  ///< needs known()
 
   private:
     protocol::fastmac::Status status_;
     std::uint8_t previous_ = 0;
-    std::uint32_t believed_ = 0;
+    std::uint32_t confirmed_ = 0;
     bool has_previous_ = false;
     bool known_ = false;
 };

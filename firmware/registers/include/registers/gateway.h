@@ -95,15 +95,6 @@ constexpr std::uint8_t register_of(Setting setting) {
     return static_cast<std::uint8_t>(SETTINGS + static_cast<unsigned>(setting));
 }
 
-/// Setting motor_kind: 0 is a JVL motor, then come the models of registers/midi.h.
-constexpr std::uint32_t motor_kind_of(std::optional<midi::Model> model) {
-    return model ? static_cast<std::uint32_t>(*model) + 1 : 0;
-}
-constexpr std::optional<midi::Model> model_of_kind(std::uint32_t motor_kind) {
-    if (motor_kind == 0) return std::nullopt;
-    return static_cast<midi::Model>(motor_kind - 1);
-}
-
 /// What follows the end term of a table that is uploaded with a certificate: this, then its SHA-256.
 inline constexpr std::array<std::uint8_t, 8> kProofMark{'N', 'P', 'L', 'P', 'R', 'O', 'O', 'F'};
 inline constexpr std::size_t kDigestBytes = std::size_t{4} * kProofWords;

@@ -15,7 +15,7 @@ enum class EndCause : std::uint8_t {
     stray_interrupt = 6,
     no_clock = 7,
     pure_call = 8,
-    without_a_word = 9,  ///< reset while the firmware ran: nothing of ours was executed any more
+    unrecorded = 9,  ///< reset while the firmware ran: nothing of ours was executed any more
 };
 
 /// What the firmware leaves in memory that a reset does not clear, for its next start. After power-up the

@@ -1,4 +1,4 @@
-#include "bare_metal/end.h"
+#include "bare_metal/fault_reset.h"
 
 #include "hal_mcu/cortex_m/core.h"
 #include "hal_mcu/cortex_m/end_cause.h"
@@ -33,15 +33,15 @@ hal_mcu::RunMarker& run_marker() {
     return kept_run;
 }
 
-void give_up(EndCause cause, std::uint32_t code_address) {
+void reset_after_fault(EndCause cause, std::uint32_t code_address) {
     hal_mcu::cortex_m::forbid_interrupts();
     write_outputs(kept_levels.get());
     kept_crash.set(cause, code_address);
     hal_mcu::cortex_m::reset();
 }
 
-void give_up_after(std::uint32_t exception, unsigned watchdog, std::uint32_t code_address) {
-    give_up(hal_mcu::cortex_m::end_cause(exception, watchdog), code_address);
+void reset_after_exception(std::uint32_t exception, unsigned watchdog, std::uint32_t code_address) {
+    reset_after_fault(hal_mcu::cortex_m::end_cause(exception, watchdog), code_address);
 }
 
 }  // namespace nplc::bare_metal
