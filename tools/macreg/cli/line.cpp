@@ -20,8 +20,7 @@ namespace {
 
 struct FindArguments {
     bool every_address = false;
-    bool this_speed = false;
-    bool every_speed = false;
+    Search::Speeds speeds;
 };
 
 /// 001 §3.2.1: 4Eh is 4.14; 004 has six bits for the second part.
@@ -31,82 +30,51 @@ std::string version_text(const FoundUnit& unit) {
     return fmt::format("firmware {}.{}", major, unit.version & ((1 << bits) - 1));
 }
 
-class Search {
-  public:
-    Search(Common& common, const FindArguments& options) : common_(common), options_(options) {}
+void tell_unit(Search& search, const FoundUnit& unit, std::uint32_t baud, bool served) {
+    const std::string where =
+        fmt::format("address {:>3}{}", unit.address, served ? "" : fmt::format(", {} baud", baud));
+    if (unit.gateway)
+        return search.add(where + ": a NanoPLC gateway; the motor behind it answers here too",
+                          {{"address", unit.address}, {"baud", baud}, {"kind", "gateway"}});
+    const std::string mode = mode_text(unit.model, unit.mode);
+    search.add(fmt::format("{}: {}, serial number {}, {}, {}", where, family_words(unit.model),
+                           unit.serial_number, version_text(unit), mode),
+               {{"address", unit.address},
+                {"baud", baud},
+                {"kind", "motor"},
+                {"family", unit.model == Model::mac800 ? "MAC800" : "MAC50-141"},
+                {"serial_number", unit.serial_number},
+                {"version", unit.version},
+                {"mode", unit.mode},
+                {"mode_name", mode}});
+}
 
-    void run() {
-        const bool served = host::Endpoint(common_.port).is_served();
-        if (served || options_.this_speed) {
-            at(common_.baud, served);
-        } else {
-            for (const std::uint32_t baud : command_line::kSpeeds) {
-                if (units_.empty() || options_.every_speed) at(baud, false);
-            }
-        }
-        progress(common_, "");
-        if (units_.empty())
-            throw command_line::Failure(
-                command_line::kNoAnswer,
-                noise_ ? "bytes came, but no answer: is it another kind of device, or do several units have "
-                         "the same address? Try --every-address, or one motor alone"
-                       : "nobody answers; is the motor switched on, and are A and B, or RX and TX, the right "
-                         "way round?");
-        command_line::tell(common_, text_, {{"units", units_}});
-    }
-
-  private:
-    void at(std::uint32_t baud, bool served) {
+void find(Common& common, const FindArguments& options) {
+    const bool served = host::Endpoint(common.port).is_served();
+    Search search(common, {.only_this = served || options.speeds.only_this, .every = options.speeds.every});
+    search.run(common.baud, command_line::kSpeeds, [&](std::uint32_t baud) {
         look_for_interruption();
-        Common here = common_;
+        Common here = common;
         here.baud = baud;
         const auto wire = command_line::open_port(here);
-        FinderOptions options{
-            .baud = baud, .patience = patience(baud), .every_address = options_.every_address};
-        options.goes_on = goes_on;
-        options.progress = [&](unsigned address) {
-            progress(common_, fmt::format("{} baud, address {}", baud, address));
+        const auto patience = static_cast<std::int64_t>(common.patience_ms == 150 ? 60 : common.patience_ms);
+        FinderOptions how{.baud = baud,
+                          .patience = base::Milliseconds{patience} + base::Microseconds{20'000'000 / baud},
+                          .every_address = options.every_address,
+                          .goes_on = goes_on};
+        how.progress = [&](unsigned address) {
+            progress(common, fmt::format("{} baud, address {}", baud, address));
         };
-        const Found found = find_units(*wire, options);
-        noise_ = noise_ || found.noise;
-        for (const FoundUnit& unit : found.units) add(unit, baud, served);
-    }
-
-    base::Microseconds patience(std::uint32_t baud) const {
-        return base::Milliseconds{
-                   static_cast<std::int64_t>(common_.patience_ms == 150 ? 60 : common_.patience_ms)} +
-               base::Microseconds{20'000'000 / static_cast<std::int64_t>(baud)};
-    }
-
-    void add(const FoundUnit& unit, std::uint32_t baud, bool served) {
-        const std::string speed = served ? "" : fmt::format(", {} baud", baud);
-        if (!text_.empty()) text_ += '\n';
-        if (unit.gateway) {
-            text_ += fmt::format("address {:>3}{}: a NanoPLC gateway; the motor behind it answers here too",
-                                 unit.address, speed);
-            units_.push_back({{"address", unit.address}, {"baud", baud}, {"kind", "gateway"}});
-            return;
-        }
-        const bool large = unit.model == Model::mac800;
-        const std::string mode = mode_text(unit.model, unit.mode);
-        text_ += fmt::format("address {:>3}{}: {}, serial number {}, {}, {}", unit.address, speed,
-                             family_words(unit.model), unit.serial_number, version_text(unit), mode);
-        units_.push_back({{"address", unit.address},
-                          {"baud", baud},
-                          {"kind", "motor"},
-                          {"family", large ? "MAC800" : "MAC50-141"},
-                          {"serial_number", unit.serial_number},
-                          {"version", unit.version},
-                          {"mode", unit.mode},
-                          {"mode_name", mode}});
-    }
-
-    Common& common_;
-    const FindArguments& options_;
-    std::string text_;
-    Json units_ = Json::array();
-    bool noise_ = false;
-};
+        const Found found = find_units(*wire, how);
+        search.hear(found.noise);
+        for (const FoundUnit& unit : found.units) tell_unit(search, unit, baud, served);
+    });
+    search.tell(
+        "units",
+        "bytes came, but no answer: is it another kind of device, or do several units have the same "
+        "address? Try --every-address, or one motor alone",
+        "nobody answers; is the motor switched on, and are A and B, or RX and TX, the right way round?");
+}
 
 struct MonitorArguments {
     std::string protocol = "mactalk";
@@ -282,10 +250,6 @@ void listen(const Common& common, const MonitorArguments& options) {
                "receiving wire does not lead to the line");
 }
 
-void find(Common& common, const FindArguments& options) {
-    Search(common, options).run();
-}
-
 void monitor(Common& common, const MonitorArguments& options) {
     const Common line = is_midi(options) ? line_of_midi(common) : common;
     options.replay.empty() ? listen(line, options) : replay(line, options);
@@ -300,9 +264,7 @@ void add_find(arguments::App& app, Common& common) {
                                           find);
     command.add_flag("--every-address", options.every_address,
                      "Ask 1 to 254 one by one, also where one motor seems to be alone");
-    command.add_flag("--every-speed", options.every_speed,
-                     "Go on with the other speeds when one has been answered at");
-    command.add_flag("--this-speed", options.this_speed, "Only the speed of --baud");
+    add_speed_options(command, options.speeds);
 }
 
 void add_monitor(arguments::App& app, Common& common) {

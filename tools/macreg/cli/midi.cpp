@@ -92,6 +92,11 @@ void MidiSession::open_can(const MidiCommon& options, base::Microseconds patienc
     link_ = std::move(link);
 }
 
+std::int64_t number_of(const midi::TypedNumber& number, const char* what) {
+    if (!number.error.empty()) throw UserError(what + number.error);
+    return number.value;
+}
+
 Json midi_document(const midi::Parameter& parameter, std::int64_t raw, const midi::Scale& scale) {
     return {{"name", parameter.name}, {"raw", raw}, {"value", midi::value_text(parameter, raw, scale)}};
 }

@@ -58,6 +58,9 @@ class MidiSession {
     std::unique_ptr<midi::Module> module_;
 };
 
+/// What was typed; throws UserError with `what` before the error.
+std::int64_t number_of(const midi::TypedNumber& number, const char* what = "");
+
 /// {"name":, "raw":, "value":}
 Json midi_document(const midi::Parameter& parameter, std::int64_t raw, const midi::Scale& scale);
 

@@ -28,12 +28,6 @@ struct MoveOptions {
     bool no_wait = false;
 };
 
-std::int64_t distance(const std::string& text, const MidiCommon& midi) {
-    const midi::TypedNumber number = midi::typed_position(text, midi_model(midi));
-    if (!number.error.empty()) throw UserError(number.error);
-    return number.value;
-}
-
 /// One damaged bit makes a refusal of an acceptance, and then it moves.
 [[noreturn]] void end_refused(MidiSession& session, const midi_client::Refused& error) {
     if (!error.by_18h() || !session.module().moves()) throw error;
@@ -73,7 +67,8 @@ void wait_for(MidiSession& session, std::int32_t target) {
 void move(const MidiCommon& midi, const MoveOptions& options) {
     if (options.target.empty() == options.by.empty())
         throw UserError("move: say either a position, or --by and a distance");
-    const std::int64_t typed = distance(options.by.empty() ? options.target : options.by, midi);
+    const std::int64_t typed =
+        number_of(midi::typed_position(options.by.empty() ? options.target : options.by, midi_model(midi)));
     if (options.by.empty()) data_of(midi::reg::GO_TO, typed);
     MidiSession session(midi);
     session.master().expect_alone(session.address());
@@ -131,12 +126,11 @@ std::string turn(MidiSession& session, base::Microseconds time, bool keys) {
 
 /// Whatever happens, the module stands at the end, or it is said that it may not.
 void jog(const MidiCommon& midi, const JogOptions& options) {
-    const midi::TypedNumber period = midi::typed_period(options.speed, midi_model(midi));
-    if (!period.error.empty()) throw UserError(period.error);
-    const midi::TypedNumber time = midi::typed_time(options.time.empty() ? "0" : options.time);
-    if (!time.error.empty()) throw UserError(fmt::format("--for {}", time.error));
+    const std::int64_t period = number_of(midi::typed_period(options.speed, midi_model(midi)));
+    const base::Microseconds time{
+        number_of(midi::typed_time(options.time.empty() ? "0" : options.time), "--for ")};
     const bool keys = host::is_terminal(stdin) && !midi.common.json;
-    if (!keys && time.value == 0)
+    if (!keys && time.count() == 0)
         throw UserError("jog: nobody is at the terminal to end it; say --for, as --for 2s");
     MidiSession session(midi);
     session.master().expect_alone(session.address());
@@ -145,9 +139,9 @@ void jog(const MidiCommon& midi, const JogOptions& options) {
     hold_signals();
     std::string why;
     try {
-        const std::int64_t direction = period.value < 0 ? midi::reg::kTurnsLeft : 0;
-        session.module().order(midi::reg::RUN, data_of(midi::reg::RUN, direction, std::abs(period.value)));
-        why = turn(session, base::Microseconds{time.value}, keys);
+        const std::int64_t direction = period < 0 ? midi::reg::kTurnsLeft : 0;
+        session.module().order(midi::reg::RUN, data_of(midi::reg::RUN, direction, std::abs(period)));
+        why = turn(session, time, keys);
     } catch (const midi_client::Refused& error) {
         end_refused(session, error);
     } catch (const midi_client::Interrupted&) {

@@ -113,11 +113,6 @@ struct CircleOptions {
     bool clockwise = false;
 };
 
-std::int64_t number_of(const char* what, const midi::TypedNumber& number) {
-    if (!number.error.empty()) throw UserError(fmt::format("{} {}", what, number.error));
-    return number.value;
-}
-
 std::uint8_t axis_of(const MidiCommon& midi, std::string_view text) {
     const auto address = midi::read_address(text);
     if (!address)
@@ -129,13 +124,13 @@ std::uint8_t axis_of(const MidiCommon& midi, std::string_view text) {
 midi_client::Circle circle_of(const MidiCommon& midi, const CircleOptions& options) {
     const auto model = midi_model(midi);
     midi_client::Circle circle{.turns = options.turns, .clockwise = options.clockwise};
-    circle.radius = number_of("--radius", midi::typed_position(options.radius, model));
-    circle.speed = static_cast<double>(number_of("--speed", midi::typed_rate(options.speed, model, false)));
+    circle.radius = number_of(midi::typed_position(options.radius, model), "--radius ");
+    circle.speed = static_cast<double>(number_of(midi::typed_rate(options.speed, model, false), "--speed "));
     if (!options.acceleration.empty())
         circle.acceleration = static_cast<double>(
-            number_of("--acceleration", midi::typed_rate(options.acceleration, model, true)));
+            number_of(midi::typed_rate(options.acceleration, model, true), "--acceleration "));
     circle.segment_time =
-        static_cast<double>(number_of("--segment", midi::typed_time(options.segment))) / 1e6;
+        static_cast<double>(number_of(midi::typed_time(options.segment), "--segment ")) / 1e6;
     if (circle.radius <= 0) throw UserError("--radius: it must be more than 0");
     if (circle.speed <= 0) throw UserError("--speed: it must be more than 0");
     if (circle.segment_time <= 0) throw UserError("--segment: it must be more than 0");
@@ -152,8 +147,8 @@ void circle(const MidiCommon& midi, const CircleOptions& options) {
     const auto centre = spelling::split(options.centre, ',');
     if (!options.centre.empty()) {
         if (centre.size() != 2) throw UserError("--centre: write two positions, as 0,5rev");
-        circle.centre_x = number_of("--centre", midi::typed_position(centre[0], midi_model(midi)));
-        circle.centre_y = number_of("--centre", midi::typed_position(centre[1], midi_model(midi)));
+        circle.centre_x = number_of(midi::typed_position(centre[0], midi_model(midi)), "--centre ");
+        circle.centre_y = number_of(midi::typed_position(centre[1], midi_model(midi)), "--centre ");
     }
     MidiSession session(midi);
     if (options.centre.empty()) {
@@ -176,7 +171,7 @@ void together(const MidiCommon& midi, const std::vector<std::string>& words) {
         if (equals == std::string::npos)
             throw UserError(fmt::format("'{}': write ADDRESS=POSITION, as 1=20000 or 1=2rev", word));
         const std::int64_t position =
-            number_of("together:", midi::typed_position(word.substr(equals + 1), midi_model(midi)));
+            number_of(midi::typed_position(word.substr(equals + 1), midi_model(midi)), "together: ");
         if (position < midi::reg::kMinPosition || position > midi::reg::kMaxPosition)
             throw UserError(fmt::format("'{}' is out of range: {} to {} inc (003 §IV)", word,
                                         midi::reg::kMinPosition, midi::reg::kMaxPosition));

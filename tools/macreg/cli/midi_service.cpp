@@ -119,36 +119,25 @@ void set_baud(const MidiCommon& midi, const std::uint32_t& baud) {
                  {{"address", address}, {"baud", baud}});
 }
 
-struct MidiFindArguments {
-    bool this_speed = false;
-    bool every_speed = false;
-};
-
 constexpr base::Microseconds kPatience{40'000};
 constexpr std::uint32_t kSpeeds[] = {38'400, 19'200, 9'600};
 
 class MidiSearch {
   public:
-    MidiSearch(const MidiCommon& midi, const MidiFindArguments& options) : midi_(midi), options_(options) {}
+    MidiSearch(const MidiCommon& midi, const Search::Speeds& speeds)
+        : midi_(midi),
+          search_(midi.common,
+                  {.only_this = host::Endpoint(midi.common.port).kind != host::Endpoint::Kind::device ||
+                                speeds.only_this,
+                   .every = speeds.every}) {}
 
     void run() {
-        const host::Endpoint port(midi_.common.port);
-        const bool one = port.kind != host::Endpoint::Kind::device || options_.this_speed;
-        if (one) {
-            at(midi_baud(midi_));
-        } else {
-            for (const std::uint32_t baud : kSpeeds) {
-                if (modules_.empty() || options_.every_speed) at(baud);
-            }
-        }
-        progress(midi_.common, "");
-        if (modules_.empty())
-            throw command_line::Failure(
-                command_line::kNoAnswer,
-                heard_ ? "bytes came, but no answer: is it another kind of device, or do several modules "
-                         "have the same address?"
-                       : "nobody answers; is the module switched on, and are the wires the right way round?");
-        command_line::tell(midi_.common, text_, {{"modules", modules_}});
+        search_.run(midi_baud(midi_), kSpeeds, [this](std::uint32_t baud) { at(baud); });
+        search_.tell(
+            "modules",
+            "bytes came, but no answer: is it another kind of device, or do several modules have the "
+            "same address?",
+            "nobody answers; is the module switched on, and are the wires the right way round?");
     }
 
   private:
@@ -162,7 +151,7 @@ class MidiSearch {
                                                  : fmt::format("{} baud, address {}", baud, address));
             look(session, static_cast<std::uint8_t>(address), baud);
         }
-        heard_ = heard_ || session.link().heard_anything();
+        search_.hear(session.link().heard_anything());
     }
 
     /// A damaged answer is one: it is asked for again.
@@ -195,9 +184,8 @@ class MidiSearch {
 
     void add(std::uint8_t address, std::uint32_t baud, const std::string& what, Json one) {
         const std::string speed = is_can(midi_) ? "" : fmt::format(", {} baud", baud);
-        text_ += fmt::format("{}address {:>3}{}: {}", text_.empty() ? "" : "\n", address, speed, what);
         if (!is_can(midi_)) one["baud"] = baud;
-        modules_.push_back(std::move(one));
+        search_.add(fmt::format("address {:>3}{}: {}", address, speed, what), std::move(one));
     }
 
     /// Who answers and is no module, as far as one can tell.
@@ -214,10 +202,7 @@ class MidiSearch {
     }
 
     const MidiCommon& midi_;
-    const MidiFindArguments& options_;
-    std::string text_;
-    Json modules_ = Json::array();
-    bool heard_ = false;
+    Search search_;
 };
 
 struct MidiRawArguments {
@@ -252,8 +237,8 @@ void raw(const MidiCommon& midi, const MidiRawArguments& options) {
     throw command_line::Failure(command_line::kNoAnswer, fmt::format("{}: {}", told, what), document);
 }
 
-void find_modules(const MidiCommon& midi, const MidiFindArguments& options) {
-    MidiSearch(midi, options).run();
+void find_modules(const MidiCommon& midi, const Search::Speeds& speeds) {
+    MidiSearch(midi, speeds).run();
 }
 
 }  // namespace
@@ -278,13 +263,11 @@ void add_midi_service(arguments::App& app, MidiCommon& midi) {
 }
 
 void add_midi_find(arguments::App& app, MidiCommon& midi) {
-    auto [command, options] = add_command(
+    auto [command, speeds] = add_command(
         app, midi, "find",
         "Which modules are on the line or bus, by address and speed. Only reads; some 7 s a speed",
         find_modules);
-    command.add_flag("--every-speed", options.every_speed,
-                     "Go on with the other speeds when one has been answered at");
-    command.add_flag("--this-speed", options.this_speed, "Only the speed of --baud");
+    add_speed_options(command, speeds);
 }
 
 void add_midi_raw(arguments::App& app, MidiCommon& midi) {

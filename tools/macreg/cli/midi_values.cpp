@@ -195,19 +195,15 @@ struct Limits {
     bool off = false;
 };
 
-std::int64_t limit(const std::string& text, std::optional<midi::reg::Model> model, const char* which) {
-    const midi::TypedNumber number = midi::typed_position(text, model);
-    if (!number.error.empty()) throw UserError(fmt::format("{} limit: {}", which, number.error));
-    return number.value;
-}
-
 void limits(const MidiCommon& midi, const Limits& options) {
     std::vector<Checked> all;
     if (!options.lower.empty() || !options.upper.empty()) {
         if (options.lower.empty() || options.upper.empty())
             throw UserError("limits: both are needed, LOWER UPPER");
-        const std::int64_t lower = limit(options.lower, midi_model(midi), "lower");
-        const std::int64_t upper = limit(options.upper, midi_model(midi), "upper");
+        const std::int64_t lower =
+            number_of(midi::typed_position(options.lower, midi_model(midi)), "lower limit: ");
+        const std::int64_t upper =
+            number_of(midi::typed_position(options.upper, midi_model(midi)), "upper limit: ");
         if (lower >= upper) throw UserError(fmt::format("limits: {} is not below {}", lower, upper));
         all = {{&named("LOWER_STOP"), {.raw = lower}}, {&named("UPPER_STOP"), {.raw = upper}}};
     }

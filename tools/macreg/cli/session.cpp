@@ -192,6 +192,31 @@ void tell_findings(const Common& common, const std::vector<Finding>& findings, c
     command_line::tell(common, text, {{"findings", list}});
 }
 
+void Search::run(std::uint32_t this_speed, std::span<const std::uint32_t> speeds,
+                 const std::function<void(std::uint32_t baud)>& at) {
+    if (options_.only_this) return at(this_speed);
+    for (const std::uint32_t baud : speeds) {
+        if (all_.empty() || options_.every) at(baud);
+    }
+}
+
+void Search::add(const std::string& line, Json document) {
+    text_ += (text_.empty() ? "" : "\n") + line;
+    all_.push_back(std::move(document));
+}
+
+void Search::tell(const char* key, const char* of_noise, const char* of_silence) const {
+    progress(common_, "");
+    if (all_.empty()) throw command_line::Failure(command_line::kNoAnswer, noise_ ? of_noise : of_silence);
+    command_line::tell(common_, text_, {{key, all_}});
+}
+
+void add_speed_options(arguments::App& command, Search::Speeds& speeds) {
+    command.add_flag("--every-speed", speeds.every,
+                     "Go on with the other speeds when one has been answered at");
+    command.add_flag("--this-speed", speeds.only_this, "Only the speed of --baud");
+}
+
 Json value_document(const registers::Register& reg, Model model, std::int64_t raw) {
     return {{"name", reg.name}, {"number", reg.number}, {"raw", raw}, {"value", value_text(reg, model, raw)}};
 }

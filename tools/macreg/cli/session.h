@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -108,6 +109,34 @@ void tell_findings(const Common& common, const std::vector<Finding>& findings, c
 
 /// {"name":, "number":, "raw":, "value":} of a register's value.
 Json value_document(const registers::Register& reg, registers::Model model, std::int64_t raw);
+
+/// `find`: at which speeds somebody answers.
+class Search {
+  public:
+    struct Speeds {
+        bool only_this = false;
+        bool every = false;
+    };
+
+    Search(Common& common, Speeds options) : common_(common), options_(options) {}
+
+    /// `at` looks at one speed: that of the line, or one after the other until there is somebody.
+    void run(std::uint32_t this_speed, std::span<const std::uint32_t> speeds,
+             const std::function<void(std::uint32_t baud)>& at);
+    void add(const std::string& line, Json document);
+    /// Bytes came that were no answer.
+    void hear(bool noise) { noise_ = noise_ || noise; }
+    /// `key`: of all in the JSON document. What is told of nobody with and without noise.
+    void tell(const char* key, const char* of_noise, const char* of_silence) const;
+
+  private:
+    Common& common_;
+    Speeds options_;
+    std::string text_;
+    Json all_ = Json::array();
+    bool noise_ = false;
+};
+void add_speed_options(arguments::App& command, Search::Speeds& speeds);
 
 /// From a file of its own each; `add_service`: flash, safe, reset, prepare; `add_midi`: cli/midi.h.
 command_line::Subcommand<Common> add_diff, add_dump, add_find, add_get, add_list, add_load, add_midi,

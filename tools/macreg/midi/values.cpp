@@ -94,7 +94,7 @@ std::optional<Ratio> speed_unit(const std::string& unit, std::optional<Model> mo
 }
 
 TypedNumber whole(std::string_view text, const Quantity& quantity, const Ratio& factor) {
-    const Ratio size = quantity.size.numerator == 0 ? Ratio{0, 1} : quantity.size * factor;
+    const Ratio size = quantity.size * factor;
     const auto value = nearest(size);
     if (!value) return wrong(fmt::format("'{}' is too much", text));
     return {.value = quantity.negative ? -*value : *value, .exact = size.denominator == 1};
@@ -144,92 +144,78 @@ std::string bit_words(std::span<const reg::Bit> bits, std::uint32_t value) {
     return text;
 }
 
-TypedValue wrong_value(std::string error) {
-    TypedValue value;
-    value.error = std::move(error);
-    return value;
-}
-
-TypedValue typed_choice(const Parameter& parameter, std::string_view text) {
+TypedNumber typed_choice(const Parameter& parameter, std::string_view text) {
     for (const Choice& one : parameter.choices) {
-        if (text == one.name || text == fmt::format("{}", one.value)) return {.raw = one.value};
+        if (text == one.name || text == fmt::format("{}", one.value)) return {.value = one.value};
     }
-    return wrong_value(fmt::format("{}: '{}': write {}", parameter.name, text, units_text(parameter)));
+    return wrong(fmt::format("'{}': write {}", text, units_text(parameter)));
 }
 
 /// A command's own number.
-TypedValue typed_raw(const Parameter& parameter, std::string_view text) {
+TypedNumber typed_raw(std::string_view text) {
     const auto quantity = read_quantity(text);
     if (!quantity || !quantity->unit.empty() || quantity->size.denominator != 1)
-        return wrong_value(fmt::format("{}: 'raw:{}' is no whole number", parameter.name, text));
-    return {.raw = quantity->negative ? -quantity->size.numerator : quantity->size.numerator};
+        return wrong(fmt::format("'raw:{}' is no whole number", text));
+    return {.value = quantity->negative ? -quantity->size.numerator : quantity->size.numerator};
 }
 
 /// The next slower one.
-TypedValue typed_unstall(const Parameter& parameter, std::string_view text, const Scale& scale) {
+TypedNumber typed_unstall(std::string_view text, const Scale& scale) {
     const TypedNumber rate = typed_rate(text, scale.model, false);
-    if (!rate.error.empty()) return wrong_value(fmt::format("{}: {}", parameter.name, rate.error));
+    if (!rate.error.empty()) return rate;
     const auto raw = reg::unstall_of_speed(static_cast<std::uint32_t>(rate.value));
-    if (!raw) return wrong_value(fmt::format("{}: '{}': it is 20 to 5000 inc/s", parameter.name, text));
-    const bool exact = rate.exact && rate.value * *raw * reg::kTicksPerLongPeriod == reg::kTicksPerSecond;
-    return {.raw = *raw, .rounding = exact ? "" : "not exact"};
+    if (!raw) return wrong(fmt::format("'{}': it is 20 to 5000 inc/s", text));
+    return {.value = *raw,
+            .exact = rate.exact && rate.value * *raw * reg::kTicksPerLongPeriod == reg::kTicksPerSecond};
 }
 
-TypedValue typed_ramp(const Parameter& parameter, std::string_view text, const Scale& scale) {
+/// By an acceleration, which is one from full speed.
+TypedNumber typed_ramp_rate(std::string_view text, const Scale& scale) {
+    if (scale.period == 0)
+        return wrong(fmt::format("'{}': an acceleration needs the speed; write inc or rev", text));
+    const TypedNumber rate = typed_rate(text, scale.model, true);
+    if (!rate.error.empty()) return rate;
+    const auto speed = static_cast<std::uint32_t>(reg::kTicksPerSecond / scale.period);
+    const auto raw = reg::ramp_of(speed, static_cast<std::uint32_t>(rate.value));
+    if (raw) return {.value = *raw, .exact = false};
+    return wrong(fmt::format("'{}' takes more than the 30600 inc of the longest ramp from SPEED's {}", text,
+                             speed_text(scale.period, scale)));
+}
+
+TypedNumber typed_ramp(std::string_view text, const Scale& scale) {
     const auto quantity = read_quantity(text);
-    const bool is_rate = quantity && quantity->unit.ends_with("/s2");
-    if (is_rate && scale.period == 0)
-        return wrong_value(
-            fmt::format("{}: '{}': an acceleration needs the speed; write inc or rev", parameter.name, text));
-    const TypedNumber number =
-        is_rate ? typed_rate(text, scale.model, true) : typed_position(text, scale.model);
-    if (!number.error.empty()) return wrong_value(fmt::format("{}: {}", parameter.name, number.error));
-    if (is_rate) {
-        const auto speed = static_cast<std::uint32_t>(reg::kTicksPerSecond / scale.period);
-        const auto raw = reg::ramp_of(speed, static_cast<std::uint32_t>(number.value));
-        if (!raw)
-            return wrong_value(
-                fmt::format("{}: '{}' takes more than the 30600 inc of the longest ramp from SPEED's {}",
-                            parameter.name, text, speed_text(scale.period, scale)));
-        return {.raw = *raw, .rounding = "not exact"};
-    }
-    const std::int64_t raw = (number.value + reg::kRampIncrements - 1) / reg::kRampIncrements;
-    return {.raw = raw,
-            .rounding = number.value % reg::kRampIncrements == 0 && number.exact ? "" : "not exact"};
+    if (quantity && quantity->unit.ends_with("/s2")) return typed_ramp_rate(text, scale);
+    TypedNumber number = typed_position(text, scale.model);
+    number.exact = number.exact && number.value % reg::kRampIncrements == 0;
+    number.value = (number.value + reg::kRampIncrements - 1) / reg::kRampIncrements;
+    return number;
 }
 
-TypedValue typed_torque(const Parameter& parameter, std::string_view text, const Scale& scale) {
+TypedNumber typed_torque(std::string_view text, const Scale& scale) {
     const auto quantity = read_quantity(text);
     if (!quantity || quantity->negative || quantity->unit != "%")
-        return wrong_value(fmt::format("{}: '{}': write a number and %, or raw:N", parameter.name, text));
-    const Ratio part =
-        quantity->size.numerator == 0 ? Ratio{0, 1} : quantity->size * Ratio{scale.imax, 1} / Ratio{100, 1};
+        return wrong(fmt::format("'{}': write a number and %, or raw:N", text));
+    const Ratio part = quantity->size * Ratio{scale.imax, 1} / Ratio{100, 1};
     if (part.numerator > scale.imax * part.denominator)
-        return wrong_value(fmt::format("{}: '{}' is more than all of it", parameter.name, text));
-    return {.raw = part.numerator / part.denominator, .rounding = part.denominator == 1 ? "" : "not exact"};
+        return wrong(fmt::format("'{}' is more than all of it", text));
+    return {.value = part.numerator / part.denominator, .exact = part.denominator == 1};
 }
 
-TypedValue typed_in_units(const Parameter& parameter, std::string_view text, const Scale& scale) {
-    const auto from = [&](const TypedNumber& number) {
-        if (!number.error.empty()) return wrong_value(fmt::format("{}: {}", parameter.name, number.error));
-        return TypedValue{.raw = number.value, .rounding = number.exact ? "" : "not exact"};
-    };
+TypedNumber typed_number(const Parameter& parameter, std::string_view text, const Scale& scale) {
+    if (text.starts_with("raw:")) return typed_raw(text.substr(4));
     switch (parameter.sort) {
         case Sort::choice:
             return typed_choice(parameter, text);
-        case Sort::position:
-        case Sort::tolerance:
-            return from(typed_position(text, scale.model));
         case Sort::period:
-            return from(typed_period(text, scale.model));
+            return typed_period(text, scale.model);
         case Sort::long_period:
-            return typed_unstall(parameter, text, scale);
+            return typed_unstall(text, scale);
         case Sort::ramp:
-            return typed_ramp(parameter, text, scale);
+            return typed_ramp(text, scale);
         case Sort::torque:
-            return typed_torque(parameter, text, scale);
+            return typed_torque(text, scale);
         default:
-            return wrong_value(fmt::format("{} is read only", parameter.name));
+            return typed_position(text, scale.model);
     }
 }
 
@@ -356,7 +342,7 @@ TypedNumber typed_time(std::string_view text) {
     if (quantity->unit.empty() || quantity->unit == "s") factor = 1'000'000;
     if (quantity->unit == "min") factor = 60'000'000;
     if (factor == 0) return no_number(text, "ms, s or min behind it");
-    const Ratio size = quantity->size.numerator == 0 ? Ratio{0, 1} : quantity->size * Ratio{factor, 1};
+    const Ratio size = quantity->size * Ratio{factor, 1};
     return {.value = size.numerator / size.denominator, .exact = size.numerator % size.denominator == 0};
 }
 
@@ -427,19 +413,24 @@ std::string value_text(const Parameter& parameter, std::int64_t raw, const Scale
 }
 
 TypedValue typed_value(const Parameter& parameter, std::string_view text, const Scale& scale) {
-    if (!parameter.command) return wrong_value(fmt::format("{} is read only", parameter.name));
-    TypedValue typed = text.starts_with("raw:") ? typed_raw(parameter, text.substr(4))
-                                                : typed_in_units(parameter, text, scale);
-    if (!typed.error.empty()) return typed;
+    TypedValue typed;
+    if (!parameter.command) {
+        typed.error = fmt::format("{} is read only", parameter.name);
+        return typed;
+    }
+    const TypedNumber number = typed_number(parameter, text, scale);
+    typed.raw = number.value;
     const reg::Field& field = row_of(parameter).fields[0];
     const std::int64_t most = parameter.sort == Sort::torque ? scale.imax : std::int64_t{field.max};
     const bool fits = typed.raw >= field.min && typed.raw <= most &&
                       reg::pack(row_of(parameter), static_cast<std::int32_t>(typed.raw));
-    if (!fits)
-        return wrong_value(fmt::format("{}: '{}' is out of range: {} to {}", parameter.name, text,
-                                       value_text(parameter, field.min, scale),
-                                       value_text(parameter, most, scale)));
-    if (!typed.rounding.empty())
+    if (!number.error.empty())
+        typed.error = fmt::format("{}: {}", parameter.name, number.error);
+    else if (!fits)
+        typed.error =
+            fmt::format("{}: '{}' is out of range: {} to {}", parameter.name, text,
+                        value_text(parameter, field.min, scale), value_text(parameter, most, scale));
+    else if (!number.exact)
         typed.rounding =
             fmt::format("{}: {} taken as {}", parameter.name, text, value_text(parameter, typed.raw, scale));
     return typed;

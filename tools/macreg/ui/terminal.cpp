@@ -33,45 +33,23 @@ constexpr int kDelete = 127;
 constexpr int kCtrlU = 21;
 constexpr int kEscapeDelay = 50;  // milliseconds until an escape is just that
 
+struct KeyCode {
+    int code;
+    Key key;
+};
+
+constexpr KeyCode kKeys[] = {
+    {KEY_UP, Key::up},         {KEY_DOWN, Key::down},     {KEY_LEFT, Key::left},
+    {KEY_RIGHT, Key::right},   {KEY_PPAGE, Key::page_up}, {KEY_NPAGE, Key::page_down},
+    {KEY_HOME, Key::first},    {KEY_END, Key::last},      {'\t', Key::tab},
+    {KEY_BTAB, Key::back_tab}, {'\n', Key::enter},        {'\r', Key::enter},
+    {KEY_ENTER, Key::enter},   {kEscape, Key::escape},    {KEY_BACKSPACE, Key::backspace},
+    {'\b', Key::backspace},    {kDelete, Key::backspace}, {kCtrlU, Key::erase},
+};
+
 KeyPress pressed(int code) {
-    switch (code) {
-        case ERR:
-        case KEY_RESIZE:
-            return {};
-        case KEY_UP:
-            return {Key::up};
-        case KEY_DOWN:
-            return {Key::down};
-        case KEY_LEFT:
-            return {Key::left};
-        case KEY_RIGHT:
-            return {Key::right};
-        case KEY_PPAGE:
-            return {Key::page_up};
-        case KEY_NPAGE:
-            return {Key::page_down};
-        case KEY_HOME:
-            return {Key::first};
-        case KEY_END:
-            return {Key::last};
-        case '\t':
-            return {Key::tab};
-        case KEY_BTAB:
-            return {Key::back_tab};
-        case '\n':
-        case '\r':
-        case KEY_ENTER:
-            return {Key::enter};
-        case kEscape:
-            return {Key::escape};
-        case KEY_BACKSPACE:
-        case '\b':
-        case kDelete:
-            return {Key::backspace};
-        case kCtrlU:
-            return {Key::erase};
-        default:
-            break;
+    for (const KeyCode& one : kKeys) {
+        if (one.code == code) return {one.key};
     }
     if (code >= ' ' && code < kDelete) return {Key::character, static_cast<char>(code)};
     return {};
