@@ -151,6 +151,12 @@ void tell(const Common& common, const std::string& text, const Json& document) {
     std::fflush(stdout);
 }
 
+void progress(const Common& common, const std::string& text) {
+    if (common.json || !host::is_terminal(stderr)) return;
+    fmt::print(stderr, "\r\033[K{}", text);
+    std::fflush(stderr);
+}
+
 bool goes_on() {
     return !host::was_interrupted();
 }

@@ -82,11 +82,9 @@ std::string exact_text(const Register& reg, Model model, std::int64_t raw) {
 /// What a motor had may be outside of the register's range; a dump writes it as raw:N, and it is taken back.
 std::optional<std::int64_t> found_in_motor(const Register& reg, std::string_view text) {
     if (!text.starts_with("raw:")) return std::nullopt;
-    std::int64_t raw = 0;
-    const auto [end, error] = std::from_chars(text.data() + 4, text.data() + text.size(), raw);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    const bool fits = registers::value_of(reg.format, registers::bits_of(reg.format, raw)) == raw;
-    return fits ? std::optional(raw) : std::nullopt;
+    const auto raw = spelling::whole_number(text.substr(4));
+    const bool fits = raw && registers::value_of(reg.format, registers::bits_of(reg.format, *raw)) == *raw;
+    return fits ? raw : std::nullopt;
 }
 
 struct Parser {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <vector>
 
@@ -21,6 +20,7 @@ using registers::Register;
 using registers::TextError;
 using registers::Unit;
 using spelling::lower;
+using spelling::whole_number;
 
 namespace {
 
@@ -123,13 +123,6 @@ std::string why_not(TextError error, const Register& reg, Model model, std::stri
     }
 }
 
-std::optional<std::int64_t> whole_number(std::string_view text, int base) {
-    std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);
-    if (error != std::errc() || end != text.data() + text.size() || text.empty()) return std::nullopt;
-    return value;
-}
-
 TypedValue raw_value(const Register& reg, Model model, std::string_view text,
                      std::optional<std::int64_t> raw) {
     TypedValue typed;
@@ -154,7 +147,7 @@ std::optional<std::uint32_t> named_bits(const Register& reg, Model model, std::s
                 return static_cast<std::uint32_t>(one.value) << field.first;
         }
         if (!is_field) continue;
-        const auto number = whole_number(value, 10);
+        const auto number = whole_number(value);
         if (number && *number >= 0 && *number <= registers::mask_of(field) >> field.first)
             return static_cast<std::uint32_t>(*number) << field.first;
     }
@@ -287,18 +280,11 @@ constexpr Name kNames[] = {
 // POS0 to POS7, VEL0 ... ZERO3 of a MAC800 are P1 to P8, V1 ... Z4.
 constexpr Name kNumbered[] = {{"POS", "P"}, {"VEL", "V"},  {"ACC", "A"},
                               {"TQ", "T"},  {"LOAD", "L"}, {"ZERO", "Z"}};
-constexpr std::string_view kOneToEight[] = {"P1", "P2", "P3", "P4", "P5", "P6", "P7", "P8", "V1", "V2", "V3",
-                                            "V4", "V5", "V6", "V7", "V8", "A1", "A2", "A3", "A4", "T1", "T2",
-                                            "T3", "T4", "L1", "L2", "L3", "L4", "Z1", "Z2", "Z3", "Z4"};
-
-std::string_view numbered(std::string_view reg) {
+std::string numbered(std::string_view reg) {
     for (const Name& one : kNumbered) {
-        if (reg.size() != one.reg.size() + 1 || !reg.starts_with(one.reg)) continue;
-        const char digit = static_cast<char>(reg.back() + 1);
-        const auto found =
-            std::find_if(std::begin(kOneToEight), std::end(kOneToEight),
-                         [&](std::string_view name) { return name[0] == one.name[0] && name[1] == digit; });
-        if (found != std::end(kOneToEight)) return *found;
+        const bool is_one = reg.size() == one.reg.size() + 1 && reg.starts_with(one.reg) &&
+                            reg.back() >= '0' && reg.back() <= '7';
+        if (is_one) return fmt::format("{}{}", one.name, static_cast<char>(reg.back() + 1));
     }
     return {};
 }
@@ -395,7 +381,7 @@ TypedValue typed_value(const Register& reg, Model model, std::string_view text) 
 
 NamedRegister find_register(Model model, std::string_view text) {
     const std::string family = family_words(model);
-    if (const auto number = whole_number(text, 10)) {
+    if (const auto number = whole_number(text)) {
         const bool fits = *number >= 0 && *number <= 255;
         const Register* reg = fits ? registers::find(model, static_cast<std::uint8_t>(*number)) : nullptr;
         if (reg != nullptr) return {reg, {}};
@@ -432,10 +418,10 @@ ReadAssignments read_assignments(Model model, const std::vector<std::string>& wo
     return read;
 }
 
-std::string_view mactalk_name(const registers::Register& reg) {
+std::string mactalk_name(const registers::Register& reg) {
     const auto found = std::find_if(std::begin(kNames), std::end(kNames),
                                     [&](const Name& one) { return one.reg == reg.name; });
-    return found != std::end(kNames) ? found->name : numbered(reg.name);
+    return found != std::end(kNames) ? std::string(found->name) : numbered(reg.name);
 }
 
 }  // namespace nplc::macreg

@@ -17,10 +17,9 @@ std::uint8_t byte_of(std::uint32_t value, unsigned shift) {
 }
 
 std::optional<unsigned> number_of(const std::string& text, unsigned limit) {
-    if (text.empty() || text.size() > 2 || text.find_first_not_of("0123456789") != std::string::npos)
-        return std::nullopt;
-    const auto number = static_cast<unsigned>(std::stoul(text));
-    return number < limit ? std::optional(number) : std::nullopt;
+    const auto number = spelling::whole_number(text);
+    if (!number || *number < 0 || *number >= limit || text.size() > 2) return std::nullopt;
+    return static_cast<unsigned>(*number);
 }
 
 /// By its name in `names`, or by `prefix` and its number.

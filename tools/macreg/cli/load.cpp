@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <memory>
-
 #include "cli/session.h"
 #include "macreg/change.h"
 #include "macreg/parameters.h"

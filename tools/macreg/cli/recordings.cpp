@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 
-#include <memory>
-#include <numeric>
-
 #include "cli/session.h"
 #include "host/paths.h"
 #include "macreg/change.h"

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <memory>
-
 #include "cli/session.h"
 #include "macreg/change.h"
 #include "macreg/values.h"

@@ -121,18 +121,6 @@ std::string Session::model_name() const {
     return known ? std::string(registers::name_of(motor_->model())) : "MAC50-141";
 }
 
-void Session::remark(const std::string& text) const {
-    cli::remark(common_, text);
-}
-
-void Session::ask(const std::string& what) const {
-    cli::ask(common_, what);
-}
-
-void Session::progress(const std::string& text) const {
-    cli::progress(common_, text);
-}
-
 void remark(const Common& common, const std::string& text) {
     if (!common.json) fmt::print(stderr, "{}: {}\n", common.program, text);
 }
@@ -149,12 +137,6 @@ void ask(const Common& common, const std::string& what) {
     look_for_interruption();
     if (answer.ends_with('\r')) answer.pop_back();
     if (answer != "yes") throw UserError("not confirmed, nothing was changed");
-}
-
-void progress(const Common& common, const std::string& text) {
-    if (common.json || !host::is_terminal(stderr)) return;
-    fmt::print(stderr, "\r\033[K{}", text);
-    std::fflush(stderr);
 }
 
 std::string output_file(const std::string& option, bool force) {

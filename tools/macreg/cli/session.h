@@ -22,6 +22,7 @@ using command_line::goes_on;
 using command_line::Json;
 using command_line::look_for_interruption;
 using command_line::output_has_reader;
+using command_line::progress;
 using command_line::UserError;
 
 /// What stands before or behind every subcommand. `address` 0: ask the only motor on the line for its own.
@@ -42,6 +43,12 @@ std::optional<registers::Model> model_option(const Common& common);
 std::vector<const registers::Register*> find_registers(registers::Model model,
                                                        const std::vector<std::string>& names);
 
+/// A remark for a user: standard error, not with --json.
+void remark(const Common& common, const std::string& text);
+/// Asks on the terminal and wants a typed "yes"; without one of them or --yes it throws UserError. `what` is
+/// a sentence that says what will happen.
+void ask(const Common& common, const std::string& what);
+
 /// A motor that answered, and how results are told.
 class Session {
   public:
@@ -59,9 +66,9 @@ class Session {
     void tell(const std::string& text, const Json& document) const {
         command_line::tell(common_, text, document);
     }
-    void remark(const std::string& text) const;
-    void ask(const std::string& what) const;
-    void progress(const std::string& text) const;
+    void remark(const std::string& text) const { cli::remark(common_, text); }
+    void ask(const std::string& what) const { cli::ask(common_, what); }
+    void progress(const std::string& text) const { command_line::progress(common_, text); }
 
   private:
     const Common& common_;
@@ -69,14 +76,6 @@ class Session {
     mactalk_client::Master master_;
     std::unique_ptr<Motor> motor_;
 };
-
-/// A remark for a user: standard error, not with --json.
-void remark(const Common& common, const std::string& text);
-/// Asks on the terminal and wants a typed "yes"; without one of them or --yes it throws UserError. `what` is
-/// a sentence that says what will happen.
-void ask(const Common& common, const std::string& what);
-/// A line on standard error that is drawn over, if a user is there to see it; empty removes it.
-void progress(const Common& common, const std::string& text);
 
 /// Of -o: empty for standard output, which is "-"; throws UserError if it names nothing or, without
 /// `force`, a file that is there.

@@ -102,7 +102,7 @@ class FastMacMonitor final : public Monitor {
         } else {
             break_message();
         }
-        add(at, {}, {}, "a character with a framing error: is the speed right?", {}, {});
+        tell_framing_error(at);
     }
     void pass(base::Instant now) override {
         if (!sent_.empty() && now - last_sent_ >= pause_) break_message();
@@ -111,7 +111,6 @@ class FastMacMonitor final : public Monitor {
         break_message();
         flush(received_, true);
     }
-    std::vector<MonitorEvent> take() override { return std::exchange(events_, {}); }
     std::optional<base::Instant> since() const override {
         if (sent_.empty() && received_.empty()) return std::nullopt;
         if (sent_.empty() || received_.empty()) return sent_.empty() ? received_.at : sent_.at;
@@ -130,8 +129,10 @@ class FastMacMonitor final : public Monitor {
         const bool again = last_toggle_ && *last_toggle_ == toggle;
         const auto command = fastmac::decode_command(byte, options_.code);
         if (again && last_command_ == byte) return;  // a repeat does nothing; masters send many
-        add(at, fmt::format("{:02X} {}, toggle {}", byte, command_words(command), toggle ? 1 : 0), {},
-            again ? "the toggle is as before: the motor takes no such command" : "", {byte}, {});
+        tell({.at = at,
+              .request = fmt::format("{:02X} {}, toggle {}", byte, command_words(command), toggle ? 1 : 0),
+              .flaw = again ? "the toggle is as before: the motor takes no such command" : "",
+              .sent = {byte}});
         last_toggle_ = toggle;
         last_command_ = byte;
         if (command.mode != fastmac::Mode::command || again) return;
@@ -148,12 +149,10 @@ class FastMacMonitor final : public Monitor {
         }
         const std::size_t size = flexmac::encode(*message).size;
         std::vector<std::uint8_t> own = split(sent_, size);
-        MonitorEvent event{.at = at};
-        event.request = message_words(*message);
-        event.sent = std::move(own);
+        MonitorEvent event{.at = at, .request = message_words(*message), .sent = std::move(own)};
         if (const auto number = register_of(*message)) event.reg = *number;
         if (!message->read) event.value = message->value;
-        events_.push_back(std::move(event));
+        tell(std::move(event));
         last_toggle_.reset();
         if (flexmac::is_protocol_command(*message))
             flexmac_ = message->target != flexmac::kReadIndexUseFastMac;
@@ -170,15 +169,16 @@ class FastMacMonitor final : public Monitor {
             told.answer = message_words(event.reply) + " is " + value_words_of(event.reply);
             told.value = event.reply.value;
             if (const auto number = register_of(event.reply)) told.reg = *number;
-            events_.push_back(std::move(told));
+            tell(std::move(told));
         } else if (event.kind == Kind::status) {
             received_.bytes.pop_back();
             flush(received_, true);
             if (last_status_ == event.status) return;
             last_status_ = event.status;
-            add(at, {},
-                fmt::format("{:02X} {}", event.status, status_words(fastmac::decode_status(event.status))),
-                {}, {}, {event.status});
+            tell({.at = at,
+                  .answer = fmt::format("{:02X} {}", event.status,
+                                        status_words(fastmac::decode_status(event.status))),
+                  .received = {event.status}});
         }
     }
 
@@ -201,10 +201,9 @@ class FastMacMonitor final : public Monitor {
         const std::string what = fmt::format("no whole FlexMAC message{}: {}",
                                              from_motor ? " from the motor" : "", hex_words(stray.bytes));
         std::vector<std::uint8_t> bytes = std::exchange(stray.bytes, {});
-        if (from_motor)
-            add(stray.at, {}, {}, what, {}, std::move(bytes));
-        else
-            add(stray.at, {}, {}, what, std::move(bytes), {});
+        MonitorEvent event{.at = stray.at, .flaw = what};
+        (from_motor ? event.received : event.sent) = std::move(bytes);
+        tell(std::move(event));
     }
 
     std::optional<std::uint8_t> register_of(const flexmac::Message& message) const {
@@ -241,17 +240,6 @@ class FastMacMonitor final : public Monitor {
         return bytes_words(options_.model, *number, message.value, bytes);
     }
 
-    void add(base::Instant at, std::string request, std::string answer, std::string flaw,
-             std::vector<std::uint8_t> sent, std::vector<std::uint8_t> received) {
-        MonitorEvent event{.at = at};
-        event.request = std::move(request);
-        event.answer = std::move(answer);
-        event.flaw = std::move(flaw);
-        event.sent = std::move(sent);
-        event.received = std::move(received);
-        events_.push_back(std::move(event));
-    }
-
     MonitorOptions options_;
     base::Microseconds pause_;
     bool flexmac_ = false;
@@ -263,7 +251,6 @@ class FastMacMonitor final : public Monitor {
     flexmac::ReplyDecoder replies_;
     Stray sent_;
     Stray received_;
-    std::vector<MonitorEvent> events_;
 };
 
 }  // namespace

@@ -38,9 +38,7 @@ class MactalkMonitor final : public Monitor {
         FrameCutter& cutter = cutter_of(side);
         cutter.finish();
         look(side, cutter);
-        MonitorEvent event{.at = at};
-        event.flaw = "a character with a framing error: is the speed right?";
-        events_.push_back(std::move(event));
+        tell_framing_error(at);
     }
     void pass(base::Instant now) override {
         each([&](FrameCutter& cutter) { cutter.pass(now); });
@@ -50,7 +48,6 @@ class MactalkMonitor final : public Monitor {
         each([](FrameCutter& cutter) { cutter.finish(); });
         tell_no_answer();
     }
-    std::vector<MonitorEvent> take() override { return std::exchange(events_, {}); }
     std::optional<base::Instant> since() const override {
         std::optional<base::Instant> first;
         if (pending_) first = pending_->event.at;
@@ -92,7 +89,7 @@ class MactalkMonitor final : public Monitor {
         event.flaw = fmt::format("{}{}: {}", what, side == Side::motor ? " in what the motor sends" : "",
                                  hex_words(frame.bytes));
         (side == Side::motor ? event.received : event.sent) = std::move(frame.bytes);
-        events_.push_back(std::move(event));
+        tell(std::move(event));
     }
 
     void message(Side side, Frame& frame) {
@@ -112,8 +109,7 @@ class MactalkMonitor final : public Monitor {
         if (request->kind == mactalk::Kind::write) event.value = request->value;
         if (side == Side::motor) event.flaw = "a request from the motor's side: are the two ports exchanged?";
         event.sent = std::move(frame.bytes);
-        if (mactalk::answer_to(request->kind) == mactalk::Answer::none)
-            return events_.push_back(std::move(event));
+        if (mactalk::answer_to(request->kind) == mactalk::Answer::none) return tell(std::move(event));
         pending_ = Pending{*request, std::move(event)};
     }
 
@@ -150,13 +146,13 @@ class MactalkMonitor final : public Monitor {
         }
         event.received = std::move(frame.bytes);
         pending_.reset();
-        events_.push_back(std::move(event));
+        tell(std::move(event));
     }
 
     void tell_no_answer() {
         if (!pending_) return;
         pending_->event.answer = "no answer";
-        events_.push_back(std::move(pending_->event));
+        tell(std::move(pending_->event));
         pending_.reset();
     }
 
@@ -239,7 +235,6 @@ class MactalkMonitor final : public Monitor {
     std::array<FrameCutter, 3> cutters_{FrameCutter(kLongestPause), FrameCutter(kLongestPause),
                                         FrameCutter(kLongestPause)};
     std::optional<Pending> pending_;
-    std::vector<MonitorEvent> events_;
 };
 
 }  // namespace

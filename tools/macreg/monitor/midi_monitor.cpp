@@ -65,7 +65,7 @@ class MidiMonitor final : public Monitor {
             requests_.abandon();
             release(side == Side::both);
         }
-        events_.push_back({.at = at, .flaw = "a character with a framing error: is the speed right?"});
+        tell_framing_error(at);
     }
     void pass(base::Instant now) override {
         if (asked_ && now - asked_->at > longest_) end_exchange({});
@@ -79,7 +79,6 @@ class MidiMonitor final : public Monitor {
         release(false);
         tell_noise();
     }
-    std::vector<MonitorEvent> take() override { return std::exchange(events_, {}); }
     std::optional<base::Instant> since() const override {
         if (asked_) return asked_->at;
         const bool noise = !held_.empty() || !unsent_.empty() || !received_.empty();
@@ -134,18 +133,17 @@ class MidiMonitor final : public Monitor {
         if (answer.kind == Kind::value) event.value = answer.value;
         event.sent = std::move(asked_->bytes);
         event.received = std::exchange(received_, {});
-        events_.push_back(std::move(event));
+        tell(std::move(event));
         asked_.reset();
         answers_.abandon();
     }
 
     void tell_noise() {
-        if (!unsent_.empty())
-            events_.push_back({.at = last_, .flaw = "no frame: " + hex_words(unsent_), .sent = unsent_});
+        if (!unsent_.empty()) tell({.at = last_, .flaw = "no frame: " + hex_words(unsent_), .sent = unsent_});
         if (!received_.empty())
-            events_.push_back({.at = last_,
-                               .flaw = "no answer to anything: " + hex_words(received_),
-                               .received = received_});
+            tell({.at = last_,
+                  .flaw = "no answer to anything: " + hex_words(received_),
+                  .received = received_});
         unsent_.clear();
         received_.clear();
     }
@@ -159,7 +157,6 @@ class MidiMonitor final : public Monitor {
     Bytes unsent_;    ///< the master's, and no request
     Bytes received_;  ///< the module's since the last request or answer
     base::Instant last_{};
-    std::vector<MonitorEvent> events_;
 };
 
 }  // namespace

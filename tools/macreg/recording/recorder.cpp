@@ -121,7 +121,8 @@ class BufferRecorder {
     void plan() {
         std::string words;
         for (const Register* reg : options_.registers) {
-            const unsigned count = sample_words(motor_.model(), *reg);
+            // R: a sampled number yields the word that lies there (001 §3.2).
+            const unsigned count = registers::cells_of(motor_.model(), *reg).count;
             for (unsigned i = 0; i < count; ++i) slots_.push_back(static_cast<std::uint8_t>(reg->number + i));
             words += fmt::format("{}{} takes {}", words.empty() ? "" : ", ", reg->name, count);
         }
@@ -257,7 +258,7 @@ class BufferRecorder {
             for (std::size_t c = 0; c < options_.registers.size(); ++c) {
                 const Register& reg = *options_.registers[c];
                 std::uint32_t bits = (*samples[i])[slot++];
-                if (sample_words(motor_.model(), reg) == 2) bits |= (*samples[i])[slot++] << 16;
+                if (registers::cells_of(motor_.model(), reg).count == 2) bits |= (*samples[i])[slot++] << 16;
                 const auto format = registers::format_on_line(motor_.model(), reg);
                 recording.columns[c].values.push_back(
                     shown_value(reg, motor_.model(), registers::value_of(format, bits)));
@@ -309,10 +310,6 @@ std::string condition_words(const Comparison& condition, registers::Model model)
     const Relation& relation = *condition.relation;
     return fmt::format("{} {} {}", condition.reg->name, relation.told.empty() ? relation.sign : relation.told,
                        value_text(*condition.reg, model, condition.raw));
-}
-
-unsigned sample_words(Model model, const Register& reg) {
-    return model != Model::mac800 && registers::is_32_bit(reg.format) ? 2 : 1;
 }
 
 Recording record_buffer(Motor& motor, const RecordOptions& options, Recording* broken) {

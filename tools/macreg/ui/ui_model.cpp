@@ -40,10 +40,9 @@ std::optional<std::uint32_t> field_value(const Field& field, const std::string& 
         if (is_same(one.name, text)) return one.value;
     }
     const std::uint32_t most = field.width >= 32 ? ~std::uint32_t{0} : (std::uint32_t{1} << field.width) - 1;
-    if (text.empty() || text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
-        return std::nullopt;
-    const auto value = static_cast<std::uint32_t>(std::stoul(text));
-    return value <= most ? std::optional(value) : std::nullopt;
+    const auto value = spelling::whole_number(text);
+    if (!value || *value < 0 || *value > most) return std::nullopt;
+    return static_cast<std::uint32_t>(*value);
 }
 
 }  // namespace

@@ -48,6 +48,8 @@ class Session {
         command_line::tell(common_, text, document);
     }
 
+    void progress(const std::string& text) const { command_line::progress(common_, text); }
+
   private:
     Names read_names();
 

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "cli/session.h"
+#include "spelling/text.h"
 
 namespace nplc::nanoctl::cli {
 namespace {
@@ -67,14 +66,14 @@ Assignment parse(const std::string& text) {
     const auto equals = text.find('=');
     if (equals == std::string::npos) throw UserError(fmt::format("'{}': write NAME=VALUE", text));
     const SettingInfo& info = find(text.substr(0, equals));
-    const std::string digits = text.substr(equals + 1);
-    std::uint32_t value = gw::kNone;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    const bool is_number = error == std::errc() && end == digits.data() + digits.size() && !digits.empty();
-    const bool is_none = info.has_none && digits == "none";
-    if (!(is_none || is_number) || !gw::is_allowed(info.id, is_none ? gw::kNone : value))
+    const std::string typed = text.substr(equals + 1);
+    const auto number = info.has_none && typed == "none" ? std::optional<std::int64_t>(gw::kNone)
+                                                         : spelling::whole_number(typed);
+    const bool fits = number && *number >= 0 && *number <= 0xFFFF'FFFF;
+    const std::uint32_t value = fits ? static_cast<std::uint32_t>(*number) : 0;
+    if (!fits || !gw::is_allowed(info.id, value))
         throw UserError(fmt::format("'{}': {} is {}", text, info.name, range_text(info)));
-    return {&info, is_none ? gw::kNone : value};
+    return {&info, value};
 }
 
 bool is_taken(Session& session, const Assignment& one) {

@@ -1,13 +1,11 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/crc32.h"
 #include "cli/certificates.h"
 #include "cli/files.h"
 #include "cli/session.h"
-#include "host/terminal.h"
 #include "nanoctl/stopping.h"
 #include "nanoctl/transfer.h"
 #include "nanoctl/words.h"
@@ -26,33 +24,24 @@ struct UploadOptions {
     bool run = false;
 };
 
-/// A line on standard error that is drawn over, if a person looks on.
+/// How far a transfer is, as long as this lives.
 class ProgressLine {
   public:
     ProgressLine(const char* verb, Session& session)
-        : verb_(verb),
-          session_(session),
-          shown_(host::is_terminal(stderr) && !session.json()),
-          begun_(session.now()) {}
-    ~ProgressLine() {
-        if (shown_) fmt::print(stderr, "\r\033[K");
-    }
+        : verb_(verb), session_(session), begun_(session.now()) {}
+    ~ProgressLine() { session_.progress(""); }
     Progress callback() {
-        return [this](std::size_t done, std::size_t all) { show(done, all); };
+        return [this](std::size_t done, std::size_t all) {
+            if (all > 0)
+                session_.progress(fmt::format("{} {} of {} bytes, {} %, {:.1f} s", verb_, done, all,
+                                              100 * done / all, seconds()));
+        };
     }
     double seconds() const { return static_cast<double>((session_.now() - begun_).count()) / 1e6; }
 
   private:
-    void show(std::size_t done, std::size_t all) {
-        if (!shown_ || all == 0) return;
-        fmt::print(stderr, "\r\033[K{} {} of {} bytes, {} %, {:.1f} s", verb_, done, all, 100 * done / all,
-                   seconds());
-        std::fflush(stderr);
-    }
-
     const char* verb_;
     Session& session_;
-    bool shown_;
     base::Instant begun_;
 };
 

@@ -122,6 +122,9 @@ std::unique_ptr<host::ByteClient> open_port(
 /// A line for a user, or the same as a JSON document on one line, with "ok".
 void tell(const Common& common, const std::string& text, const Json& document);
 
+/// A line on standard error that is drawn over, if a user is there to see it; empty removes it.
+void progress(const Common& common, const std::string& text);
+
 /// Until SIGINT or SIGTERM came. A second one ends the program at once.
 bool goes_on();
 

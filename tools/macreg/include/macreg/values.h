@@ -66,6 +66,6 @@ ReadAssignments read_assignments(registers::Model model, const std::vector<std::
 
 /// What the program MacTalk calls the register (004, "MacTalk name"): "Max velocity". R: of MAC50 to MAC141
 /// the register of the same name, for 002 gives none. Empty: it has none of its own.
-std::string_view mactalk_name(const registers::Register& reg);
+std::string mactalk_name(const registers::Register& reg);
 
 }  // namespace nplc::macreg

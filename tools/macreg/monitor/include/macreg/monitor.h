@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/time.h"
@@ -45,9 +46,18 @@ class Monitor {
     /// The end of the line: whatever is under way is told.
     virtual void finish() = 0;
     /// In the order in which they are complete: a request with its answer, what came meanwhile before it.
-    virtual std::vector<MonitorEvent> take() = 0;
+    std::vector<MonitorEvent> take() { return std::exchange(events_, {}); }
     /// Since when something is under way: no event that is still to come is older.
     virtual std::optional<base::Instant> since() const = 0;
+
+  protected:
+    void tell(MonitorEvent event) { events_.push_back(std::move(event)); }
+    void tell_framing_error(base::Instant at) {
+        tell({.at = at, .flaw = "a character with a framing error: is the speed right?"});
+    }
+
+  private:
+    std::vector<MonitorEvent> events_;
 };
 
 /// What a monitor tells, by the time: an event waits until no older one can come.

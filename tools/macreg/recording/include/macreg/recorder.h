@@ -76,11 +76,6 @@ struct RecordOptions {
 /// Of the motor's buffer (001 §3.2.116: REC_CNT is 0 to 895).
 inline constexpr std::size_t kMostSamples = 895;
 
-/// Words (longwords on MAC800) of the buffer's four that each sample of the register takes.
-/// R: a sampled number yields the word that lies there, so a 32-bit register takes its own and the next (001
-/// §3.2).
-unsigned sample_words(registers::Model model, const registers::Register& reg);
-
 /// Records in the motor's sample buffer (001 §3.2.36, §3.2.112-116) and reads it by 53h. A sample whose
 /// answer was lost is read again after a rewind. SAMPLE1..4 and RECINNERBIT are put back whatever happens,
 /// and recording is stopped. Throws CannotRecord (NotRecordable before anything was asked), LineError, and
