@@ -6,6 +6,9 @@
 
 #include "cli_support.h"
 #include "diagnostics/explanations.h"
+#include "diagnostics/reference.h"
+#include "semantics/commands.h"
+#include "syntax/parser.h"
 
 namespace nplc::seqc {
 namespace {
@@ -47,6 +50,19 @@ TEST_F(Explain, AnUnknownCodeIsOneLineWithTheNearest) {
               "seqc: there is no code 'e015'; near it are E014, E013 and E012 (seqc explain lists all)\n");
     EXPECT_EQ(run("explain nonsense"), 2);
     EXPECT_EQ(read("err"), "seqc: there is no code 'nonsense' (seqc explain lists all)\n");
+}
+
+TEST_F(Explain, EveryWordOfTheLanguageAndEveryCommand) {
+    for (std::string_view word : reserved_words()) EXPECT_FALSE(passages_about(word).empty()) << word;
+    for (std::string_view word : command_names()) EXPECT_FALSE(passages_about(word).empty()) << word;
+    ASSERT_EQ(run("explain timer"), 0);
+    const std::string page = read("out");
+    EXPECT_TRUE(page.starts_with("TIMER\n\nLANGUAGE.md, ")) << page;
+    EXPECT_NE(page.find("the timer is set, 1 ms to 65.535 s"), std::string::npos) << page;
+    ASSERT_EQ(run("explain --json MOVE_P7_BY_P_FNC"), 0);
+    const Json document = Json::parse(read("out"));
+    EXPECT_EQ(document["word"], "MOVE_P7_BY_P_FNC");
+    EXPECT_NE(document["passages"][0]["text"].get<std::string>().find("moves by P7"), std::string::npos);
 }
 
 TEST_F(Explain, AsJson) {

@@ -12,6 +12,7 @@
 #include "cli/json.h"
 #include "cli/subcommands.h"
 #include "diagnostics/explanations.h"
+#include "diagnostics/reference.h"
 #include "syntax/names.h"
 
 namespace nplc::seqc::cli {
@@ -53,6 +54,26 @@ Json page_object(const Explanation& info) {
     object["wrong"] = whole_program(info.wrong);
     object["right"] = whole_program(info.right);
     return object;
+}
+
+/// A word of the language, from the reference.
+int explain_word(const std::string& word, const std::vector<Paragraph>& passages, bool json) {
+    if (json) {
+        Json document;
+        document["word"] = word;
+        document["passages"] = Json::array();
+        for (const Paragraph& passage : passages)
+            document["passages"].push_back({{"section", passage.section}, {"text", passage.text}});
+        return print_json(document, kOk);
+    }
+    std::string text = painted(stdout, "1", word) + "\n";
+    std::string_view section;
+    for (const Paragraph& passage : passages) {
+        if (passage.section != section) text += fmt::format("\nLANGUAGE.md, {}:\n", passage.section);
+        section = passage.section;
+        text += indented(fmt::format("{}\n", passage.text));
+    }
+    return print_or_write(text, {});
 }
 
 int number_of(std::string_view code) {
@@ -103,7 +124,11 @@ int explain(const ExplainArguments& options) {
     if (options.code.empty()) return list(all, options.json);
     const auto found = std::find_if(
         all.begin(), all.end(), [&](const Explanation& info) { return same_name(info.code, options.code); });
-    if (found == all.end()) return unknown(options, all);
+    if (found == all.end()) {
+        const std::string word = upper(options.code);
+        const std::vector<Paragraph> passages = passages_about(word);
+        return passages.empty() ? unknown(options, all) : explain_word(word, passages, options.json);
+    }
     return options.json ? print_json(page_object(*found), kOk) : print_or_write(page(*found), {});
 }
 
@@ -114,7 +139,8 @@ void add_explain(arguments::App& app, int& exit_code) {
     arguments::App& command = *app.add_subcommand(
         "explain",
         "Tell what an error, a warning or a finding of verify means, with a wrong and a right program");
-    command.add_option("code", options->code, "Such as E012 or W004; without one all are listed");
+    command.add_option("code", options->code,
+                       "Such as E012 or W004, or a word such as TIMER; without one all codes are listed");
     command.add_flag("--json", options->json, "Print it as JSON");
     command.callback([options, &exit_code] { exit_code = explain(*options); });
 }

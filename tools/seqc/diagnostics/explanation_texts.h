@@ -8,4 +8,7 @@ namespace nplc::seqc {
 /// The files diagnostics/*.txt, put into the program by the build.
 extern const std::span<const std::string_view> kExplanationTexts;
 
+/// LANGUAGE.md, likewise.
+extern const std::string_view kReference;
+
 }  // namespace nplc::seqc

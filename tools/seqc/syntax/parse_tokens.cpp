@@ -58,6 +58,10 @@ bool is_reserved(std::string_view word) {
     return contains(kReserved, word);
 }
 
+std::span<const std::string_view> reserved_words() {
+    return kReserved;
+}
+
 bool is_name(std::string_view text) {
     constexpr std::size_t kLongest = 60;
     return text.size() <= kLongest && is_identifier(text) && !is_reserved(text);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -134,6 +135,7 @@ std::string shown(const Token& t);
 
 /// Words that cannot be names.
 bool is_reserved(std::string_view word);
+std::span<const std::string_view> reserved_words();
 
 /// Whether a text can be a name: letters, digits and underscores, and no word of the language.
 bool is_name(std::string_view text);

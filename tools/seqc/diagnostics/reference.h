@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace nplc::seqc {
+
+/// A paragraph, a row of a table or a rule of the grammar of LANGUAGE.md.
+struct Paragraph {
+    std::string_view section;  ///< "7. Timer and counter"
+    std::string_view text;
+};
+
+/// What the reference says about a word, where it says most first; empty if it does not know the word.
+std::vector<Paragraph> passages_about(std::string_view word);
+
+}  // namespace nplc::seqc
