@@ -47,11 +47,28 @@ class Action:
         self.count = entry.count if entry.count is not None else self.count
 
 
+class Statement:
+    """A statement that the program does not write out."""
+
+    def __init__(self, *children):
+        self.children = children
+
+    def nodes(self, *kinds):
+        return [c for c in self.children if not kinds or c.kind in kinds]
+
+    def node(self, kind):
+        return next(iter(self.nodes(kind)), None)
+
+    def words(self):
+        return []
+
+
 class Step:
     def __init__(self, name):
         self.name, self.number = name, None
         self.outputs, self.when, self.entry = 0, [], Action()
         self.choices, self.terms, self.owns_error = [], [], False
+        self.covers = []    # ON conditions, the first one first
 
 
 class Program:
@@ -59,12 +76,13 @@ class Program:
         self.tree, self.map, self.bytes = tree, register_map, command_bytes
         self.inputs = {f"IN{n}": n for n in range(6)} | {f"%IX0.{n}": n for n in range(6)}
         self.outputs = {f"OUT{n}": n for n in range(4)} | {f"%QX0.{n}": n for n in range(4)}
-        self.names, self.values, self.faults = {}, [], set()
+        self.names, self.values, self.faults, self.groups = {}, [], set(), {}
         self.on_error = self.per_rev = None
         self.power_up, self.steps = Action(), []
         self.read_declarations()
         self.read_steps()
         self.number_steps()
+        self.cover_steps()
         self.start = next((step for step in self.steps if step.number == 0), None)
         self.finish_branches()
         self.find_faults()
@@ -159,6 +177,26 @@ class Program:
     def branches(self, node):
         conditions = [self.condition(e) for e in node.nodes("expression")] + [ALL & ~ERROR]
         return [(c, body.nodes("statement")) for c, body in zip(conditions, node.nodes("body"))]
+
+    def cover_steps(self):
+        """ON conditions: the first branches of each choice, and a choice of their own."""
+        for group in self.items("group"):
+            self.groups[group.words()[1]] = self.steps_in(group.node("names"))
+        for on in reversed(self.items("on_condition")):
+            words, lists = on.words(), on.nodes("names")
+            only = self.steps_in(lists[0]) if "IN" in words else {s.name for s in self.steps} - {self.on_error}
+            left_out = self.steps_in(lists[-1]) if "EXCEPT" in words else set()
+            target = on.node("next")
+            for step in self.steps:
+                if step.name in only - left_out - {target.words()[2]}:
+                    step.covers.insert(0, (self.condition(on.node("expression")), target))
+        for step in self.steps:
+            conditions = [(cases, [Statement(target)]) for cases, target in step.covers]
+            without = [(cases, []) for cases, target in step.covers]
+            step.choices = ([conditions] if conditions else []) + [without + choice for choice in step.choices]
+
+    def steps_in(self, names):
+        return set().union(*(self.groups.get(name, {name}) for name in names.words() if name != ","))
 
     def bits(self, outputs):
         return sum({1 << self.outputs[s.text().upper()] for s in outputs.nodes("signal")})

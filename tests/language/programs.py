@@ -116,6 +116,17 @@ class Writer:
             parts.append(f"OUT {', '.join(self.outputs[target])};")
         return f"{condition} {' '.join(parts)} END_IF;"
 
+    def on_condition(self):
+        rng = self.rng
+        group = f"G{rng.randrange(10 ** 9)}" if self.chance(0.5) else ""
+        declared = f"GROUP {group}: {', '.join(rng.sample(self.names, 2))};\n" if group else ""
+        only = f" IN {', '.join(self.some(self.names, 2) + ([group] if group else [self.names[0]]))}"
+        only = only if group or self.chance(0.3) else ""
+        left_out = f" EXCEPT {rng.choice(self.names)}" if self.chance(0.3) else ""
+        target = "POWER_UP" if not self.at_zero and self.chance(0.1) else rng.choice(self.names)
+        self.is_timed = self.chance(0.1)
+        return f"{declared}ON {self.condition(False, 1)}{only}{left_out} NEXT := {target};\n"
+
     def program(self):
         self.outputs = {}
         self.entries = {name: self.statements() for name in self.names if self.chance(0.25)}
@@ -128,6 +139,7 @@ class Writer:
         text = "PROGRAM Random\n" + DECLARATIONS
         text += f"VAR_MOTOR {' '.join(NAMES if self.at_zero or self.chance(0.3) else VALUES)} END_VAR\n"
         text += f"ON ERROR NEXT := {self.names[-1]};\n" if self.has_on_error else ""
+        text += "".join(self.on_condition() for _ in range(self.rng.choice([0, 0, 1, 2])))
         if not self.at_zero and self.chance(0.6):
             first = f"NEXT := {self.rng.choice(self.names)};"
             text += f"POWER_UP {' '.join(self.statements(False, False))} {first} END_POWER_UP\n"

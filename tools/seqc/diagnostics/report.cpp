@@ -8,6 +8,10 @@ namespace nplc::seqc {
 
 Diagnostic& Report::add(Diagnostic diagnostic) {
     if (diagnostic.severity == Severity::error) ++errors_;
+    const auto same = std::find_if(diagnostics_.begin(), diagnostics_.end(), [&](const Diagnostic& d) {
+        return d.code == diagnostic.code && d.span == diagnostic.span && d.message == diagnostic.message;
+    });
+    if (same != diagnostics_.end() && diagnostic.span.length != 0) return dropped_ = std::move(diagnostic);
     if (full()) {
         more_ = true;
         const auto last_warning =

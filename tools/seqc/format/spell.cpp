@@ -76,7 +76,7 @@ class Speller {
             follow_blocks();
             const Item& item = tokens_[at_];
             if (item.kind != Item::Kind::name || at_ == 0) continue;
-            if (tokens_.is_keyword(at_ - 1, "STEP")) steps_.declare(item.text);
+            if (tokens_.is_keyword(at_ - 1, "STEP") || tokens_.is_keyword(at_ - 1, "GROUP")) steps_.declare(item.text);
             if (in_variables_ && tokens_.is_keyword(at_ + 1, "AT")) variables_.declare(item.text);
             if (tokens_.is_keyword(at_ - 1, "MOTOR"))
                 motor_ = motor_named(item.text).value_or(MotorChoice{motor_}).map;
@@ -87,7 +87,9 @@ class Speller {
     void follow_blocks() {
         const Item& item = tokens_[at_];
         if (item.is_keyword("SCALE")) in_scale_ = true;
-        if (item.is_symbol(";")) in_scale_ = false;
+        if (item.is_symbol(";")) in_scale_ = in_steps_ = false;
+        if (item.is_keyword("NEXT")) in_steps_ = false;
+        if (item.is_keyword("GROUP") || item.is_keyword("IN") || item.is_keyword("EXCEPT")) in_steps_ = true;
         if (item.is_keyword("END_VAR")) in_variables_ = false;
         if (item.is_keyword("VAR_INPUT") || item.is_keyword("VAR_OUTPUT") || item.is_keyword("VAR_MOTOR"))
             in_variables_ = true;
@@ -118,6 +120,7 @@ class Speller {
     std::size_t at_ = 0;
     bool in_variables_ = false;
     bool in_scale_ = false;
+    bool in_steps_ = false;
 };
 
 std::string lower(std::string_view text) {
@@ -175,7 +178,7 @@ std::string Speller::name_here() const {
     if (behind_symbol(".")) return upper(text);
     if (behind_keyword("PROGRAM") || behind_keyword("STEP")) return std::string(text);
     const bool behind_next = at_ > 1 && behind_symbol(":=") && tokens_.is_keyword(at_ - 2, "NEXT");
-    if (behind_next || behind_keyword("TERM")) return std::string(steps_.find(text).value_or(text));
+    if (behind_next || in_steps_ || behind_keyword("TERM")) return std::string(steps_.find(text).value_or(text));
     if (behind_keyword("MOTOR")) return motor_named(text) ? upper(text) : std::string(text);
     if (in_variables_ && tokens_.is_keyword(at_ + 1, "AT")) return std::string(text);
     if (in_variables_ && behind_symbol(":")) return upper(text);

@@ -8,6 +8,7 @@
 
 #include "semantics/actions.h"
 #include "semantics/motors.h"
+#include "semantics/on_conditions.h"
 #include "semantics/seen_branches.h"
 #include "semantics/single_term.h"
 #include "sequencer/term.h"
@@ -57,6 +58,7 @@ class Checker {
         }
         build_entries();
         find_fault_step();
+        on_conditions_ = on_conditions(program_, scope_, fault_);
         Plan plan;
         if (!raw_only) {
             if (const ast::Step* zero = scope_.step_numbered(kPowerUp)) {
@@ -188,9 +190,7 @@ class Checker {
         plan.number = number;
         plan.own_error = written.own_error || number == fault_;  // E081 says it
         add_outputs(written, plan);
-        SeenBranches seen;
-        for (std::size_t i = 0; i < written.choices.size(); ++i)
-            add_choice(written.choices[i], i, plan, seen);
+        add_choices(written, plan);
         if (!written.own_error) {
             if (fault_) {
                 plan.rules.push_back(fault_rule({}));
@@ -226,8 +226,7 @@ class Checker {
         }
         for (const ast::ConditionalOutput& conditional : written.conditional) {
             ConditionalOutput output;
-            output.when = scope_.truth_of(conditional.condition);
-            if (!names_error(conditional.condition)) output.when &= no_error_cases();
+            output.when = scope_.branch_truth(conditional.condition);
             for (const ast::Name& name : conditional.outputs) {
                 const auto bit = scope_.output(name);
                 if (!bit) continue;
@@ -246,13 +245,45 @@ class Checker {
             plan.conditional.push_back({plan.outputs, always()});
     }
 
-    void add_choice(const ast::Choice& choice, std::size_t index, StepPlan& plan, SeenBranches& seen) {
+    /// What comes before a step's own branches, or before one of them.
+    struct Earlier {
         Truth taken;
-        std::vector<Rule> before;
+        std::vector<Rule> rules;
+    };
+
+    void add_choices(const ast::Step& written, StepPlan& plan) {
+        SeenBranches seen;
+        Earlier on;
+        for (std::size_t i = 0; i < on_conditions_.size(); ++i) {
+            if (on_conditions_[i].steps.test(plan.number))
+                add_on_condition(on_conditions_[i], written.choices.size() + i, plan, seen, on);
+        }
+        for (std::size_t i = 0; i < written.choices.size(); ++i)
+            add_choice(written.choices[i], i, plan, seen, on);
+    }
+
+    void add_on_condition(const OnCondition& on, std::size_t choice, StepPlan& plan, SeenBranches& seen,
+                          Earlier& earlier) {
+        ActionBuilder builder(scope_);
+        Action action = builder.build({on.written->next});
+        if (action.next == plan.number) return;  // it is where the condition leads
+        enter(action, *action.next);
+        const Span place = on.written->condition.span;
+        Rule rule{on.when & ~earlier.taken, action, place};
+        earlier.taken |= on.when;
+        earlier.rules.push_back({on.when, {}, place});
+        if (rule.when.none()) return;
+        check_error_covered(place, rule, plan);
+        add_rule(std::move(rule), place, choice, plan, seen);
+    }
+
+    void add_choice(const ast::Choice& choice, std::size_t index, StepPlan& plan, SeenBranches& seen,
+                    Earlier earlier) {
+        Truth& taken = earlier.taken;
+        std::vector<Rule>& before = earlier.rules;
         for (const ast::Branch& branch : choice.branches) {
             const std::size_t errors_before = report_.error_count() + scope_.faulty_names_met();
-            Truth own = branch.condition ? scope_.truth_of(*branch.condition) : always();
-            if (!branch.condition || !names_error(*branch.condition)) own &= no_error_cases();
+            const Truth own = branch.condition ? scope_.branch_truth(*branch.condition) : no_error_cases();
             const bool condition_sound = report_.error_count() + scope_.faulty_names_met() == errors_before;
             Rule rule{own & ~taken, branch_action(branch, plan.number), place_of(branch)};
             taken |= own;
@@ -260,8 +291,9 @@ class Checker {
             if (rule.when.none()) {
                 if (condition_sound) warn_never(branch, own, before);
             } else if (!rule.action.is_empty()) {
-                check_error_covered(branch, rule, plan);
-                add_rule(std::move(rule), branch, index, plan, seen);
+                check_error_covered(place_of(branch), rule, plan);
+                const Span place = branch.condition ? rule.condition : rule.action.span;
+                add_rule(std::move(rule), place, index, plan, seen);
             }
         }
     }
@@ -329,23 +361,22 @@ class Checker {
         return action;
     }
 
-    void check_error_covered(const ast::Branch& branch, const Rule& rule, const StepPlan& plan) {
+    void check_error_covered(Span place, const Rule& rule, const StepPlan& plan) {
         if (plan.own_error || !program_.on_error || (rule.when & error_cases()).none()) return;
         report_
-            .add("E082", place_of(branch), fmt::format("ON ERROR covers '{}' already", plan.name),
+            .add("E082", place, fmt::format("ON ERROR covers '{}' already", plan.name),
                  "write OWN ERROR; in the step, and deal with ERROR in it")
             .notes.push_back({program_.on_error->span, "ON ERROR is here"});
     }
 
     /// Branches with the same effect become one rule.
-    void add_rule(Rule rule, const ast::Branch& branch, std::size_t choice, StepPlan& plan,
-                  SeenBranches& seen) {
+    void add_rule(Rule rule, Span place, std::size_t choice, StepPlan& plan, SeenBranches& seen) {
         if (report_.full_of_errors()) return;
         const auto same = std::find_if(plan.rules.begin(), plan.rules.end(), [&](const Rule& earlier) {
             return earlier.action.same_effect(rule.action);
         });
         const auto number = static_cast<std::size_t>(same - plan.rules.begin());
-        if (seen.claim(rule.when, number)) report_contested(rule, branch, choice, number, seen);
+        if (seen.claim(rule.when, number)) report_contested(rule, place, choice, number, seen);
         seen.list.push_back({rule.when, rule.condition, choice, number});
         if (same == plan.rules.end()) {
             plan.rules.push_back(std::move(rule));
@@ -356,14 +387,14 @@ class Checker {
         same->when |= rule.when;
     }
 
-    void report_contested(const Rule& rule, const ast::Branch& branch, std::size_t choice, std::size_t number,
+    void report_contested(const Rule& rule, Span place, std::size_t choice, std::size_t number,
                           const SeenBranches& seen) {
         for (const SeenBranches::Branch& earlier : seen.list) {
             if (report_.full_of_errors()) return;
             const Truth both = earlier.when & rule.when;
             if (earlier.choice == choice || earlier.rule == number || both.none()) continue;
             report_
-                .add("E070", branch.condition ? rule.condition : rule.action.span,
+                .add("E070", place,
                      fmt::format("this and an earlier IF can hold together: {}",
                                  example_of(both, earlier.when, rule.when, symbols_)),
                      "join them with ELSIF, or make the conditions exclude each other")
@@ -463,6 +494,7 @@ class Checker {
     const Symbols& symbols_;
     std::array<Action, 64> entries_;  ///< by step number
     std::optional<std::uint8_t> fault_;
+    std::vector<OnCondition> on_conditions_;
 };
 
 }  // namespace

@@ -318,6 +318,11 @@ Truth Scope::truth_of(const ast::Expression& expression) {
     return truth;
 }
 
+Truth Scope::branch_truth(const ast::Expression& condition) {
+    const Truth truth = truth_of(condition);
+    return names_error(condition) ? truth : truth & ~truth_of_bit(kErrorBit);
+}
+
 namespace {
 
 constexpr std::uint8_t kNone = sequencer::kLastStep;

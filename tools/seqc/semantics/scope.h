@@ -60,6 +60,8 @@ class Scope {
     const std::vector<Send>& initial_values() const { return initial_values_; }
 
     Truth truth_of(const ast::Expression& expression);
+    /// What a branch with this condition asks for: without ERROR unless it names it.
+    Truth branch_truth(const ast::Expression& condition);
 
   private:
     struct Variable {

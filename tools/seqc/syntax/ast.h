@@ -126,6 +126,21 @@ struct Variable {
     std::optional<Value> value;
 };
 
+/// ON condition IN steps EXCEPT steps NEXT := Step;
+struct OnCondition {
+    Expression condition;
+    std::vector<Name> only;  ///< steps and groups; none: all steps
+    std::vector<Name> except;
+    Statement next;
+    Span span;
+};
+
+/// GROUP Name: steps;
+struct Group {
+    Name name;
+    std::vector<Name> steps;  ///< and groups that stand before
+};
+
 struct Scale {
     Span span;
     double revolutions = 1;
@@ -141,6 +156,8 @@ struct Program {
     std::vector<Variable> outputs;
     std::vector<Variable> motor_variables;
     std::optional<Name> on_error;
+    std::vector<OnCondition> on_conditions;
+    std::vector<Group> groups;
     std::optional<Step> power_up;
     std::vector<Step> steps;
     bool steps_missing = false;  ///< some could not be read: an unknown name may be one of them

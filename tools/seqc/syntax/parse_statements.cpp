@@ -166,6 +166,13 @@ bool Parser::parse_statement(Statement& statement) {
     return true;
 }
 
+bool Parser::parse_target(ast::Name& name) {
+    if (!at("POWER_UP")) return expect_name(name, "the name of a step");
+    name = name_of(token());
+    ++at_;
+    return true;
+}
+
 bool Parser::parse_simple_statement(Statement& statement) {
     if (take("NEXT")) {
         statement.kind = Statement::Kind::next;
@@ -173,12 +180,7 @@ bool Parser::parse_simple_statement(Statement& statement) {
             error_here("':=' after NEXT", fmt::format("write NEXT := {};", token().text));
         } else if (!expect_symbol(":=", "after NEXT"))
             return false;
-        if (at("POWER_UP")) {
-            statement.name = name_of(token());
-            ++at_;
-            return true;
-        }
-        return expect_name(statement.name, "the name of a step");
+        return parse_target(statement.name);
     }
     if (take("COUNT_DOWN")) {
         statement.kind = Statement::Kind::count_down;

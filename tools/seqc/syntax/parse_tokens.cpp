@@ -12,25 +12,16 @@
 namespace nplc::seqc {
 namespace {
 
-constexpr std::array kReserved = {
-    std::string_view("PROGRAM"),    std::string_view("END_PROGRAM"),   std::string_view("MOTOR"),
-    std::string_view("SCALE"),      std::string_view("VAR_INPUT"),     std::string_view("VAR_OUTPUT"),
-    std::string_view("VAR_MOTOR"),  std::string_view("END_VAR"),       std::string_view("AT"),
-    std::string_view("ON"),         std::string_view("ERROR"),         std::string_view("NEXT"),
-    std::string_view("POWER_UP"),   std::string_view("END_POWER_UP"),  std::string_view("STEP"),
-    std::string_view("END_STEP"),   std::string_view("OUT"),           std::string_view("WHEN"),
-    std::string_view("ENTRY"),      std::string_view("OWN"),           std::string_view("IF"),
-    std::string_view("THEN"),       std::string_view("ELSIF"),         std::string_view("ELSE"),
-    std::string_view("END_IF"),     std::string_view("AND"),           std::string_view("OR"),
-    std::string_view("NOT"),        std::string_view("XOR"),           std::string_view("TRUE"),
-    std::string_view("FALSE"),      std::string_view("INPOS"),         std::string_view("ANY"),
-    std::string_view("TIMER"),      std::string_view("COUNTER"),       std::string_view("EVERY_SCAN"),
-    std::string_view("COUNT_DOWN"), std::string_view("CLEAR_COUNTER"), std::string_view("TERM"),
-    std::string_view("REG"),        std::string_view("PROPERTY"),      std::string_view("NEVER"),
-    std::string_view("ALWAYS"),     std::string_view("POSSIBLE"),      std::string_view("IS"),
-    std::string_view("REACHABLE"),  std::string_view("WHENEVER"),      std::string_view("WITHIN"),
-    std::string_view("ALLOW"),      std::string_view("BECAUSE"),
-};
+constexpr auto kReserved = std::to_array<std::string_view>(
+    {"PROGRAM",    "END_PROGRAM",   "MOTOR", "SCALE",     "VAR_INPUT", "VAR_OUTPUT",
+     "VAR_MOTOR",  "END_VAR",       "AT",    "ON",        "ERROR",     "NEXT",
+     "POWER_UP",   "END_POWER_UP",  "STEP",  "END_STEP",  "OUT",       "WHEN",
+     "ENTRY",      "OWN",           "IF",    "THEN",      "ELSIF",     "ELSE",
+     "END_IF",     "AND",           "OR",    "NOT",       "XOR",       "TRUE",
+     "FALSE",      "INPOS",         "ANY",   "TIMER",     "COUNTER",   "EVERY_SCAN",
+     "COUNT_DOWN", "CLEAR_COUNTER", "TERM",  "REG",       "PROPERTY",  "NEVER",
+     "ALWAYS",     "POSSIBLE",      "IS",    "REACHABLE", "WHENEVER",  "WITHIN",
+     "ALLOW",      "BECAUSE",       "GROUP", "IN",        "EXCEPT"});
 
 /// Words that begin something on the level above a statement: skipping stops in front of them.
 constexpr std::array kBoundaries = {
@@ -39,7 +30,7 @@ constexpr std::array kBoundaries = {
     std::string_view("END_VAR"),     std::string_view("POWER_UP"),   std::string_view("END_POWER_UP"),
     std::string_view("STEP"),        std::string_view("END_STEP"),   std::string_view("IF"),
     std::string_view("ELSIF"),       std::string_view("ELSE"),       std::string_view("END_IF"),
-    std::string_view("PROPERTY"),
+    std::string_view("PROPERTY"),    std::string_view("GROUP"),
 };
 
 template <std::size_t N>

@@ -63,7 +63,8 @@ void Parser::parse_item(ast::Program& program) {
         return end_statement();
     }
     if (at("SCALE")) return parse_scale(program);
-    if (at("ON")) return parse_on_error(program);
+    if (at("ON")) return parse_on(program);
+    if (at("GROUP")) return parse_group(program);
     if (take("VAR_INPUT")) return parse_variables(program.inputs, false);
     if (take("VAR_OUTPUT")) return parse_variables(program.outputs, false);
     if (take("VAR_MOTOR")) return parse_variables(program.motor_variables, true);
@@ -75,10 +76,10 @@ void Parser::parse_item(ast::Program& program) {
         return;
     }
     const std::string_view expected =
-        "MOTOR, SCALE, VAR_INPUT, VAR_OUTPUT, VAR_MOTOR, ON ERROR, POWER_UP, STEP, TERM, PROPERTY or "
+        "MOTOR, SCALE, VAR_INPUT, VAR_OUTPUT, VAR_MOTOR, ON, GROUP, POWER_UP, STEP, TERM, PROPERTY or "
         "END_PROGRAM";
     if (foreign_word(token().text) == nullptr &&
-        mend({"MOTOR", "SCALE", "VAR_INPUT", "VAR_OUTPUT", "VAR_MOTOR", "POWER_UP", "STEP", "TERM",
+        mend({"MOTOR", "SCALE", "VAR_INPUT", "VAR_OUTPUT", "VAR_MOTOR", "GROUP", "POWER_UP", "STEP", "TERM",
               "PROPERTY", "END_PROGRAM"},
              expected)) {
         return;
@@ -123,6 +124,50 @@ void Parser::parse_scale(ast::Program& program) {
     } else {
         program.scale = scale;
     }
+    end_statement();
+}
+
+void Parser::parse_on(ast::Program& program) {
+    const bool alone = same_name(token(1).text, "ERROR") &&
+                       !(same_name(token(2).text, "AND") || same_name(token(2).text, "OR") ||
+                         same_name(token(2).text, "XOR") || same_name(token(2).text, "IN") ||
+                         same_name(token(2).text, "EXCEPT"));
+    if (alone || token(1).kind == TokenKind::end) return parse_on_error(program);
+    ast::OnCondition on;
+    const Token first = token();
+    ++at_;
+    on.next.kind = ast::Statement::Kind::next;
+    if (!parse_expression(on.condition) || (take("IN") && !parse_names(on.only, "a step or a group")) ||
+        (take("EXCEPT") && !parse_names(on.except, "a step or a group"))) {
+        return recover();
+    }
+    const Token next = token();
+    if (!expect("NEXT", "behind the condition, as in ON Guard NEXT := Stopped;") ||
+        !expect_symbol(":=", "after NEXT") || !parse_target(on.next.name)) {
+        return recover();
+    }
+    on.next.span = span_since(next);
+    on.span = span_since(first);
+    program.on_conditions.push_back(std::move(on));
+    end_statement();
+}
+
+bool Parser::parse_names(std::vector<ast::Name>& names, std::string_view what) {
+    do {
+        if (!expect_name(names.emplace_back(), what)) return false;
+    } while (take_symbol(","));
+    return true;
+}
+
+void Parser::parse_group(ast::Program& program) {
+    ++at_;
+    ast::Group group;
+    if (!expect_name(group.name, "the group's name") ||
+        !expect_symbol(":", "and the steps, as in GROUP Moving: Push, Return;") ||
+        !parse_names(group.steps, "a step or a group")) {
+        return recover();
+    }
+    program.groups.push_back(std::move(group));
     end_statement();
 }
 

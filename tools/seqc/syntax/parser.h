@@ -59,7 +59,10 @@ class Parser {
     void twice(Span span, std::string_view what, Span first);
     void parse_item(ast::Program& program);
     void parse_scale(ast::Program& program);
+    void parse_on(ast::Program& program);
     void parse_on_error(ast::Program& program);
+    bool parse_names(std::vector<ast::Name>& names, std::string_view what);
+    void parse_group(ast::Program& program);
     void parse_variables(std::vector<ast::Variable>& variables, bool motor);
     void parse_variable(std::vector<ast::Variable>& variables, bool motor);
     void parse_step(ast::Program& program);
@@ -86,6 +89,7 @@ class Parser {
     void take_then();
     void parse_branch_body(ast::Branch& branch, Span opened);
     bool parse_statement(ast::Statement& statement);
+    bool parse_target(ast::Name& name);
     bool parse_simple_statement(ast::Statement& statement);
     bool parse_assignment(ast::Statement& statement);
     bool parse_arguments(ast::Statement& statement);

@@ -13,6 +13,7 @@ enum class Severity : std::uint8_t { error, warning };
 struct Span {
     std::uint32_t offset = 0;
     std::uint32_t length = 0;
+    bool operator==(const Span&) const = default;
 };
 
 /// A second place that has to do with a diagnostic.

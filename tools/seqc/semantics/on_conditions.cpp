@@ -1,0 +1,84 @@
+#include "semantics/on_conditions.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <string>
+
+#include "syntax/names.h"
+
+namespace nplc::seqc {
+namespace {
+
+using Steps = std::bitset<64>;
+
+class Groups {
+  public:
+    Groups(const ast::Program& program, Scope& scope) : scope_(scope) {
+        for (const ast::Group& group : program.groups) {
+            const Steps steps = all_of(group.steps);
+            const auto [earlier, is_new] = groups_.try_emplace(upper(group.name.text), &group.name, steps);
+            const ast::Step* step = nullptr;
+            for (const ast::Step* named : scope.steps()) {
+                if (same_name(named->name.text, group.name.text)) step = named;
+            }
+            if (is_new && step == nullptr) continue;
+            scope.report()
+                .add("E020", group.name.span,
+                     fmt::format("'{}' is {} already", group.name.text, is_new ? "a step" : "a group"),
+                     "give one of them another name")
+                .notes.push_back(
+                    {is_new ? step->name.span : earlier->second.first->span, "the first one is here"});
+        }
+    }
+
+    Steps all_of(const std::vector<ast::Name>& names) {
+        Steps steps;
+        for (const ast::Name& name : names) {
+            const auto group = groups_.find(upper(name.text));
+            if (group != groups_.end()) {
+                steps |= group->second.second;
+            } else if (const auto number = scope_.step(name)) {
+                steps.set(*number);
+            }
+        }
+        return steps;
+    }
+
+  private:
+    Scope& scope_;
+    std::map<std::string, std::pair<const ast::Name*, Steps>> groups_;
+};
+
+Steps all_steps(const Scope& scope) {
+    Steps steps;
+    for (std::size_t i = 0; i < scope.steps().size(); ++i) steps.set(scope.number_of(i));
+    return steps;
+}
+
+}  // namespace
+
+std::vector<OnCondition> on_conditions(const ast::Program& program, Scope& scope,
+                                       std::optional<std::uint8_t> fault) {
+    Groups groups(program, scope);
+    std::vector<OnCondition> conditions;
+    for (const ast::OnCondition& written : program.on_conditions) {
+        const std::size_t errors = scope.report().error_count() + scope.faulty_names_met();
+        OnCondition on{&written, scope.branch_truth(written.condition), {}};
+        if (on.when.none() && scope.report().error_count() + scope.faulty_names_met() == errors) {
+            scope.report().add("W001", written.condition.span, "this condition never holds",
+                               "it contradicts itself: mend it, or take the line out");
+        }
+        if (written.only.empty()) {
+            on.steps = all_steps(scope);
+            if (fault) on.steps.reset(*fault);
+        } else {
+            on.steps = groups.all_of(written.only);
+        }
+        on.steps &= ~groups.all_of(written.except);
+        conditions.push_back(on);
+    }
+    return conditions;
+}
+
+}  // namespace nplc::seqc
