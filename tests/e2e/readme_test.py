@@ -158,7 +158,8 @@ class Outputs(Readme):
 
     def test_diff_of_a_branch(self):
         before = read(EXAMPLE + ".seq")
-        after = before.replace("IF Guard THEN\n        NEXT", "IF Guard THEN\n        HOME;\n        NEXT", 1)
+        after = before.replace("ON Guard IN Travel, Return", "ON Guard IN Return", 1)
+        after = after.replace("IF INPOS", "IF Guard THEN HOME; NEXT := Fault; ELSIF INPOS", 1)
         self.assertEqual(self.diff(before, after), block_after(self.text, "or what is different:").split("\n")[3:])
 
     def diff(self, before, after):

@@ -1,6 +1,6 @@
 """Executes a program, scan after scan, as LANGUAGE.md says."""
 
-from meaning import Action
+from meaning import Action, Helper
 
 
 class Machine:
@@ -18,7 +18,12 @@ class Machine:
         """What it sends, in order."""
         case = self.case(image)
         step = next((s for s in self.program.steps if s.number == self.step), None)
-        action = self.action_of(step, case)
+        helper = next((h for h in self.program.helpers.values() if h.number == self.step), None)
+        action = self.action_of_helper(helper, case) if helper else self.action_of(step, case)
+        if step and action.key() in step.helpers:
+            helper = step.helpers[action.key()]
+            action = Action()
+            action.next = helper
         sends = list(action.sends)
         self.next, self.preset, self.set_to, self.change = self.number_of(action.next, self.step), None, None, None
         self.take(action)
@@ -44,14 +49,25 @@ class Machine:
                 return action
         return Action()
 
+    def action_of_helper(self, helper, case):
+        if not case >> 7 & 1 or helper.on_error == "act":
+            return helper.action
+        if helper.on_error == "fault":
+            return self.program.fault()
+        back = Action()
+        back.next = helper.on_error
+        return back
+
     def number_of(self, name, otherwise):
         if name is None:
             return otherwise
+        if isinstance(name, Helper):
+            return name.number
         return 0 if name == "POWER_UP" else self.program.step(name).number
 
     def write_outputs(self, step, case):
         if self.next != self.step:
-            entered = next((s for s in self.program.steps if s.number == self.next), None)
+            entered = next((s for s in [*self.program.steps, *self.program.helpers.values()] if s.number == self.next), None)
             self.outputs = entered.outputs if entered else 0
         elif step and (step.when or step.number == 0 and step.outputs):
             self.outputs = step.outputs

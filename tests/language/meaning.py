@@ -69,6 +69,7 @@ class Step:
         self.outputs, self.when, self.entry = 0, [], Action()
         self.choices, self.terms, self.owns_error = [], [], False
         self.covers = []    # ON conditions, the first one first
+        self.no_helper, self.helpers = False, {}
 
 
 class Program:
@@ -76,7 +77,7 @@ class Program:
         self.tree, self.map, self.bytes = tree, register_map, command_bytes
         self.inputs = {f"IN{n}": n for n in range(6)} | {f"%IX0.{n}": n for n in range(6)}
         self.outputs = {f"OUT{n}": n for n in range(4)} | {f"%QX0.{n}": n for n in range(4)}
-        self.names, self.values, self.faults, self.groups = {}, [], set(), {}
+        self.names, self.values, self.faults, self.groups, self.helpers = {}, [], set(), {}, {}
         self.on_error = self.per_rev = None
         self.power_up, self.steps = Action(), []
         self.read_declarations()
@@ -160,6 +161,8 @@ class Program:
                 step.outputs |= self.bits(part.node("outputs"))
             elif part.kind == "own_error":
                 step.owns_error = True
+            elif part.kind == "no_helper":
+                step.no_helper = True
             elif part.kind == "entry":
                 entry.append(part.node("action"))
             elif part.kind == "statement":
@@ -339,19 +342,43 @@ class Program:
 
     # What a table can do (section 9)
 
-    def is_possible(self):
-        return all(self.can_hold(step) for step in self.steps)
+    def helper_called(self, name):
+        return next((h for step in self.steps for h in step.helpers.values()
+                     if f"{step.name}_TO_{h.action.next}" == name), None)
 
-    def can_hold(self, step):
-        """Terms test "is 0" only: what cannot be taken back acts at 0 as well as before, and is sent once."""
+    def is_possible(self):
+        """Makes the helper steps; false if there are branches that can have none."""
+        return all([self.make_helpers(step) for step in self.steps])
+
+    def make_helpers(self, step):
         together = {}
         for choice in step.choices:
             taken = 0
             for cases, action in choice:
                 together.setdefault(action.key(), [action, 0])[1] |= cases & ~taken
                 taken |= cases
-        return all(acts_alike(cases, bool(action.sends)) for action, cases in together.values()
-                   if action.sends or action.timer or isinstance(action.count, int))
+        trouble = [(action, cases) for action, cases in together.values()
+                   if (action.sends or action.timer or isinstance(action.count, int))
+                   and not acts_alike(cases, bool(action.sends))]
+        for action, cases in trouble:
+            if action.next in (None, step.name) or step.no_helper:
+                return False
+            on_error = "act" if cases & ERROR else step.name if step.owns_error else "fault"
+            helper = self.helpers.setdefault((action.key(), on_error), Helper(action, on_error))
+            if helper.number is None:
+                numbers = {s.number for s in [*self.steps, *self.helpers.values()]}
+                helper.number = next(n for n in range(1, 62) if n not in numbers)
+                target = self.step(action.next)
+                helper.outputs = target.outputs if target else 0
+            step.helpers[action.key()] = helper
+        return True
+
+
+class Helper:
+    """A step of the compiler's: does what a branch says in the scan after."""
+
+    def __init__(self, action, on_error):
+        self.action, self.on_error, self.number, self.outputs = action, on_error, None, 0
 
 
 def acts_alike(cases, once):

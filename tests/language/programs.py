@@ -92,6 +92,7 @@ class Writer:
         owns = owns and (self.is_careful or not self.chance(0.1))
         self.is_timed = self.chance(0.25)
         parts = ["OWN ERROR;"] if owns else []
+        parts += ["NO_HELPER;"] if self.chance(0.15) else []
         self.outputs[name] = self.some(OUTPUTS, 2)
         if self.outputs[name]:
             parts.append(f"OUT {', '.join(self.outputs[name])};")

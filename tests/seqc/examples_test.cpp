@@ -71,7 +71,7 @@ TEST(Examples, FillAndCountCountsOnceForEachBottle) {
     EXPECT_EQ(test::scan(result.table, 0, 0, true, true).counter, 12);
     EXPECT_TRUE(test::scan(result.table, step("Fill"), 0x03, true, false).counts);
     EXPECT_FALSE(test::scan(result.table, step("Fill"), 0x03, false, false).counts);
-    EXPECT_EQ(test::scan(result.table, step("Filled"), 0x03, true, false).next, step("Next_Bottle"));
+    EXPECT_EQ(test::scan(result.table, step("Filled"), 0x03, true, false).next, step("Filled_to_Away"));
     EXPECT_EQ(test::scan(result.table, step("Filled"), 0x03, true, true).next, step("Carton_Full"));
     EXPECT_EQ(test::scan(result.table, step("Carton_Full"), 0x04, true, true).counter, 12);
 }

@@ -237,7 +237,7 @@ struct RandomStep {
         if (branches > 0 && random() % 4 == 0) body += "ELSE " + action();
         if (branches > 0) body += "END_IF ";
         const std::string lamps = same_outputs ? "OWN ERROR; OUT W;" : "OWN ERROR; OUT X;";
-        source = test::program("STEP S: OWN ERROR; OUT W; " + body + "END_STEP STEP T: " + lamps +
+        source = test::program("STEP S: OWN ERROR; NO_HELPER; OUT W; " + body + "END_STEP STEP T: " + lamps +
                                " END_STEP STEP U: " + lamps + " END_STEP STEP V: OWN ERROR; END_STEP");
     }
 };

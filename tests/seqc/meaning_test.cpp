@@ -136,7 +136,7 @@ std::string around(const std::string& body) {
     return "PROGRAM P MOTOR MAC140; VAR_INPUT A AT IN0:BOOL; B AT IN1:BOOL; C AT IN2:BOOL; D AT IN3:BOOL; E "
            "AT "
            "IN4:BOOL; F AT IN5:BOOL; END_VAR\n"
-           "STEP S: OWN ERROR; OUT OUT0;\n" +
+           "STEP S: OWN ERROR; NO_HELPER; OUT OUT0;\n" +
            body +
            "\nEND_STEP\n"
            "STEP T: OWN ERROR; OUT OUT1; END_STEP\nSTEP U: OWN ERROR; ENTRY STOP; END_STEP\nEND_PROGRAM\n";

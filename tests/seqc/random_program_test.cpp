@@ -104,7 +104,7 @@ class Program {
         for (std::size_t i = 0; i < branches_.size(); ++i)
             body += (i == 0 ? "\nIF " : "\nELSIF ") + branches_[i].text + " THEN " + deeds_[i]->text;
         return "PROGRAM P MOTOR MAC140; VAR_INPUT A AT IN0; B AT IN1; C AT IN2; D AT IN3; E AT IN4; END_VAR\n"
-               "STEP S: OWN ERROR; OUT OUT0; " +
+               "STEP S: OWN ERROR; NO_HELPER; OUT OUT0; " +
                body +
                "\nEND_IF END_STEP\nSTEP T: OWN ERROR; OUT OUT1; END_STEP\n"
                "STEP U: OWN ERROR; ENTRY STOP; END_STEP\nEND_PROGRAM\n";

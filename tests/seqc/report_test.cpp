@@ -84,6 +84,19 @@ TEST(TableReport, StandsAtTheEndOfTheListing) {
     EXPECT_NE(text.find("longest after it: Shut -> Open, Start: 2.08 to 3.12 ms"), std::string::npos) << text;
 }
 
+TEST(TableReport, SaysWhichStepsTheCompilerMade) {
+    const std::string source =
+        "PROGRAM P MOTOR MAC140;\nSTEP S: OWN ERROR; IF NOT TIMER.Q THEN HOME; NEXT := T; END_IF END_STEP\n"
+        "STEP T: OWN ERROR; OUT OUT1; IF IN0 THEN NEXT := S; END_IF END_STEP\nEND_PROGRAM\n";
+    const Compilation compiled = compile(source);
+    const std::string text = text_of(report_of(compiled.table, &compiled.symbols, {}));
+    EXPECT_NE(text.find("3 of 61, and POWER_UP; 1 made by the compiler"), std::string::npos) << text;
+    EXPECT_NE(text.find("S_to_T  helper step: does in the scan after what a branch of 'S'"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(listing(compiled, source, "p.seq").find("S_to_T  helper step"), std::string::npos);
+}
+
 TEST(TableReport, TakesATableWithTooManyTerms) {
     std::vector<std::uint8_t> table;
     for (int i = 0; i < 1100; ++i) table.insert(table.end(), {0xC0, 0, 0, 1, 0x80, 0, 0, 0});

@@ -83,7 +83,7 @@ class Program {
             body += (i == 0 ? "IF " : "ELSIF ") + branches_[i].condition + " THEN " + effects_[i].text + "\n";
         }
         return "PROGRAM P MOTOR MAC140; VAR_INPUT A AT IN0 : BOOL; B AT IN1 : BOOL; END_VAR\n"
-               "STEP S: OWN ERROR; OUT OUT0;" +
+               "STEP S: OWN ERROR; NO_HELPER; OUT OUT0;" +
                std::string(shows_b_ ? " OUT OUT2 WHEN B;" : "") + "\n" + body +
                "END_IF END_STEP\nSTEP T: OWN ERROR; OUT OUT1; END_STEP\n"
                "STEP U: OWN ERROR; ENTRY STOP; END_STEP\nEND_PROGRAM\n";
@@ -200,7 +200,7 @@ TEST(Zeros, RandomChains) {
 }
 
 std::string codes_of(const std::string& branches) {
-    return test::codes(compile(test::program("STEP S: OUT W; " + branches + " END_STEP")));
+    return test::codes(compile(test::program("STEP S: NO_HELPER; OUT W; " + branches + " END_STEP")));
 }
 
 // With both at zero the term for the losing branch would send or preset all the same.

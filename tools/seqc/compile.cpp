@@ -5,6 +5,7 @@
 
 #include "lowering/lower.h"
 #include "semantics/checker.h"
+#include "semantics/helper_steps.h"
 #include "semantics/oversights.h"
 #include "semantics/scope.h"
 #include "seqc/seqc.h"
@@ -117,9 +118,10 @@ Compilation compile(std::string_view source) {
     result.properties = program.properties;
     Report checks;
     Scope scope(program, source, checks, result);
-    const Plan plan = check(program, scope, checks);
+    Plan plan = check(program, scope, checks);
     if (!plan.steps.empty() && plan.steps.front().number == 0)
         result.symbols.steps[0] = plan.steps.front().name;
+    if (syntax_sound && !checks.has_errors()) make_helper_steps(plan, result, checks);
     for (const StepPlan& step : plan.steps) result.steps.push_back({step.number, step.span, step.outputs});
     collect_allowances(program, plan, result);
     std::sort(result.steps.begin(), result.steps.end(),

@@ -76,7 +76,8 @@ class Speller {
             follow_blocks();
             const Item& item = tokens_[at_];
             if (item.kind != Item::Kind::name || at_ == 0) continue;
-            if (tokens_.is_keyword(at_ - 1, "STEP") || tokens_.is_keyword(at_ - 1, "GROUP")) steps_.declare(item.text);
+            if (tokens_.is_keyword(at_ - 1, "STEP") || tokens_.is_keyword(at_ - 1, "GROUP"))
+                steps_.declare(item.text);
             if (in_variables_ && tokens_.is_keyword(at_ + 1, "AT")) variables_.declare(item.text);
             if (tokens_.is_keyword(at_ - 1, "MOTOR"))
                 motor_ = motor_named(item.text).value_or(MotorChoice{motor_}).map;
@@ -178,7 +179,8 @@ std::string Speller::name_here() const {
     if (behind_symbol(".")) return upper(text);
     if (behind_keyword("PROGRAM") || behind_keyword("STEP")) return std::string(text);
     const bool behind_next = at_ > 1 && behind_symbol(":=") && tokens_.is_keyword(at_ - 2, "NEXT");
-    if (behind_next || in_steps_ || behind_keyword("TERM")) return std::string(steps_.find(text).value_or(text));
+    if (behind_next || in_steps_ || behind_keyword("TERM"))
+        return std::string(steps_.find(text).value_or(text));
     if (behind_keyword("MOTOR")) return motor_named(text) ? upper(text) : std::string(text);
     if (in_variables_ && tokens_.is_keyword(at_ + 1, "AT")) return std::string(text);
     if (in_variables_ && behind_symbol(":")) return upper(text);

@@ -35,7 +35,9 @@ std::string listing(const Compilation& compilation, std::string_view source, std
     }
     text += "\nsteps:\n";
     for (std::size_t i = 0; i < symbols.steps.size(); ++i) {
-        if (!symbols.steps[i].empty()) text += fmt::format("{:5}  {}\n", i, symbols.steps[i]);
+        if (symbols.steps[i].empty()) continue;
+        const std::string& why = symbols.made_for[i];
+        text += fmt::format("{:5}  {}{}{}\n", i, symbols.steps[i], why.empty() ? "" : "  ", why);
     }
     if (!compilation.roundings.empty())
         text += symbols.drive != nullptr ? fmt::format("\nconstants on a {}:\n", motor_name(symbols))

@@ -17,8 +17,7 @@ struct Effect {
     std::uint8_t own_step = 0;
     bool stays = false;           ///< names its own step as the next, to undo a term before it
     bool writes_outputs = false;  ///< needs a FastMAC-format term even if nothing else does
-    bool reported = false;
-    Truth fired;  ///< cases in which one of its terms holds
+    Truth fired;                  ///< cases in which one of its terms holds
     Span span;
 
     bool is_hard() const { return action != nullptr || stays; }

@@ -33,9 +33,7 @@ std::vector<LoweredTerm> shortened(const StepPlan& step, const std::vector<std::
 
 std::vector<LoweredTerm> lower(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of,
                                Report& report) {
-    const std::size_t errors = report.error_count();
-    const std::vector<LoweredTerm> plain = plain_terms(step, outputs_of, report);
-    if (report.error_count() != errors) return plain;
+    const std::vector<LoweredTerm> plain = plain_terms(step, outputs_of);
     std::vector<LoweredTerm> shortest = shortened(step, outputs_of, plain);
     if (shortest.size() < plain.size() && !first_difference(step, outputs_of, shortest)) return shortest;
     check_terms(step, outputs_of, plain, report);

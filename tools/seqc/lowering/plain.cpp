@@ -1,7 +1,5 @@
 #include "lowering/plain.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -52,8 +50,7 @@ struct EffectTerms {
 
 class Lowering {
   public:
-    Lowering(const StepPlan& step, Effects effects, Report& report)
-        : step_(step), effects_(std::move(effects)), report_(report) {
+    Lowering(const StepPlan& step, Effects effects) : step_(step), effects_(std::move(effects)) {
         owner_.fill(kNobody);
     }
 
@@ -69,6 +66,9 @@ class Lowering {
         for (const RawTerm& raw : step_.terms) terms.push_back({raw.bytes, raw.span});
         return terms;
     }
+
+    /// Something would have to be taken back that cannot.
+    bool failed() const { return failed_; }
 
   private:
     Effect& effect(int index) { return effects_.list[static_cast<std::size_t>(index)]; }
@@ -175,7 +175,7 @@ class Lowering {
             if (owner_[c] == index) continue;
             need.set(point);
             if (!is_hard(owner_[c])) continue;
-            take_over(index, owner_[c], layer, layer);
+            take_over(index, owner_[c]);
         }
         const bool once = effect(index).acts_once();
         const auto cubes = once ? disjoint_cover(need) : minimal_cover(need, allowed);
@@ -191,7 +191,7 @@ class Lowering {
             if (is_hard(effects_.target[c]) || !is_hard(owner_[c])) continue;
             const Effect& owner = effect(owner_[c]);
             if (owner.action == nullptr && owner.outputs == effects_.resting[c]) continue;
-            override_owner(owner_[c], layer, layer, kNobody);
+            override_owner(owner_[c]);
             need[effects_.resting[c]].set(point);
         }
         for (std::size_t outputs = 0; outputs < need.size(); ++outputs) {
@@ -259,50 +259,13 @@ class Lowering {
     }
 
     /// Effect `index`, which has no next step of its own, must name one where another effect held before it.
-    void take_over(int index, int owner, std::size_t layer, std::size_t where) {
-        override_owner(owner, layer, where, index);
+    void take_over(int index, int owner) {
+        override_owner(owner);
         if (!effect(index).next()) effect(index).stays = true;
     }
 
-    /// A term of `layer` takes the cases of layer `where` from another effect, for effect `by` if for any.
-    void override_owner(int index, std::size_t layer, std::size_t where, int by) {
-        Effect& overridden = effect(index);
-        if (!overridden.cannot_be_undone() || overridden.reported) return;
-        overridden.reported = true;
-        failed_ = true;
-        const char* zero = layer == kTimer     ? "timer has"
-                           : layer == kCounter ? "counter has"
-                                               : "timer and the counter have";
-        const bool crossed = layer != where;
-        const std::string message =
-            crossed
-                ? fmt::format(
-                      "when TIMER.Q and COUNTER.Q hold together, this would happen beside the branch "
-                      "that comes first: a table cannot test that the {} not run down",
-                      zero)
-                : fmt::format("this needs to know that the {} not run down, which a table cannot test", zero);
-        const char* help =
-            crossed ? "let this branch come first if the other one only switches, or do it in a step of its "
-                      "own; only NEXT and outputs can depend on a timer or counter that still runs"
-                    : "test TIMER.Q or COUNTER.Q without NOT and in the branch that comes first, or go "
-                      "to a step of "
-                      "its own that waits; only NEXT and outputs can depend on a timer that still runs";
-        Diagnostic& diagnostic = report_.add("E071", overridden.span, message, help);
-        note_entry(diagnostic, overridden);
-        if (by != kNobody && effect(by).action != nullptr)
-            diagnostic.notes.push_back({effect(by).span, "this branch decides where both conditions hold"});
-    }
-
-    /// What cannot be undone may stand in the ENTRY of the step that is entered.
-    static void note_entry(Diagnostic& diagnostic, const Effect& effect) {
-        for (const Send& send : effect.action->sends) {
-            const bool own = send.span.offset >= effect.span.offset &&
-                             send.span.offset < effect.span.offset + effect.span.length;
-            if (own) continue;
-            diagnostic.notes.push_back({send.span, "it sends this, from the ENTRY of the step it goes to"});
-            return;
-        }
-    }
+    /// Later terms take cases from an effect.
+    void override_owner(int index) { failed_ = failed_ || effect(index).cannot_be_undone(); }
 
     void place(int index, Cube cube, bool error, std::size_t layer) {
         placed_.push_back({index, condition_of(step_.number, cube, error, layer)});
@@ -313,31 +276,20 @@ class Lowering {
             for (std::size_t point = points._Find_first(); point < kPoints;
                  point = points._Find_next(point)) {
                 const std::size_t c = case_of(point, error, above);
-                if (once && effect(index).fired.test(c)) report_twice(index);
+                if (once && effect(index).fired.test(c)) failed_ = true;
                 effect(index).fired.set(c);
                 const int before = owner_[c];
                 if (above != layer && effects_.target[c] == index && before != index && is_hard(before))
-                    take_over(index, before, layer, above);
+                    take_over(index, before);
                 owner_[c] = index;
             }
         }
-    }
-
-    void report_twice(int index) {
-        if (failed_) return;
-        failed_ = true;
-        Diagnostic& diagnostic = report_.add(
-            "E072", effect(index).span, "when TIMER.Q and COUNTER.Q hold together, this would be sent twice",
-            "a table cannot test that a timer still runs: use two steps, or send it where only one "
-            "of them counts");
-        note_entry(diagnostic, effect(index));
     }
 
     using Owners = std::array<int, kCases>;
 
     const StepPlan& step_;
     Effects effects_;
-    Report& report_;
     bool failed_ = false;
     std::vector<EffectTerms> placed_;
     Owners owner_{};
@@ -345,13 +297,11 @@ class Lowering {
 
 }  // namespace
 
-std::vector<LoweredTerm> plain_terms(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of,
-                                     Report& report) {
-    if (step.conditional.empty()) return Lowering(step, effects_of(step, outputs_of), report).run();
-    Report along;
-    std::vector<LoweredTerm> terms = Lowering(step, effects_of(step, outputs_of), along).run();
-    if (!along.has_errors()) return terms;
-    return Lowering(step, effects_of(step, outputs_of, Outputs::apart), report).run();
+std::vector<LoweredTerm> plain_terms(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of) {
+    Lowering along(step, effects_of(step, outputs_of));
+    std::vector<LoweredTerm> terms = along.run();
+    if (!along.failed()) return terms;
+    return Lowering(step, effects_of(step, outputs_of, Outputs::apart)).run();
 }
 
 }  // namespace nplc::seqc

@@ -6,9 +6,7 @@
 
 namespace nplc::seqc {
 
-/// The terms of a step, each branch by itself: what `lower` starts from, and what says why a table cannot do
-/// it. Raw terms of the step come last.
-std::vector<LoweredTerm> plain_terms(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of,
-                                     Report& report);
+/// The terms of a step, each branch by itself: what `lower` starts from. Raw terms of the step come last.
+std::vector<LoweredTerm> plain_terms(const StepPlan& step, const std::vector<std::uint8_t>& outputs_of);
 
 }  // namespace nplc::seqc

@@ -298,7 +298,11 @@ void append_entry(Action& action, const Action& entry, Report& report) {
         conflict(report, action.timer_span, "the timer is set", entry.timer_span);
     if (uses_counter(action) && uses_counter(entry))
         conflict(report, action.counter_span, "the counter is changed", entry.counter_span);
-    if (entry.timer) action.timer = entry.timer;
+    if (entry.timer) {
+        action.timer = entry.timer;
+        action.timer_span = entry.timer_span;
+    }
+    if (uses_counter(entry)) action.counter_span = entry.counter_span;
     if (entry.counter) action.counter = entry.counter;
     action.clears_counter = action.clears_counter || entry.clears_counter;
     action.counts_down = action.counts_down || entry.counts_down;

@@ -1,12 +1,12 @@
-#include "semantics/drive.h"
+#include "semantics/checker.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <bitset>
 
 #include "semantics/actions.h"
+#include "semantics/drive.h"
 #include "semantics/motors.h"
 #include "semantics/on_conditions.h"
 #include "semantics/seen_branches.h"
@@ -73,7 +73,7 @@ class Checker {
         }
         for (const ast::RawTerm& term : program_.terms) plan.terms.push_back(raw_term(term, {}));
         check_raw_terms(plan);
-        warn_unreachable(plan);
+        warn_unreachable(plan, report_);
         return plan;
     }
 
@@ -163,6 +163,7 @@ class Checker {
         if (!written.conditional.empty()) refuse(written.conditional.front().span, "OUT");
         if (!written.entry.empty()) refuse(written.entry.front().span, "ENTRY");
         if (written.own_error) refuse(written.own_error_span, "OWN ERROR");
+        if (written.no_helper) refuse(written.no_helper_span, "NO_HELPER");
         if (!written.terms.empty()) refuse(written.terms.front().span, "TERM");
         for (std::size_t i = 0; i < written.choices.size(); ++i) {
             const ast::Choice& choice = written.choices[i];
@@ -189,6 +190,7 @@ class Checker {
         plan.span = written.name.span;
         plan.number = number;
         plan.own_error = written.own_error || number == fault_;  // E081 says it
+        plan.no_helper = written.no_helper;
         add_outputs(written, plan);
         add_choices(written, plan);
         if (!written.own_error) {
@@ -378,13 +380,16 @@ class Checker {
         const auto number = static_cast<std::size_t>(same - plan.rules.begin());
         if (seen.claim(rule.when, number)) report_contested(rule, place, choice, number, seen);
         seen.list.push_back({rule.when, rule.condition, choice, number});
+        RulePart part{rule.when, rule.action, rule.condition};
         if (same == plan.rules.end()) {
             plan.rules.push_back(std::move(rule));
+            plan.rules.back().parts.push_back(std::move(part));
             return;
         }
         if (!depends_on(same->when, kInPosBit) && depends_on(rule.when, kInPosBit))
             same->condition = rule.condition;
         same->when |= rule.when;
+        same->parts.push_back(std::move(part));
     }
 
     void report_contested(const Rule& rule, Span place, std::size_t choice, std::size_t number,
@@ -451,41 +456,6 @@ class Checker {
         report_.add("W009", span,
                     fmt::format("a gateway with a {} refuses a table with this term", drive.program_name),
                     std::string(why));
-    }
-
-    using StepSet = std::bitset<sequencer::kEndOfTable + 1U>;
-
-    static void add_target(const RawTerm& raw, std::array<StepSet, 64>& targets) {
-        if (sequencer::is_flex(raw.bytes)) return;
-        targets[sequencer::step_of(raw.bytes)].set(raw.bytes[3] & 0x3F);
-    }
-
-    void warn_unreachable(const Plan& plan) {
-        if (plan.steps.empty() || report_.has_errors()) return;
-        std::array<StepSet, 64> targets;
-        for (const StepPlan& step : plan.steps) {
-            for (const Rule& rule : step.rules) {
-                if (rule.action.next) targets[step.number].set(*rule.action.next);
-            }
-            for (const RawTerm& raw : step.terms) add_target(raw, targets);
-        }
-        for (const RawTerm& raw : plan.terms) add_target(raw, targets);
-        StepSet reached;
-        std::vector<std::size_t> open = {kPowerUp};
-        while (!open.empty()) {
-            const std::size_t from = open.back();
-            open.pop_back();
-            if (reached.test(from)) continue;
-            reached.set(from);
-            for (std::size_t to = 0; to < targets.size(); ++to) {
-                if (targets[from].test(to)) open.push_back(to);
-            }
-        }
-        for (const StepPlan& step : plan.steps) {
-            if (reached.test(step.number)) continue;
-            report_.add("W005", step.span, fmt::format("no step leads to '{}'", step.name),
-                        "name it in a NEXT, or take it out");
-        }
     }
 
     const ast::Program& program_;

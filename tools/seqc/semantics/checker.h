@@ -10,6 +10,9 @@ namespace nplc::seqc {
 /// From the program as written to rules that never hold together; reports what would surprise.
 Plan check(const ast::Program& program, Scope& scope, Report& report);
 
+/// Steps that no NEXT leads to.
+void warn_unreachable(const Plan& plan, Report& report);
+
 /// Follows the motor's mode from step to step: what would start it towards an old target, or not at all, and
 /// what waits for an INPOS that never comes.
 void check_motor_state(const Plan& plan, const Symbols& symbols, Report& report);

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -50,11 +52,19 @@ struct Action {
     bool same_effect(const Action& other) const;
 };
 
+/// A branch as it stands in the program, its spans in `action`.
+struct RulePart {
+    Truth when;
+    Action action;
+    Span condition = {};
+};
+
 /// Rules of one step never hold in the same case.
 struct Rule {
     Truth when;
     Action action;
     Span condition = {};  ///< empty where the program wrote none
+    std::vector<RulePart> parts = {};
 };
 
 /// The register write of a Send that has one.
@@ -83,6 +93,8 @@ struct StepPlan {
     std::uint8_t number = 0;
     std::uint8_t outputs = 0;
     bool own_error = false;
+    bool no_helper = false;  ///< NO_HELPER
+    bool is_helper = false;  ///< made by the compiler
     std::vector<ConditionalOutput> conditional;
     std::vector<Rule> rules;
     std::vector<RawTerm> terms;
@@ -91,6 +103,7 @@ struct StepPlan {
 struct Plan {
     std::vector<StepPlan> steps;  ///< POWER_UP first, if the program has steps at all
     std::vector<RawTerm> terms;
+    std::deque<std::string> names;  ///< of steps that the compiler makes
 };
 
 /// In the order of the program.

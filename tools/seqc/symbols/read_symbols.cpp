@@ -126,6 +126,7 @@ void read_steps(const Node& node, SymbolFile& file) {
         const Node written = step["name"];
         name = number == 0 && written.text() == "POWER_UP" ? written.word() : written.name();
         different.add(written, name);
+        if (step.has("made_for")) file.symbols.made_for[number] = step["made_for"].text();
         file.step_lines[number] = static_cast<std::uint32_t>(step["line"].whole(0, kMostLines));
         file.step_outputs[number] = static_cast<std::uint8_t>(step["outputs"].whole(0, 15));
     }

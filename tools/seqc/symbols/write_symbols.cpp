@@ -54,10 +54,13 @@ Json registers_of(const Symbols& symbols) {
 Json steps_of(const Compilation& compilation, const Positions& positions) {
     Json list = Json::array();
     for (const StepOrigin& step : compilation.steps) {
-        list.push_back({{"number", step.number},
-                        {"name", compilation.symbols.steps[step.number]},
-                        {"line", place(step.span, positions).line},
-                        {"outputs", step.outputs}});
+        Json entry = {{"number", step.number},
+                      {"name", compilation.symbols.steps[step.number]},
+                      {"line", place(step.span, positions).line},
+                      {"outputs", step.outputs}};
+        const std::string& why = compilation.symbols.made_for[step.number];
+        if (!why.empty()) entry["made_for"] = why;
+        list.push_back(std::move(entry));
     }
     return list;
 }

@@ -117,6 +117,8 @@ struct Step {
     std::vector<Allowance> allowances;
     bool own_error = false;
     Span own_error_span;
+    bool no_helper = false;
+    Span no_helper_span;
 };
 
 struct Variable {

@@ -21,7 +21,7 @@ constexpr auto kReserved = std::to_array<std::string_view>(
      "FALSE",      "INPOS",         "ANY",   "TIMER",     "COUNTER",   "EVERY_SCAN",
      "COUNT_DOWN", "CLEAR_COUNTER", "TERM",  "REG",       "PROPERTY",  "NEVER",
      "ALWAYS",     "POSSIBLE",      "IS",    "REACHABLE", "WHENEVER",  "WITHIN",
-     "ALLOW",      "BECAUSE",       "GROUP", "IN",        "EXCEPT"});
+     "ALLOW",      "BECAUSE",       "GROUP", "IN",        "EXCEPT",    "NO_HELPER"});
 
 /// Words that begin something on the level above a statement: skipping stops in front of them.
 constexpr std::array kBoundaries = {
@@ -127,7 +127,7 @@ void Parser::mend_statement(std::vector<std::string_view> end_words) {
         mend(end_words, "a statement");
     } else if (!symbol || after.text != "(") {
         std::vector<std::string_view> words = std::move(end_words);
-        words.insert(words.end(), {"IF", "OUT", "ENTRY", "OWN", "EVERY_SCAN", "TERM", "NEXT"});
+        words.insert(words.end(), {"IF", "OUT", "ENTRY", "OWN", "EVERY_SCAN", "TERM", "NEXT", "NO_HELPER"});
         mend(words, "a statement");
     }
 }

@@ -298,6 +298,10 @@ void Parser::parse_step_body(ast::Step& step, std::string_view end_word) {
             step.own_error = true;
             step.own_error_span = tokens_[at_ - 1].span;
             if (expect("ERROR", "after OWN")) end_statement();
+        } else if (take("NO_HELPER")) {
+            step.no_helper = true;
+            step.no_helper_span = tokens_[at_ - 1].span;
+            end_statement();
         } else if (take("ENTRY")) {
             ast::Statement statement;
             if (parse_statement(statement)) step.entry.push_back(std::move(statement));

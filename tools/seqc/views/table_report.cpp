@@ -96,9 +96,18 @@ std::vector<ReportStep> worst_first(std::vector<ReportStep> steps) {
     return steps;
 }
 
+/// Why the compiler made the step; empty: it stands in the program.
+std::string made_for(const TableReport& report, std::uint8_t step) {
+    return report.symbols && step <= kMostSteps ? report.symbols->made_for[step] : std::string();
+}
+
 std::string room_text(const TableReport& report) {
-    std::string text = fmt::format("steps  {} of {}{}\n", steps_used(report), most_steps(report),
-                                   report.has_power_up ? ", and POWER_UP" : "");
+    const auto made = std::count_if(report.steps.begin(), report.steps.end(), [&](const ReportStep& step) {
+        return !made_for(report, step.number).empty();
+    });
+    std::string text = fmt::format("steps  {} of {}{}{}\n", steps_used(report), most_steps(report),
+                                   report.has_power_up ? ", and POWER_UP" : "",
+                                   made == 0 ? "" : fmt::format("; {} made by the compiler", made));
     text += fmt::format("terms  {} of {}, the end included; {} of {} bytes\n", report.terms, kTermsEverywhere,
                         report.terms * sequencer::kTermBytes, kTermsEverywhere * sequencer::kTermBytes);
     if (report.terms > kTermsEverywhere) {
@@ -119,8 +128,9 @@ std::string room_text(const TableReport& report) {
 std::string steps_text(const TableReport& report) {
     std::string text = "\n step  terms  name\n";
     for (const ReportStep& step : report.steps) {
-        text += fmt::format("{:5}  {:5}  {}{}\n", step.number, step.terms, step.name,
-                            step.reachable ? "" : " (never reached)");
+        const std::string why = made_for(report, step.number);
+        text += fmt::format("{:5}  {:5}  {}{}{}{}\n", step.number, step.terms, step.name,
+                            step.reachable ? "" : " (never reached)", why.empty() ? "" : "  ", why);
     }
     return text;
 }
@@ -249,6 +259,8 @@ std::string json_of(const TableReport& report) {
                                  {"name", step.name},
                                  {"terms", step.terms},
                                  {"reachable", step.reachable}});
+        const std::string why = made_for(report, step.number);
+        if (!why.empty()) json["steps"].back()["made_for"] = why;
     }
     json["transitions"] = Json::array();
     for (const Transition& transition : report.transitions)

@@ -39,10 +39,11 @@ struct Symbols {
     /// The drive that the gateway translates them for; null: the motor has them itself.
     const registers::DriveModel* drive = nullptr;
     std::optional<Scale> scale;
-    std::array<std::string, 63> steps;   ///< by step number; empty where the table has no such step
-    std::array<std::string, 6> inputs;   ///< as declared, else IN0..IN5
-    std::array<std::string, 4> outputs;  ///< as declared, else OUT0..OUT3
-    std::vector<MotorName> motor_names;  ///< in source order
+    std::array<std::string, 63> steps;     ///< by step number; empty where the table has no such step
+    std::array<std::string, 63> made_for;  ///< why the compiler made the step; empty: the program has it
+    std::array<std::string, 6> inputs;     ///< as declared, else IN0..IN5
+    std::array<std::string, 4> outputs;    ///< as declared, else OUT0..OUT3
+    std::vector<MotorName> motor_names;    ///< in source order
     bool operator==(const Symbols&) const = default;
 };
 
