@@ -16,7 +16,6 @@ namespace nplc::seqc {
 namespace {
 
 using protocol::fastmac::Group;
-using protocol::fastmac::Mode;
 using protocol::fastmac::Number;
 
 /// The makers' data sheets; a MAC800 above it stops with an error (004).
