@@ -32,10 +32,6 @@ const Send* first_limit(const Plan& plan, registers::Model model) {
     return nullptr;
 }
 
-bool leaves(const StepPlan& step, const Rule& rule) {
-    return rule.action.next && *rule.action.next != step.number;
-}
-
 bool needs_in_position(const Rule& rule) {
     return (rule.when & ~truth_of_bit(kInPosBit)).none();
 }

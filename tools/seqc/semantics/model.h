@@ -100,6 +100,11 @@ struct StepPlan {
     std::vector<RawTerm> terms;
 };
 
+/// Goes on to another step.
+inline bool leaves(const StepPlan& step, const Rule& rule) {
+    return rule.action.next && *rule.action.next != step.number;
+}
+
 struct Plan {
     std::vector<StepPlan> steps;  ///< POWER_UP first, if the program has steps at all
     std::vector<RawTerm> terms;

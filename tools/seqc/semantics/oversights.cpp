@@ -22,10 +22,6 @@ using protocol::fastmac::Number;
 constexpr double kTopSpeedSmall = 4000;
 constexpr double kTopSpeedMac800 = 3600;
 
-bool leaves(const StepPlan& step, const Rule& rule) {
-    return rule.action.next && *rule.action.next != step.number;
-}
-
 bool is_number(const Send& send, Number number) {
     return send.reg == nullptr && !select_command(send.command) &&
            static_cast<Number>(send.command & 0x1F) == number;
