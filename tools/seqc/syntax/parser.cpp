@@ -234,7 +234,11 @@ void Parser::parse_variable(std::vector<ast::Variable>& variables, bool motor) {
                    "inputs and outputs are BOOL; values of the motor are registers, in VAR_MOTOR");
         return recover();
     }
-    take("BOOL");
+    if (at("BOOL")) {
+        error_here(motor ? "';'" : "':' before BOOL",
+                   motor ? "a register has no type" : "write Name AT IN1 : BOOL; or leave BOOL out");
+        ++at_;
+    }
     if (!motor && at_symbol(":=")) {
         report_.add("E010", token().span, "an input or output has no value of its own here",
                     "leave it out: outputs are off at power-up, and OUT in a step switches them on");
