@@ -14,7 +14,7 @@ import sources
 MAX_LINES = 60
 MAX_MEMBERS = 30
 # Classes that still have more: to be split, and none to be added.
-MORE_MEMBERS = {"MidiModule": 44, "Axis": 40}
+MORE_MEMBERS = {"MidiModule": 39, "Axis": 40}
 CLASS = re.compile(r"^( *)(?:class|struct)\s+(\w+)[^;{]*\{$")
 MEMBER = re.compile(r"^\s+(?!return\b|using\b)[\w:<>,&*.\s()+-]+\b\w+_\s*(?:\{.*\}|=.*)?;")
 LINK = re.compile(r"\]\(([^)#\s]+)[^)]*\)")
