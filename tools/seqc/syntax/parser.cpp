@@ -229,12 +229,13 @@ void Parser::parse_variable(std::vector<ast::Variable>& variables, bool motor) {
         error_here(motor ? "a register, such as P1 or V_SOLL" : "an address, such as %IX0.0 or IN0");
         return recover();
     }
-    if (!motor && take_symbol(":") && !take("BOOL") && !mend({"BOOL"}, "BOOL as the type")) {
-        error_here("BOOL as the type",
-                   "inputs and outputs are BOOL; values of the motor are registers, in VAR_MOTOR");
-        return recover();
-    }
-    if (at("BOOL")) {
+    if (!motor && take_symbol(":")) {
+        if (!take("BOOL") && !(mend({"BOOL"}, "BOOL as the type") && take("BOOL"))) {
+            error_here("BOOL as the type",
+                       "inputs and outputs are BOOL; values of the motor are registers, in VAR_MOTOR");
+            return recover();
+        }
+    } else if (at("BOOL")) {
         error_here(motor ? "';'" : "':' before BOOL",
                    motor ? "a register has no type" : "write Name AT IN1 : BOOL; or leave BOOL out");
         ++at_;
