@@ -12,7 +12,7 @@ SPECIAL = {
     "all up to the first": r"(?s:.*?)",
     "any characters but ' and the end of the line": r"[^'\n]*",
 }
-NO_NAMES_EXCEPT = {"BOOL", "Q"}
+NO_NAMES_EXCEPT = {"BOOL", "Q", "AFTER", "BY", "FROM", "OFF"}
 
 
 class GrammarError(Exception):

@@ -73,5 +73,56 @@ TEST_F(Courses, AnAllowedFaultIsToldWithItsReasonAndIsNoFault) {
     }
 }
 
+const char* const kProgram =
+    "PROGRAM P\nMOTOR MAC140;\nON ERROR NEXT := Fault;\nVAR_OUTPUT Lamp AT OUT0 : BOOL; END_VAR\n"
+    "STEP S: OUT Lamp; IF IN0 THEN NEXT := T; END_IF END_STEP\n"
+    "STEP T: IF NOT IN0 THEN NEXT := S; END_IF END_STEP\n"
+    "STEP Fault: OWN ERROR; IF ANY ERROR AND IN5 THEN RESET_ERROR; NEXT := S; END_IF END_STEP\n"
+    "ASSUME NEVER IN0 AND IN5;\n"
+    "PROPERTY Lit: Lamp CHANGES ONLY IN step = S OR step = POWER_UP;\n"
+    "PROPERTY Wrong: BETWEEN step = S AND step = Fault Lamp STAYS ON;\nEND_PROGRAM\n";
+
+TEST_F(Courses, AssumptionsStandWithTheVerdicts) {
+    write("p.seq", kProgram);
+    EXPECT_EQ(run("verify p.seq"), 1);
+    EXPECT_NE(read("out").find("; ASSUME NEVER IN0 AND IN5\n"), std::string::npos) << read("out");
+    EXPECT_EQ(run("verify --json p.seq"), 1);
+    EXPECT_EQ(Json::parse(read("out"))["assumptions"], Json::array({"ASSUME NEVER IN0 AND IN5"}));
+}
+
+TEST_F(Courses, AssumptionsThatAllowNoInputsAreRefused) {
+    write("p.seq", kProgram);
+    write("p.prop", "ASSUME NEVER IN0; ASSUME NEVER NOT IN0;");
+    EXPECT_EQ(run("verify p.seq --property p.prop"), 2);
+    EXPECT_EQ(read("out"), "");
+    EXPECT_NE(read("err").find("p.seq: the assumptions allow no inputs at all"), std::string::npos)
+        << read("err");
+}
+
+TEST_F(Courses, JUnitHasATestForEachPropertyAndCheck) {
+    write("p.seq", kProgram);
+    EXPECT_EQ(run("verify --junit p.xml p.seq"), 1);
+    const std::string xml = read("p.xml");
+    // 14 checks and 2 properties, one of them broken.
+    EXPECT_NE(xml.find("<testsuites tests=\"16\" failures=\"1\" errors=\"0\""), std::string::npos) << xml;
+    EXPECT_NE(xml.find("name=\"Wrong: BETWEEN step = S AND step = Fault Lamp STAYS ON\" file=\"p.seq\">\n"
+                       "      <failure message=\"after the last scan it is otherwise\" type=\"broken\">"),
+              std::string::npos)
+        << xml;
+}
+
+TEST_F(Courses, WhatIsNoTableIsRefused) {
+    std::string table(8, '\0');
+    table[0] = 0x3F;
+    write("t.bin", table);
+    EXPECT_EQ(run("verify t.bin"), 0);
+    write("t.bin", table + std::string(16, '\x55'));
+    EXPECT_EQ(run("verify t.bin"), 2);
+    EXPECT_NE(read("err").find("t.bin: 16 bytes stand behind the end of the table"), std::string::npos)
+        << read("err");
+    EXPECT_EQ(run("verify '" SEQC_PROGRAM "'"), 2);
+    EXPECT_EQ(read("out"), "");
+}
+
 }  // namespace
 }  // namespace nplc::seqc

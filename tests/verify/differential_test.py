@@ -13,7 +13,7 @@ import tempfile
 import naive
 import random_cases
 
-PROPERTIES = 8
+PROPERTIES = 10
 
 
 class Case:
@@ -54,7 +54,7 @@ def image_of(scan):
 
 def judge_course(case, table, prop, course, explorer):
     """Whether a course breaks the property (reaches it), played by nanoplc-sim and by the manual."""
-    form, c, d, ms, _ = prop
+    form, c, d, ms, _, e = prop
     state, states = (0, 0, 0, 0), []
     for scan, row in zip(course, case.replay(course), strict=True):
         after = naive.scan(table, state, image_of(scan))
@@ -66,12 +66,16 @@ def judge_course(case, table, prop, course, explorer):
         return naive.holds(c, image, states[-1])
     if form == "always":
         return not naive.holds(c, image, states[-1])
-    if form == "possible":
+    if form in ("possible", "after"):
         if explorer is None:
             return True
         ways = explorer.ways_to(c)
-        return not naive.holds(c, image, states[-1]) and not any(
-            e in ways for e in explorer.elapsed(states[-1], explorer.longest))
+        return (form == "possible" or naive.holds(d, image, states[-1])) and not naive.holds(c, image, states[-1]) and not any(
+            later in ways for later in explorer.elapsed(states[-1], explorer.longest))
+    if form not in ("whenever", "while"):
+        return judge_remembered(form, c, d, e, course, states)
+    if form == "while":
+        return held_too_long(c, d, ms, course, states)
     due = None
     time = 0
     for scan, after in zip(course, states, strict=True):
@@ -85,13 +89,46 @@ def judge_course(case, table, prop, course, explorer):
     return False
 
 
+def judge_remembered(form, c, d, e, course, states):
+    """Whether the last scan, and none before it, breaks the property."""
+    begun = [(0, 0, 0, 0)]
+    for scan, after in zip(course, states, strict=True):
+        begun.append((after[0], after[1], max(0, after[2] - scan["dt_ms"]), after[3]))
+    values = [[naive.holds(x, image_of(scan), after) for x in (c, d, e)]
+              for scan, after in zip(course, states, strict=True)]
+    broken, within = [], False
+    off = [naive.holds(x, 0, begun[0]) for x in (c, d, e)]
+    for k, (one, two, three) in enumerate(values):
+        before = values[k - 1] if k else off
+        within = (within or one) and not two
+        broken.append({"only": one and not any(v[1] for v in values[:k + 1]),
+                       "stays": within and not three,
+                       "changes": one != before[0] and not two and not before[1],
+                       "scan": naive.holds(c, image_of(course[k]), begun[k]) and not two,
+                       "followed": k > 0 and before[0] and two and not three}[form])
+    return broken[-1] and not any(broken[:-1])
+
+
+def held_too_long(c, d, ms, course, states):
+    time, since = 0, None
+    for scan, after in zip(course, states, strict=True):
+        if not naive.holds(d, image_of(scan), after):
+            since = None
+        elif since is None:
+            since = time
+        elif time - since >= ms and naive.holds(c, image_of(scan), after):
+            return True
+        time += scan["dt_ms"]
+    return False
+
+
 def check_any(case, table, properties, steps, report, explorer):
     begun = explorer.begun | {0}
     with_terms = {t[0] & 0x3F for t in table[:-1]}
     assert set(report["unreachable"]) == {s for s in with_terms if s not in begun}, report["unreachable"]
     results = {r["name"]: r for r in report["results"] if "code" not in r}
     for number, prop in enumerate(properties):
-        holds, shortest = explorer.verdict(prop[0], prop[1], prop[2])
+        holds, shortest = explorer.verdict(prop[0], prop[1], prop[2], prop[5], prop[3])
         result = results[f"P{number}"]
         assert result["verdict"] == ("proved" if holds else "broken"), (prop[4], result["verdict"])
         if shortest is None:
@@ -112,7 +149,7 @@ def check_driver(case, table, properties, report, free):
         prop = properties[int(other["name"][1:])]
         if prop[0] == "reachable":
             assert (result["verdict"], other["verdict"]) != ("proved", "broken"), prop[4]
-        elif prop[0] != "possible":
+        elif prop[0] not in ("possible", "after"):
             assert (result["verdict"], other["verdict"]) != ("broken", "proved"), prop[4]
         if "course" in result:
             assert judge_course(case, table, prop, result["course"], None), prop[4]

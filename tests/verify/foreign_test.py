@@ -88,7 +88,7 @@ def random_case(seqc, checkers, folder, rng):
         file.write(b"".join(table))
     steps = sorted({t[0] & 0x3F for t in table[:-1]})
     try:
-        return compare(seqc, checkers, "t.bin", folder, random_cases.random_properties(rng, count, PROPERTIES), steps)
+        return compare(seqc, checkers, "t.bin", folder, random_cases.random_properties(rng, count, PROPERTIES, random_cases.BASIC), steps)
     except AssertionError:
         print("\n".join(t.hex(" ") for t in table))
         raise
@@ -98,7 +98,7 @@ def program_case(seqc, checkers, folder, rng, program):
     run([seqc, "build", program, "--no-symbols", "-o", "t.bin", "--quiet"], folder)
     with open(os.path.join(folder, "t.bin"), "rb") as file:
         states = [byte & 0x3F for byte in file.read()[::8]][:-1]
-    properties = random_cases.random_properties(rng, max(states) + 1, 2 * PROPERTIES)
+    properties = random_cases.random_properties(rng, max(states) + 1, 2 * PROPERTIES, random_cases.BASIC)
     try:
         return compare(seqc, checkers, "t.bin", folder, properties, sorted(set(states)))
     except AssertionError:

@@ -78,7 +78,7 @@ class Naive:
     """All scans that can be, with everything free (`any`). Times up to the longest preset are tried."""
 
     def __init__(self, table, images, longest):
-        self.images = images
+        self.table, self.images = table, images
         self.scans = {}  # (image, state after) -> depth
         self.after = {}  # state before a scan -> {(image, state after)}
         start = (0, 0, 0, 0)
@@ -107,7 +107,67 @@ class Naive:
         """Least number of scans to one that `wanted` takes; None if there is none."""
         return min((d for (image, state), d in self.scans.items() if wanted(image, state)), default=None)
 
-    def verdict(self, form, c, d=None):
+    def broken_after(self, begin, step):
+        """Least number of scans after which `step` says that they break what it watches; None if none do. It takes what
+        is remembered, the state before a scan, its image and the state after it, and answers (broken, remembered)."""
+        queue, seen = deque([((0, 0, 0, 0), begin, 0)]), {((0, 0, 0, 0), begin)}
+        while queue:
+            state, memory, depth = queue.popleft()
+            for image in self.images:
+                done = scan(self.table, state, image)
+                broken, after = step(memory, state, image, done)
+                if broken:
+                    return depth + 1
+                for later in self.elapsed(done, self.longest):
+                    if (later, after) not in seen:
+                        seen.add((later, after))
+                        queue.append((later, after, depth + 1))
+        return None
+
+    def held_too_long(self, c, d, ms):
+        """The same for c while d has held for `ms`: the time is counted up to `ms`, from each scan on where d begins."""
+        queue, seen = deque([((0, 0, 0, 0), None, 0)]), {((0, 0, 0, 0), None)}
+        while queue:
+            state, held, depth = queue.popleft()
+            for image in self.images:
+                done = scan(self.table, state, image)
+                now = (held or 0) if holds(d, image, done) else None
+                if held is not None and now is not None and held >= ms and holds(c, image, done):
+                    return depth + 1
+                for dt in range(max(ms, self.longest) + 1):
+                    later = (done[0], done[1], max(0, done[2] - dt), done[3])
+                    after = None if now is None else min(ms, now + dt)
+                    if (later, after) not in seen:
+                        seen.add((later, after))
+                        queue.append((later, after, depth + 1))
+        return None
+
+    def remembered(self, form, c, d, e):
+        """The forms that look at more than one scan."""
+        def only_after(seen, _, image, done):
+            now = seen or holds(d, image, done)
+            return holds(c, image, done) and not now, now
+
+        def stays(within, _, image, done):
+            now = (within or holds(c, image, done)) and not holds(d, image, done)
+            return now and not holds(e, image, done), now
+
+        def changes(before, _, image, done):
+            now = holds(c, image, done), holds(d, image, done)
+            return now[0] != before[0] and not now[1] and not before[1], now
+
+        def scan_ends(_, state, image, done):
+            return holds(c, image, state) and not holds(d, image, done), None
+
+        def followed(before, _, image, done):
+            return before and holds(d, image, done) and not holds(e, image, done), holds(c, image, done)
+
+        off = (0, 0, 0, 0)
+        begin = (holds(c, 0, off), holds(d, 0, off)) if form == "changes" else False
+        return self.broken_after(begin, {"only": only_after, "stays": stays, "changes": changes, "scan": scan_ends,
+                                         "followed": followed}[form])
+
+    def verdict(self, form, c, d=None, e=None, ms=0):
         """Whether the property holds, and the least number of scans that show that it does not (that it does, for
         `reachable`)."""
         if form == "never":
@@ -116,12 +176,16 @@ class Naive:
             shortest = self.first(lambda i, s: not holds(c, i, s))
         elif form == "whenever":
             shortest = self.first(lambda i, s: holds(c, i, s) and not holds(d, i, s))
+        elif form == "while":
+            shortest = self.held_too_long(c, d, ms)
+        elif form in ("only", "stays", "changes", "scan", "followed"):
+            shortest = self.remembered(form, c, d, e)
         elif form == "reachable":
             shortest = self.first(lambda i, s: holds(c, i, s))
             return shortest is not None, shortest
         else:
             ways = self.ways_to(c)
-            shortest = self.first(lambda i, s: not holds(c, i, s)
+            shortest = self.first(lambda i, s: (form == "possible" or holds(d, i, s)) and not holds(c, i, s)
                                   and not any(e in ways for e in self.elapsed(s, self.longest)))
         return shortest is None, shortest
 

@@ -61,8 +61,32 @@ TEST(Property, EveryFormIsRead) {
     EXPECT_EQ(property.form, Form::whenever);
     EXPECT_EQ(property.within_ms, 1500U);
     EXPECT_EQ(property.text, "whenever IN0 then IN1 within 1.5 s");
+    EXPECT_EQ(only("PROPERTY P: NEVER IN0 WHILE IN1 FOR 100 ms;").form, Form::never_while);
+    EXPECT_EQ(only("PROPERTY P: WHENEVER IN0 FOR 2 s THEN IN1;").within_ms, 2000U);
+    EXPECT_EQ(only("PROPERTY P: WHENEVER IN0 THEN IN1;").form, Form::never);
+    EXPECT_EQ(only("PROPERTY P: WHENEVER IN0 FOLLOWED BY IN1 THEN Clamp;").form, Form::followed_by);
+    EXPECT_EQ(only("PROPERTY P: AFTER IN0 ALWAYS POSSIBLE step = Idle;").form, Form::after_possible);
+    EXPECT_EQ(only("PROPERTY P: BETWEEN step = Push AND step = Idle Clamp STAYS on;").form, Form::stays);
+    EXPECT_EQ(only("PROPERTY P: Clamp CHANGES ONLY IN step = Idle;").form, Form::changes_only_in);
+    EXPECT_EQ(only("PROPERTY P: Clamp ONLY AFTER IN0 OR IN1;").form, Form::only_after);
+    EXPECT_EQ(only("PROPERTY P: EVERY_SCAN FROM step = Idle AND IN0 ENDS IN step = Push;").form,
+              Form::scan_ends);
     EXPECT_EQ(only("PROPERTY P: WHENEVER IN0 THEN IN1 WITHIN T#1s500ms;").within_ms, 1500U);
     EXPECT_EQ(only("PROPERTY P: WHENEVER IN0 THEN IN1 WITHIN 20ms;").within_ms, 20U);
+}
+
+TEST(Property, AssumptionsAreOfInputs) {
+    const PropertyReading reading = read_properties(
+        "ASSUME Start STABLE FOR 50 ms; ASSUME NEVER Start AND Door; ASSUME NEVER ERROR;", names());
+    EXPECT_EQ(reading.error, "");
+    ASSERT_EQ(reading.assumptions.size(), 3U);
+    EXPECT_EQ(reading.assumptions[0].stable_ms, 50U);
+    EXPECT_EQ(reading.assumptions[1].text, "ASSUME NEVER Start AND Door");
+    EXPECT_TRUE(holds(reading.assumptions[2].never, 0x80, {}));
+    for (const char* wrong :
+         {"ASSUME NEVER Clamp;", "ASSUME NEVER step = Idle;", "ASSUME Clamp STABLE FOR 5 ms;",
+          "ASSUME NEVER moving;", "ASSUME Start STABLE;", "ASSUME Start;"})
+        EXPECT_NE(read_properties(wrong, names()).error, "") << wrong;
 }
 
 TEST(Property, MistakesNameTheirLine) {
@@ -71,9 +95,9 @@ TEST(Property, MistakesNameTheirLine) {
         EXPECT_TRUE(reading.properties.empty()) << text;
         return std::to_string(reading.line) + ": " + reading.error;
     };
-    EXPECT_EQ(
-        error("(* a\n*)\nPROPERTY P: NEVER Stert;"),
-        "3: an input, an output, INPOS, ERROR, TIMER.Q, COUNTER.Q or 'step = Name' is expected, not 'Stert'");
+    EXPECT_EQ(error("(* a\n*)\nPROPERTY P: NEVER Stert;"),
+              "3: an input, an output, INPOS, ERROR, TIMER.Q, COUNTER.Q, moving or 'step = Name' is "
+              "expected, not 'Stert'");
     EXPECT_EQ(error("PROPERTY P: NEVER step = Nowhere;"),
               "1: there is no step 'Nowhere'; a step is a name or 0 to 62");
     EXPECT_EQ(error("PROPERTY P: NEVER step = 63;"), "1: there is no step '63'; a step is a name or 0 to 62");

@@ -56,15 +56,26 @@ def text_of(condition):
     return f"({text_of(condition[1])}) {kind.upper()} ({text_of(condition[2])})"
 
 
-def random_properties(rng, steps, count):
-    """(form, c, d, milliseconds, text)"""
+def text_of_form(form, c, d, e, ms):
+    one, two, three = text_of(c), text_of(d), text_of(e)
+    return {"never": f"NEVER {one}", "always": f"ALWAYS {one}", "reachable": f"{one} IS REACHABLE",
+            "possible": f"ALWAYS POSSIBLE {one}", "whenever": f"WHENEVER {one} THEN {two} WITHIN {ms} ms",
+            "after": f"AFTER {two} ALWAYS POSSIBLE {one}", "while": f"NEVER {one} WHILE {two} FOR {ms} ms",
+            "only": f"{one} ONLY AFTER {two}", "stays": f"BETWEEN ({one}) AND ({two}) {three} STAYS ON",
+            "changes": f"{one} CHANGES ONLY IN {two}", "scan": f"EVERY_SCAN FROM {one} ENDS IN {two}",
+            "followed": f"WHENEVER {one} FOLLOWED BY {two} THEN {three}"}[form]
+
+
+BASIC = ["never", "always", "reachable", "possible", "whenever"]
+FORMS = [*BASIC, "after", "while", "only", "stays", "changes", "scan", "followed"]
+
+
+def random_properties(rng, steps, count, forms=tuple(FORMS)):
+    """(form, c, d, milliseconds, text, e)"""
     result = []
     for number in range(count):
-        form = rng.choice(["never", "always", "reachable", "possible", "whenever"])
-        c, d = random_condition(rng, steps), random_condition(rng, steps)
-        ms = rng.choice([0, 1, 2, 5, 20])
-        words = {"never": f"NEVER {text_of(c)}", "always": f"ALWAYS {text_of(c)}",
-                 "reachable": f"{text_of(c)} IS REACHABLE", "possible": f"ALWAYS POSSIBLE {text_of(c)}",
-                 "whenever": f"WHENEVER {text_of(c)} THEN {text_of(d)} WITHIN {ms} ms"}[form]
-        result.append((form, c, d, ms, f"PROPERTY P{number}: {words};"))
+        form = rng.choice(forms)
+        c, d, e = (random_condition(rng, steps) for _ in range(3))
+        ms = rng.choice([1, 2, 5] if form == "while" else [0, 1, 2, 5, 20])
+        result.append((form, c, d, ms, f"PROPERTY P{number}: {text_of_form(form, c, d, e, ms)};", e))
     return result

@@ -34,9 +34,10 @@ class Bench {
     }
 
     Result judge(const std::string& form, Assume assume) {
-        const PropertyReading reading = read_properties("PROPERTY P: " + form + ";", {});
+        const PropertyReading reading = read_properties(assumed_ + "PROPERTY P: " + form + ";", {});
         EXPECT_EQ(reading.error, "");
         Options options;
+        options.assumptions = reading.assumptions;
         options.assume = assume;
         options.order_time = [](std::span<const sequencer::MotorOrder>) { return Delay{4, 8, 0}; };
         const Report report = verify(loaded_.table, {}, reading.properties, options);
@@ -45,11 +46,16 @@ class Bench {
         }
         return {};
     }
+    Bench& assuming(std::string assumptions) {
+        assumed_ = std::move(assumptions);
+        return *this;
+    }
     Verdict verdict(const std::string& form, Assume assume = Assume::any) {
         return judge(form, assume).verdict;
     }
 
   private:
+    std::string assumed_;
     std::vector<std::uint8_t> bytes_;
     sequencer::Table::LoadResult loaded_;
 };
@@ -118,6 +124,56 @@ TEST(Verify, ErrorStaysUntilItIsResetUnderDriver) {
         {kAny, 0x80, 0, 1, 0}, {kAny | 1, 0x00, 0, 0, 0}, {kAny | 1, 0xC0, 0x40, 0x3E, 0, 0, kResetError}};
     EXPECT_EQ(with_in_pos.verdict("ALWAYS POSSIBLE step = 0", Assume::driver),
               Verdict::broken);  // a lost link
+}
+
+/// Step 0 sends `begin` with IN0 and goes to 1; step 1 sends `end` with IN1 and goes to 2.
+Bench moves(std::uint8_t begin, std::uint8_t end) {
+    return {{kAny, 1, 1, 1, 0, 0, begin}, {kAny | 1, 2, 2, 2, 0, 0, end}};
+}
+
+TEST(Verify, MovingIsFromAnOrderUntilInPosOrAStop) {
+    constexpr std::uint8_t kPosition = 0x40;  // selects P1 in position mode (001 §5.2.1.4)
+    constexpr std::uint8_t kVelocity = 0x28;  // V1 in velocity mode
+    constexpr std::uint8_t kStop = 0x65;
+    constexpr std::uint8_t kNop = 0x60;
+    for (const Assume assume : {Assume::any, Assume::driver}) {
+        EXPECT_EQ(moves(kPosition, kStop).verdict("NEVER moving AND step = 0", assume), Verdict::proved);
+        EXPECT_EQ(moves(kPosition, kStop).verdict("WHENEVER step = 1 AND NOT INPOS THEN moving", assume),
+                  Verdict::broken);  // INPOS came in a scan before
+        EXPECT_EQ(moves(kVelocity, kStop).verdict("WHENEVER step = 1 THEN moving", assume), Verdict::proved);
+        EXPECT_EQ(moves(kPosition, kStop).verdict("NEVER moving AND step = 2", assume), Verdict::proved);
+        EXPECT_EQ(moves(kPosition, kNop).verdict("NEVER moving AND step = 2", assume), Verdict::broken);
+        EXPECT_EQ(moves(kPosition, kNop).verdict("moving ONLY AFTER IN0", assume), Verdict::proved);
+        EXPECT_EQ(moves(kPosition, kNop).verdict("NEVER moving AND INPOS AND NOT IN0", assume),
+                  Verdict::proved);
+    }
+}
+
+TEST(Verify, WhileCountsFromTheScanWhereItBegan) {
+    // Step 1 lasts 100 ms, with OUT0; without ERROR it ends with the first scan after them.
+    Bench pulse{{kAny, 1, 1, 1, 1, 100}, {kTimerZero | 1, 0, 0, 2, 0}};
+    pulse.assuming("ASSUME NEVER ERROR;");
+    EXPECT_EQ(pulse.verdict("NEVER OUT0 WHILE step = 1 FOR 99 ms", Assume::driver), Verdict::broken);
+    EXPECT_EQ(pulse.verdict("NEVER OUT0 WHILE step = 1 FOR 100 ms", Assume::driver), Verdict::proved);
+    EXPECT_EQ(pulse.verdict("WHENEVER step = 1 FOR 100 ms THEN OUT1", Assume::driver), Verdict::proved);
+    EXPECT_EQ(pulse.verdict("WHENEVER step = 1 FOR 50 ms THEN OUT1", Assume::driver), Verdict::broken);
+}
+
+TEST(Verify, AssumptionsLeaveCoursesOut) {
+    Bench both{{kAny, 3, 3, 1, 1}, {kAny | 1, 0, 0, 0x3E, 1}};
+    for (const Assume assume : {Assume::any, Assume::driver}) {
+        both.assuming("");
+        EXPECT_EQ(both.verdict("NEVER step = 1", assume), Verdict::broken);
+        both.assuming("ASSUME NEVER IN0 AND IN1;");
+        EXPECT_EQ(both.verdict("NEVER step = 1", assume), Verdict::proved);
+        EXPECT_EQ(both.verdict("step = 1 IS REACHABLE", assume), Verdict::broken);
+    }
+    // IN0 comes, and goes while the timer's 20 ms last.
+    Bench tap{
+        {kAny, 0, 1, 1, 0}, {kAny | 1, 1, 1, 2, 0, 20}, {kAny | 2, 0, 1, 3, 0}, {kTimerZero | 2, 1, 1, 4, 0}};
+    EXPECT_EQ(tap.verdict("NEVER step = 3 AND NOT TIMER.Q", Assume::driver), Verdict::broken);
+    tap.assuming("ASSUME IN0 STABLE FOR 30 ms;");
+    EXPECT_NE(tap.verdict("NEVER step = 3 AND NOT TIMER.Q", Assume::driver), Verdict::broken);
 }
 
 TEST(Verify, TheCounterIsExact) {

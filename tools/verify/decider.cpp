@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
+#include "monitor.h"
 #include "surely.h"
 
 namespace nplc::verify {
@@ -30,6 +32,9 @@ std::string out_of_bounds(const Explorer& explorer) {
 Decider::Decider(const sequencer::Table& table, const Machine& machine, const Options& options,
                  std::vector<Target> targets)
     : table_(table), machine_(machine), options_(options), targets_(std::move(targets)) {
+    if (options.assume == Assume::driver) stable_ms_.fill(options.debounce_ms);
+    for (const Assumption& assumption : options.assumptions)
+        stable_ms_[assumption.input] = std::max(stable_ms_[assumption.input], assumption.stable_ms);
     coarse_ = std::make_unique<Explorer>(
         machine, Precision{.knows_lost_link = true, .keeps_edges = true, .most_states = options.most_states});
     coarse_->explore(targets_);
@@ -37,14 +42,13 @@ Decider::Decider(const sequencer::Table& table, const Machine& machine, const Op
 
 std::optional<Course> Decider::realized(const std::vector<CourseScan>& scans,
                                         const std::optional<Overdue>& overdue) const {
-    return realize({.table = table_, .assume = options_.assume, .debounce_ms = options_.debounce_ms}, scans,
-                   overdue);
+    return realize({.table = table_, .assume = options_.assume, .stable_ms = stable_ms_}, scans, overdue);
 }
 
 const Explorer& Decider::fine() {
     if (!fine_) {
-        fine_ = std::make_unique<Explorer>(machine_,
-                                           Precision{.times_timer = true, .most_states = kMostTimedStates});
+        fine_ = std::make_unique<Explorer>(
+            machine_, Precision{.times_timer = true, .keeps_edges = true, .most_states = kMostTimedStates});
         fine_->explore(targets_);
     }
     return *fine_;
@@ -79,12 +83,26 @@ Decider::Finding Decider::missed_deadline(const Property& property) const {
         }
         const std::vector<CourseScan> scans = explorer.course_to_missed_deadline();
         const std::size_t to = explorer.missed_at_end() ? scans.size() - 1 : scans.size();
-        Overdue overdue{.from = scans.size() - 1, .to = to, .more_than_ms = property.within_ms};
+        const std::uint32_t more_than = property.within_ms - (property.form == Form::never_while ? 1 : 0);
+        Overdue overdue{.from = scans.size() - 1, .to = to, .more_than_ms = more_than};
         while (scans[overdue.from].place.pending) --overdue.from;
         if (auto course = realized(scans, overdue)) return {Answer::can_be, std::move(course), {}};
         why = kNoTimes;
     }
     return {Answer::unknown, {}, why};
+}
+
+Decider::Finding Decider::remembered(const Property& property) {
+    if (!coarse_->has_all_edges()) return {Answer::unknown, {}, out_of_bounds(*coarse_)};
+    const auto scans = breaking_course(*coarse_, property);
+    if (!scans) return {Answer::cannot_be, {}, {}};
+    if (auto course = realized(*scans)) return {Answer::can_be, std::move(course), {}};
+    const Explorer& exact = fine();
+    if (!exact.has_all_edges()) return {Answer::unknown, {}, out_of_bounds(exact)};
+    const auto timed = breaking_course(exact, property);
+    if (!timed) return {Answer::cannot_be, {}, {}};
+    if (auto course = realized(*timed)) return {Answer::can_be, std::move(course), {}};
+    return {Answer::unknown, {}, kNoTimes};
 }
 
 const std::vector<bool>& Decider::ways_to(const Target& target) {
@@ -115,14 +133,20 @@ const std::vector<bool>& Decider::ways_to(const Target& target) {
     return good_;
 }
 
+bool Decider::assumes_stable_inputs() const {
+    return std::any_of(options_.assumptions.begin(), options_.assumptions.end(),
+                       [](const Assumption& assumption) { return assumption.stable_ms != 0; });
+}
+
 Decider::Finding Decider::stuck_outside(std::size_t index) {
     const Target& target = targets_[index];
     const std::vector<bool>& good = ways_to(target);
     if (!coarse_->has_all_edges()) return {Answer::unknown, {}, out_of_bounds(*coarse_)};
     const Explorer::Stuck stuck = coarse_->first_stuck(target, good);
     if (stuck.node == Explorer::kNone) {
-        if (options_.assume == Assume::any) return {Answer::cannot_be, {}, {}};
-        if (surely_possible(*coarse_, target)) return {Answer::cannot_be, {}, {}};
+        const bool is_exact = options_.assume == Assume::any && !assumes_stable_inputs();
+        if (is_exact) return {Answer::cannot_be, {}, {}};
+        if (!assumes_stable_inputs() && surely_possible(*coarse_, target)) return {Answer::cannot_be, {}, {}};
         return {Answer::unknown, {}, kNotSurely};
     }
     if (auto course = realized(coarse_->course_to(stuck))) return {Answer::can_be, std::move(course), {}};

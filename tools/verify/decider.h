@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,7 +30,8 @@ class Decider {
 
     Finding scan_of_target(std::size_t target);
     Finding missed_deadline(const Property& property) const;
-    Finding stuck_outside(std::size_t target);
+    Finding remembered(const Property& property);
+    Finding stuck_outside(std::size_t index);
 
     const Explorer& coarse() const { return *coarse_; }
 
@@ -38,6 +40,7 @@ class Decider {
 
   private:
     const Explorer& fine();
+    bool assumes_stable_inputs() const;
     const std::vector<bool>& ways_to(const Target& target);
 
     const sequencer::Table& table_;
@@ -49,6 +52,7 @@ class Decider {
     std::vector<std::uint32_t> first_back_;
     std::vector<Explorer::Node> back_;
     std::vector<bool> good_;
+    std::array<std::uint32_t, 6> stable_ms_{};
 };
 
 }  // namespace nplc::verify

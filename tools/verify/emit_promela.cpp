@@ -45,6 +45,8 @@ std::string expression(const Condition& condition) {
             return joined(condition, " || ");
         case Kind::odd_of:
             return joined(condition, " ^ ");
+        case Kind::moving:  // no matter of the table alone
+            break;
     }
     return {};
 }

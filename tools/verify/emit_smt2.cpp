@@ -49,6 +49,8 @@ std::string clause(const Condition& condition, unsigned counter_bits) {
             return joined_clause("or", condition, counter_bits);
         case Kind::odd_of:
             return joined_clause("xor", condition, counter_bits);
+        case Kind::moving:  // no matter of the table alone
+            break;
     }
     return {};
 }
@@ -203,7 +205,7 @@ constexpr const char* kClausesHeader =
 
 /// What breaks the property, or what is to be reached; empty for what is not known here.
 std::string bad_clause(const Property& property, unsigned counter_bits) {
-    const std::string c = clause(property.condition, counter_bits);
+    std::string c = clause(property.condition, counter_bits);
     switch (property.form) {
         case Form::never:
         case Form::reachable:

@@ -31,37 +31,40 @@ constexpr std::size_t kMostDense = std::size_t{1} << 24U;
 
 }  // namespace
 
-std::size_t Explorer::dense_index(std::uint32_t packed) const {
+std::size_t Explorer::dense_index(std::uint64_t packed) const {
     if (machine_.assume() == Assume::driver) return packed;
     return (packed & ((1U << kPlainBits) - 1)) | (packed >> kCounterBit << kPlainBits);
 }
 
-Explorer::Node& Explorer::slot(std::uint32_t packed) {
+Explorer::Node& Explorer::slot(std::uint64_t packed) {
     if (!dense_.empty()) return dense_[dense_index(packed)];
     return sparse_.try_emplace(packed, kNone).first->second;
 }
 
-Explorer::Node Explorer::slot_value(std::uint32_t packed) const {
+Explorer::Node Explorer::slot_value(std::uint64_t packed) const {
     if (!dense_.empty()) return dense_[dense_index(packed)];
     const auto found = sparse_.find(packed);
     return found == sparse_.end() ? kNone : found->second;
 }
 
 ImageSet Explorer::allowed(const Place& place) const {
-    if (machine_.assume() == Assume::any) return ~ImageSet{};
-    if (place.motor == Place::Motor::lost) return images_of_lost_link();
-    if (place.motor == Place::Motor::error || place.error_comes) return images_of_error();
-    return ~ImageSet{};
+    const ImageSet& permitted = machine_.permitted();
+    if (machine_.assume() == Assume::any) return permitted;
+    if (place.motor == Place::Motor::lost) return images_of_lost_link() & permitted;
+    if (place.motor == Place::Motor::error || place.error_comes) return images_of_error() & permitted;
+    return permitted;
 }
 
 View Explorer::view_after(const Place& place, const Group& group) const {
     sequencer::State state{place.step, place.outputs, std::uint16_t{place.runs}, place.counter};
     sequencer::apply(group.pending, state);
-    return {state.step, state.outputs, state.timer == 0, state.counter == 0};
+    const bool moving =
+        machine_.tells_motion() && motion_after(place.motion, group.in_pos, group.orders) != Motion::none;
+    return {state.step, state.outputs, state.timer == 0, state.counter == 0, moving};
 }
 
 bool Explorer::is_idle(const Place& place, const Group& group) const {
-    if (group.sends) return false;
+    if (group.sends || (place.motion == Motion::to_place && group.in_pos)) return false;
     sequencer::State state{place.step, place.outputs, std::uint16_t{place.runs}, place.counter};
     return !sequencer::apply(group.pending, state);
 }
@@ -75,6 +78,7 @@ Place Explorer::after(const Place& place, const Group& group) const {
     next.outputs = state.outputs;
     next.runs = state.timer != 0;
     next.counter = state.counter;
+    if (machine_.tells_motion()) next.motion = motion_after(place.motion, group.in_pos, group.orders);
     if (machine_.assume() == Assume::driver && (group.images & images_of_error()).any() &&
         !group.resets_error)
         next.motor = Place::Motor::error;
@@ -85,6 +89,7 @@ std::array<Explorer::Part, 2> Explorer::parts(const Place& place, const View& vi
                                               const ImageSet& images) const {
     if (precision_.deadline == nullptr) return {Part{images, false, false}, Part{}};
     const ImageSet kept = images_where(precision_.deadline->then, view);
+    if (is_hold()) return {Part{images & ~kept, false, false}, Part{images & kept, !place.pending, true}};
     if (place.pending) return {Part{images & kept, false, false}, Part{images & ~kept, false, true}};
     const ImageSet begun = images_where(precision_.deadline->condition, view) & ~kept;
     return {Part{images & ~begun, false, false}, Part{images & begun, true, true}};
@@ -106,6 +111,16 @@ bool Explorer::ends_late(const Zone& zone, const Group& group) const {
     return std::int64_t{zone.passed.most} + group.delay.end > precision_.deadline->within_ms;
 }
 
+/// Whether what NEVER .. WHILE forbids holds after the scan, and WHILE's condition may have held for the
+/// time.
+bool Explorer::keeps_too_long(const Place& place, const Zone& zone, const Group& group, const View& view,
+                              const ImageSet& images) const {
+    const Property& hold = *precision_.deadline;
+    const std::uint32_t end = machine_.assume() == Assume::any ? 0 : group.delay.end;
+    return place.pending && std::int64_t{zone.passed.most} + end >= hold.within_ms &&
+           (images & images_where(hold.then, view) & images_where(hold.condition, view)).any();
+}
+
 /// The images of a scan after which `next` can be.
 ImageSet Explorer::narrowed(const ImageSet& images, const Place& next) const {
     return next.motor == Place::Motor::lost ? images & images_of_lost_link() : images;
@@ -119,7 +134,7 @@ void Explorer::successors(const Place& place, const Zone& zone, const Group& gro
     if (part.begins || (place.pending && !part.pending)) now.begin_deadline();
     if (group.pending.timer_preset != 0 && precision_.times_timer) now.preset(group.pending.timer_preset);
     const auto let_pass = [&](Place to) {
-        if (!narrowed(part.images, to).any()) return;
+        if (!narrowed(part.images, to).any() || allowed(to).none()) return;
         to.pending = part.pending;
         const Bounds delay = delay_of(place, group, to);
         Zone later = now;
@@ -131,11 +146,21 @@ void Explorer::successors(const Place& place, const Zone& zone, const Group& gro
         }
         if (part.pending) {
             const auto limit = static_cast<std::int32_t>(precision_.deadline->within_ms);
-            if (later.passed.most > limit) misses = true;
-            later.passed.most = std::min(later.passed.most, limit);
+            if (!is_hold()) {
+                if (later.passed.most > limit) misses = true;
+                later.passed.most = std::min(later.passed.most, limit);
+            }
         }
-        const auto hand_out = [&](bool runs) {
+        const auto hand_out = [&](bool runs, bool is_over) {
             Zone there = later;
+            if (is_hold() && part.pending) {
+                const auto limit = static_cast<std::int32_t>(precision_.deadline->within_ms);
+                if (is_over) {
+                    there.passed.least = std::max(there.passed.least, limit);
+                } else {
+                    there.passed.most = std::min(there.passed.most, limit - 1);
+                }
+            }
             if (precision_.times_timer && next.runs) {
                 if (runs) {
                     there.left.least = std::max(there.left.least, 1);
@@ -149,11 +174,15 @@ void Explorer::successors(const Place& place, const Zone& zone, const Group& gro
             there.tighten();
             if (there.empty()) return;
             if (!runs) there.stop_timer();
+            if (is_over) there.cut_passed(static_cast<std::int32_t>(precision_.deadline->within_ms));
             to.runs = runs;
             each(to, there);
         };
-        if (next.runs) hand_out(true);
-        hand_out(false);
+        for (const bool is_over : {false, true}) {
+            if (is_over && !(is_hold() && part.pending)) continue;
+            if (next.runs) hand_out(true, is_over);
+            hand_out(false, is_over);
+        }
     };
     const bool stays_lost = place.motor == Place::Motor::lost && next.motor == Place::Motor::error;
     if (!stays_lost) let_pass(next);
@@ -207,7 +236,7 @@ void Explorer::explore(const std::vector<Target>& targets) {
     judged_.assign(machine_.group_count(), {});
     const unsigned bits = machine_.assume() == Assume::driver ? kCounterBit : kPlainBits;
     const std::size_t dense = (machine_.greatest_counter() + std::size_t{1}) << bits;
-    if (dense <= kMostDense) dense_.assign(dense, kNone);
+    if (dense <= kMostDense && !machine_.tells_motion()) dense_.assign(dense, kNone);
     add({}, {}, {}, kNone);
     for (Node node = 0; node < places_.size(); ++node) {
         first_edge_.push_back(static_cast<std::uint32_t>(edges_.size()));
@@ -233,23 +262,30 @@ void Explorer::visit(Node node, const std::vector<Target>& targets) {
             const std::size_t surroundings = (group.pending.has_output ? 0U : here.outputs) |
                                              (view.timer_zero ? 16U : 0U) | (view.counter_zero ? 32U : 0U) |
                                              (static_cast<unsigned>(here.motor) << 6U) |
-                                             (here.error_comes ? 256U : 0U);
+                                             (here.error_comes ? 256U : 0U) | (view.moving ? 512U : 0U);
             auto seen = judged_[first + i][surroundings];
             if (!seen) judge(node, index, group, images, view, targets);
             seen = true;
         }
         const auto split = parts(here, view, images);
-        if (here.pending && split[0].images.any() && ends_late(zone, group) && !missed_deadline()) {
+        if (is_hold() && !missed_deadline() && keeps_too_long(here, zone, group, view, images)) {
+            missed_ = {node, index,
+                       images & images_where(precision_.deadline->then, view) &
+                           images_where(precision_.deadline->condition, view)};
+            missed_at_end_ = true;
+        }
+        if (!is_hold() && here.pending && split[0].images.any() && ends_late(zone, group) &&
+            !missed_deadline()) {
             missed_ = {node, index, split[0].images};
             missed_at_end_ = true;
         }
-        for (std::uint8_t p = 0; p < split.size(); ++p) {
+        for (std::size_t p = 0; p < split.size(); ++p) {
             if (split[p].images.none()) continue;
             bool misses = false;
             successors(
                 here, zone, group, split[p],
                 [&](const Place& place_there, const Zone& zone_there) {
-                    add(place_there, zone_there, {node, index, p}, node);
+                    add(place_there, zone_there, {node, index, static_cast<std::uint8_t>(p)}, node);
                 },
                 misses);
             if (misses && !missed_deadline()) missed_ = {node, index, split[p].images};
@@ -335,10 +371,14 @@ std::vector<Explorer::Option> Explorer::options(Node node, const Target& target)
         Option option{.group = &group,
                       .images = group.images & permitted,
                       .hits = {},
+                      .other = {},
                       .idle = is_idle(here, group),
                       .next = {}};
         if (option.images.none()) continue;
-        option.hits = option.images & target.images(view_after(here, group));
+        const View view = view_after(here, group);
+        option.hits = option.images & target.images(view);
+        option.other = option.images & ~option.hits;
+        if (target.from != nullptr) option.other &= images_where(*target.from, view);
         bool misses = false;
         successors(
             here, {}, group, Part{option.images, false, false},
@@ -364,8 +404,9 @@ Explorer::Stuck Explorer::first_stuck(const Target& target, const std::vector<bo
         const ImageSet permitted = allowed(here);
         const auto groups = machine_.groups(here.step, !here.runs, here.counter == 0);
         for (std::size_t i = 0; i < groups.size(); ++i) {
-            const ImageSet images =
-                groups[i].images & permitted & ~target.images(view_after(here, groups[i]));
+            const View view = view_after(here, groups[i]);
+            ImageSet images = groups[i].images & permitted & ~target.images(view);
+            if (target.from != nullptr) images &= images_where(*target.from, view);
             if (images.none()) continue;
             bool is_stuck = false;
             std::array<bool, 3> way_out{};

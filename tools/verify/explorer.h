@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "motor_orders.h"
 #include "verify/machine.h"
 #include "zone.h"
 
@@ -22,20 +23,22 @@ struct Place {
     bool error_comes = false;  ///< driver: this scan sees an ERROR that cut the orders before it short
     bool pending = false;      ///< a deadline runs
     std::uint16_t counter = 0;
+    Motion motion = Motion::none;  ///< if the machine tells it
 
-    std::uint32_t packed() const {
+    std::uint64_t packed() const {
         return step | (outputs << 6U) | (runs ? 1U << 10U : 0U) | (static_cast<unsigned>(motor) << 11U) |
-               (error_comes ? 1U << 13U : 0U) | (pending ? 1U << 14U : 0U) |
-               (static_cast<std::uint32_t>(counter) << 15U);
+               (error_comes ? 1U << 13U : 0U) | (pending ? 1U << 14U : 0U) | (std::uint64_t{counter} << 15U) |
+               (static_cast<std::uint64_t>(motion) << 31U);
     }
-    static Place unpacked(std::uint32_t bits) {
+    static Place unpacked(std::uint64_t bits) {
         return {.step = static_cast<std::uint8_t>(bits & 0x3F),
                 .outputs = static_cast<std::uint8_t>((bits >> 6U) & 0x0F),
                 .runs = ((bits >> 10U) & 1U) != 0,
                 .motor = static_cast<Motor>((bits >> 11U) & 3U),
                 .error_comes = ((bits >> 13U) & 1U) != 0,
                 .pending = ((bits >> 14U) & 1U) != 0,
-                .counter = static_cast<std::uint16_t>(bits >> 15U)};
+                .counter = static_cast<std::uint16_t>(bits >> 15U),
+                .motion = static_cast<Motion>(bits >> 31U)};
     }
 };
 
@@ -54,6 +57,7 @@ struct Target {
     const Condition* condition = nullptr;
     bool negated = false;
     const Condition* without = nullptr;  ///< and this does not hold
+    const Condition* from = nullptr;     ///< only scans of which this holds count as outside of the target
     ImageSet images(const View& view) const {
         ImageSet set = images_where(*condition, view);
         if (negated) set.flip();
@@ -66,7 +70,7 @@ struct Precision {
     bool times_timer = false;            ///< else it may end at any time
     bool knows_lost_link = false;        ///< else a lost link is any ERROR
     bool keeps_edges = false;            ///< for ways back and courses
-    const Property* deadline = nullptr;  ///< a WHENEVER to be broken
+    const Property* deadline = nullptr;  ///< a WHENEVER or a NEVER .. WHILE to be broken
     std::size_t most_states = 4'000'000;
 };
 
@@ -111,6 +115,10 @@ class Explorer {
         const Place from = place(edge.from);
         return machine_.groups(from.step, !from.runs, from.counter == 0)[edge.group];
     }
+    View view_after(const Place& place, const Group& group) const;
+    static View view_of(const Place& place) {
+        return {place.step, place.outputs, !place.runs, place.counter == 0, place.motion != Motion::none};
+    }
     /// With which the scan of an edge can be.
     ImageSet images_of(const Edge& edge) const {
         return narrowed(group_of(edge).images & allowed(place(edge.from)), place(edge.to));
@@ -123,7 +131,8 @@ class Explorer {
     struct Option {
         const Group* group = nullptr;
         ImageSet images;
-        ImageSet hits;  ///< of them, those of the target
+        ImageSet hits;   ///< of them, those of the target
+        ImageSet other;  ///< and those from which it must be possible
         bool idle = false;
         /// Where the next scan begins, with the timer running and at 0; kNone where that cannot be.
         struct Next {
@@ -163,9 +172,10 @@ class Explorer {
     };
 
     ImageSet allowed(const Place& place) const;
-    View view_after(const Place& place, const Group& group) const;
     bool is_idle(const Place& place, const Group& group) const;
     Place after(const Place& place, const Group& group) const;
+    bool keeps_too_long(const Place& place, const Zone& zone, const Group& group, const View& view,
+                        const ImageSet& images) const;
     std::array<Part, 2> parts(const Place& place, const View& view, const ImageSet& images) const;
     Bounds delay_of(const Place& place, const Group& group, const Place& next) const;
     bool ends_late(const Zone& zone, const Group& group) const;
@@ -179,26 +189,29 @@ class Explorer {
                     bool& misses) const;
     Node find(const Place& place, const Zone& zone) const;
     void add(const Place& place, const Zone& zone, const Origin& origin, Node from);
-    CourseScan scan_of(const Place& place, std::uint16_t group, const ImageSet& images) const;
-    Node& slot(std::uint32_t packed);
-    Node slot_value(std::uint32_t packed) const;
-    std::size_t dense_index(std::uint32_t packed) const;
+    CourseScan scan_of(const Place& place, std::uint16_t index, const ImageSet& images) const;
+    Node& slot(std::uint64_t packed);
+    Node slot_value(std::uint64_t packed) const;
+    std::size_t dense_index(std::uint64_t packed) const;
+    bool is_hold() const {
+        return precision_.deadline != nullptr && precision_.deadline->form == Form::never_while;
+    }
 
     const Machine& machine_;
     Precision precision_;
-    std::vector<std::uint32_t> places_;
+    std::vector<std::uint64_t> places_;
     std::vector<Origin> origins_;
     std::vector<Zone> zones_;       ///< only if they count
     std::vector<Node> same_place_;  ///< the node before it with the same place
     std::vector<Node> dense_;
-    std::unordered_map<std::uint32_t, Node> sparse_;
+    std::unordered_map<std::uint64_t, Node> sparse_;
     std::vector<Edge> edges_;
     std::vector<std::uint32_t> first_edge_;  ///< by node, and the end
     bool has_all_edges_ = true;
     std::vector<Hit> hits_;
     Hit missed_;
     bool missed_at_end_ = false;
-    std::vector<std::bitset<512>> judged_;  ///< by group: the surroundings that were judged
+    std::vector<std::bitset<1024>> judged_;  ///< by group: the surroundings that were judged
     std::uint64_t steps_begun_ = 0;
     bool complete_ = true;
     bool uses_zones_ = false;

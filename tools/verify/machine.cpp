@@ -10,17 +10,21 @@ using sequencer::MotorOrder;
 using sequencer::Pending;
 using sequencer::TermView;
 
+constexpr std::size_t kRows = std::size_t{63} * 4;  // steps, timer and counter zero or not
+
 /// Terms that are true together.
 struct Outcome {
     Pending pending;
     std::vector<std::uint16_t> senders;
-    bool error = false;  ///< driver only: what the motor may do next depends on it
+    bool error = false;   ///< driver only: what the motor may do next depends on it
+    bool in_pos = false;  ///< it may end a motion
     bool operator==(const Outcome&) const = default;
 };
 
 struct OutcomeHash {
     std::size_t operator()(const Outcome& o) const {
-        std::size_t hash = o.pending.next_step | (o.pending.output_byte << 8U) | (o.error ? 1U << 16U : 0U);
+        std::size_t hash = o.pending.next_step | (o.pending.output_byte << 8U) | (o.error ? 1U << 16U : 0U) |
+                           (o.in_pos ? 1U << 17U : 0U);
         const auto mix = [&hash](std::size_t value) { hash = (hash ^ value) * 0x9E3779B97F4A7C15U; };
         mix(o.pending.timer_preset);
         mix(o.pending.counter_preset);
@@ -40,8 +44,9 @@ bool may_reset_error(const MotorOrder& order) {
 
 }  // namespace
 
-Machine::Machine(const sequencer::Table& table, Assume assume, const OrderTime& order_time)
-    : assume_(assume), rows_(63 * 4), first_(63 * 4) {
+Machine::Machine(const sequencer::Table& table, Assume assume, const OrderTime& order_time,
+                 const ImageSet& permitted, bool tells_motion)
+    : assume_(assume), permitted_(permitted), tells_motion_(tells_motion), rows_(kRows), first_(kRows) {
     for (std::size_t i = 0; i < table.size(); ++i) {
         const TermView term = table.term(i);
         steps_with_terms_ |= std::uint64_t{1} << sequencer::step_of(term);
@@ -74,6 +79,7 @@ void Machine::fill_step(const sequencer::Table& table, std::uint8_t step, const 
             outcome.pending = {};
             outcome.senders.clear();
             outcome.error = driver && (image & sequencer::kError) != 0;
+            outcome.in_pos = tells_motion_ && (image & sequencer::kInPos) != 0;
             for (const std::uint16_t index : own) {
                 const TermView term = table.term(index);
                 if (!sequencer::is_true(term, key)) continue;
@@ -81,12 +87,13 @@ void Machine::fill_step(const sequencer::Table& table, std::uint8_t step, const 
                 if (sequencer::has_order(term)) outcome.senders.push_back(index);
             }
             std::vector<std::uint16_t> senders = outcome.senders;
-            if (!driver && !senders.empty()) outcome.senders = {0};
+            if (!driver && !tells_motion_ && !senders.empty()) outcome.senders = {0};
             const auto [found, is_new] = known.try_emplace(outcome, row.size());
             if (is_new) {
                 Group group;
                 group.pending = outcome.pending;
                 group.sends = !senders.empty();
+                group.in_pos = outcome.in_pos;
                 for (const std::uint16_t index : senders)
                     group.orders.push_back(sequencer::order_of(table.term(index)));
                 group.resets_error = std::any_of(group.orders.begin(), group.orders.end(), may_reset_error);

@@ -35,6 +35,8 @@ ImageSet images_where(const Condition& condition, const View& view) {
             return constant(view.counter_zero);
         case Kind::step:
             return constant(view.step == condition.number);
+        case Kind::moving:
+            return constant(view.moving);
         case Kind::negation:
             return ~images_where(condition.operands[0], view);
         case Kind::all_of:
@@ -58,6 +60,16 @@ ImageSet images_where(const Condition& condition, const View& view) {
 
 bool holds(const Condition& condition, std::uint8_t image, const View& view) {
     return images_where(condition, view)[image];
+}
+
+bool names_moving(const Condition& condition) {
+    return condition.kind == Condition::Kind::moving ||
+           std::any_of(condition.operands.begin(), condition.operands.end(), names_moving);
+}
+
+bool is_basic(const Property& property) {
+    return property.form <= Form::whenever && !names_moving(property.condition) &&
+           !names_moving(property.then);
 }
 
 std::uint8_t image_bits_of(const Condition& condition) {

@@ -59,6 +59,12 @@ Condition leaf(Kind kind, std::uint8_t number = 0) {
     return {.kind = kind, .number = number, .operands = {}};
 }
 
+bool is_of_image(const Condition& condition) {
+    const bool is_image =
+        condition.kind == Kind::image || condition.kind == Kind::constant || condition.kind >= Kind::negation;
+    return is_image && std::all_of(condition.operands.begin(), condition.operands.end(), is_of_image);
+}
+
 struct Unit {
     std::string_view word;
     double milliseconds;
@@ -149,8 +155,17 @@ std::string PropertyParser::shown() const {
 }
 
 PropertyReading PropertyParser::parse() {
-    while (reading_.error.empty() && token().kind != Token::Kind::end) parse_property();
-    if (!reading_.error.empty()) reading_.properties.clear();
+    while (reading_.error.empty() && token().kind != Token::Kind::end) {
+        if (at("ASSUME")) {
+            parse_assumption();
+        } else {
+            parse_property();
+        }
+    }
+    if (!reading_.error.empty()) {
+        reading_.properties.clear();
+        reading_.assumptions.clear();
+    }
     return std::move(reading_);
 }
 
@@ -168,22 +183,48 @@ bool PropertyParser::parse_property() {
     if (!expect(":", "behind the property's name")) return false;
     const std::size_t first = at_;
     if (!parse_form(property)) return false;
-    for (std::size_t i = first; i < at_; ++i) {
-        const bool glued = i == first || tokens_[i].text == ")" || tokens_[i - 1].text == "(" ||
-                           tokens_[i].text == "." || tokens_[i - 1].text == ".";
-        property.text += glued ? "" : " ";
-        property.text += tokens_[i].text;
-    }
+    property.text = text_since(first);
     if (!expect(";", "at the end of the property")) return false;
     reading_.properties.push_back(std::move(property));
     return true;
 }
 
-bool PropertyParser::parse_form(Property& property) {
-    if (take("NEVER")) {
-        property.form = Form::never;
-        return parse_condition(property.condition);
+std::string PropertyParser::text_since(std::size_t first) const {
+    std::string text;
+    for (std::size_t i = first; i < at_; ++i) {
+        const bool glued = i == first || tokens_[i].text == ")" || tokens_[i - 1].text == "(" ||
+                           tokens_[i].text == "." || tokens_[i - 1].text == ".";
+        text += glued ? "" : " ";
+        text += tokens_[i].text;
     }
+    return text;
+}
+
+bool PropertyParser::parse_assumption() {
+    const std::size_t first = at_++;
+    Assumption assumption;
+    if (take("NEVER")) {
+        if (!parse_condition(assumption.never)) return false;
+        if (!is_of_image(assumption.never))
+            return fail("what is assumed never to be is made of inputs, INPOS and ERROR");
+    } else {
+        Condition input;
+        if (!parse_signal(input)) return false;
+        if (input.kind != Kind::image || input.number > 5)
+            return fail("an input is expected between ASSUME and STABLE");
+        assumption.input = input.number;
+        if (!expect("STABLE", "behind the input, or NEVER behind ASSUME") ||
+            !expect("FOR", "behind STABLE") || !parse_time(assumption.stable_ms))
+            return false;
+    }
+    assumption.text = text_since(first);
+    if (!expect(";", "at the end of the assumption")) return false;
+    reading_.assumptions.push_back(std::move(assumption));
+    return true;
+}
+
+bool PropertyParser::parse_form(Property& property) {
+    if (take("NEVER")) return parse_never(property);
     if (at("ALWAYS") && at("POSSIBLE", 1)) {
         at_ += 2;
         property.form = Form::always_possible;
@@ -193,15 +234,91 @@ bool PropertyParser::parse_form(Property& property) {
         property.form = Form::always;
         return parse_condition(property.condition);
     }
-    if (take("WHENEVER")) {
-        property.form = Form::whenever;
-        return parse_condition(property.condition) && expect("THEN", "behind WHENEVER's condition") &&
-               parse_condition(property.then) && expect("WITHIN", "behind THEN's condition") &&
-               parse_time(property.within_ms);
+    if (take("WHENEVER")) return parse_whenever(property);
+    if (take("BETWEEN")) return parse_between(property);
+    if (take("AFTER")) {
+        property.form = Form::after_possible;
+        return parse_condition(property.then) && expect("ALWAYS", "behind AFTER's condition") &&
+               expect("POSSIBLE", "behind ALWAYS") && parse_condition(property.condition);
+    }
+    if (take("EVERY_SCAN")) {
+        property.form = Form::scan_ends;
+        return expect("FROM", "behind EVERY_SCAN") && parse_condition(property.condition) &&
+               expect("ENDS", "behind FROM's condition") && expect("IN", "behind ENDS") &&
+               parse_condition(property.then);
+    }
+    return parse_condition_first(property);
+}
+
+bool PropertyParser::parse_never(Property& property) {
+    property.form = Form::never;
+    if (!parse_condition(property.condition)) return false;
+    if (!take("WHILE")) return true;
+    property.form = Form::never_while;
+    return parse_condition(property.then) && expect("FOR", "behind WHILE's condition") &&
+           parse_time(property.within_ms) && needs_a_time(property);
+}
+
+/// A time of 0 ms is what the same without FOR says.
+bool PropertyParser::needs_a_time(const Property& property) {
+    return property.within_ms != 0 || fail("FOR takes 1 ms at the least");
+}
+
+bool PropertyParser::parse_whenever(Property& property) {
+    property.form = Form::whenever;
+    if (!parse_condition(property.condition)) return false;
+    if (take("FOLLOWED")) {
+        property.form = Form::followed_by;
+        return expect("BY", "behind FOLLOWED") && parse_condition(property.then) &&
+               expect("THEN", "behind BY's condition") && parse_condition(property.third);
+    }
+    if (take("FOR")) {
+        property.form = Form::never_while;
+        property.then = std::move(property.condition);
+        property.condition = leaf(Kind::negation);
+        return parse_time(property.within_ms) && needs_a_time(property) &&
+               expect("THEN", "behind FOR's time") &&
+               parse_condition(property.condition.operands.emplace_back());
+    }
+    if (!expect("THEN", "behind WHENEVER's condition") || !parse_condition(property.then)) return false;
+    if (take("WITHIN")) return parse_time(property.within_ms);
+    Condition both = leaf(Kind::all_of);
+    both.operands.push_back(std::move(property.condition));
+    both.operands.push_back(leaf(Kind::negation));
+    both.operands.back().operands.push_back(std::move(property.then));
+    property.form = Form::never;
+    property.condition = std::move(both);
+    property.then = {};
+    return true;
+}
+
+bool PropertyParser::parse_between(Property& property) {
+    property.form = Form::stays;
+    if (!parse_primary(property.condition) || !expect("AND", "behind BETWEEN's first condition") ||
+        !parse_primary(property.then) || !parse_condition(property.third) ||
+        !expect("STAYS", "behind what is to stay"))
+        return false;
+    if (take("ON")) return true;
+    if (!expect("OFF", "or ON behind STAYS")) return false;
+    Condition negation = leaf(Kind::negation);
+    negation.operands.push_back(std::move(property.third));
+    property.third = std::move(negation);
+    return true;
+}
+
+bool PropertyParser::parse_condition_first(Property& property) {
+    if (!parse_condition(property.condition)) return false;
+    if (take("ONLY")) {
+        property.form = Form::only_after;
+        return expect("AFTER", "behind ONLY") && parse_condition(property.then);
+    }
+    if (take("CHANGES")) {
+        property.form = Form::changes_only_in;
+        return expect("ONLY", "behind CHANGES") && expect("IN", "behind ONLY") &&
+               parse_condition(property.then);
     }
     property.form = Form::reachable;
-    return parse_condition(property.condition) && expect("IS", "behind a condition that begins a property") &&
-           expect("REACHABLE", "behind IS");
+    return expect("IS", "behind a condition that begins a property") && expect("REACHABLE", "behind IS");
 }
 
 bool PropertyParser::parse_time(std::uint32_t& milliseconds) {
@@ -313,6 +430,8 @@ bool PropertyParser::parse_signal(Condition& result) {
     } else if (at("ANY") && at("ERROR", 1)) {
         result = leaf(Kind::constant, 1);
         ++at_;
+    } else if (at("MOVING")) {
+        result = leaf(Kind::moving);
     } else if (at("TIMER") || at("COUNTER")) {
         result = leaf(at("TIMER") ? Kind::timer_q : Kind::counter_q);
         if (!at(".", 1) || !at("Q", 2)) return fail("only TIMER.Q and COUNTER.Q can be tested: true at zero");
@@ -331,7 +450,7 @@ bool PropertyParser::parse_signal(Condition& result) {
         result = leaf(Kind::output, *qx);
     } else {
         return fail(
-            fmt::format("an input, an output, INPOS, ERROR, TIMER.Q, COUNTER.Q or 'step = Name' is "
+            fmt::format("an input, an output, INPOS, ERROR, TIMER.Q, COUNTER.Q, moving or 'step = Name' is "
                         "expected, not {}",
                         shown()));
     }

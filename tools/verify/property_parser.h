@@ -31,6 +31,13 @@ class PropertyParser {
     std::string shown() const;
 
     bool parse_property();
+    bool parse_assumption();
+    std::string text_since(std::size_t first) const;
+    bool parse_never(Property& property);
+    bool needs_a_time(const Property& property);
+    bool parse_between(Property& property);
+    bool parse_whenever(Property& property);
+    bool parse_condition_first(Property& property);
     bool parse_form(Property& property);
     bool parse_time(std::uint32_t& milliseconds);
     bool parse_condition(Condition& result) { return parse_operators(result, 0); }

@@ -125,15 +125,17 @@ void bound_timer(Times& times, std::span<const CourseScan> scans, bool paced) {
 
 /// An input that a scan sees changed did so after the scan before, and not before it was steady.
 void bound_inputs(Times& times, std::span<const CourseScan> scans, const Images& images,
-                  std::uint32_t debounce_ms) {
-    for (unsigned bit = 1; bit <= sequencer::kInputsMask; bit <<= 1U) {
+                  const std::array<std::uint32_t, 6>& stable_ms) {
+    for (unsigned input = 0; input < stable_ms.size(); ++input) {
+        const unsigned bit = 1U << input;
+        if (stable_ms[input] == 0) continue;
         std::optional<std::size_t> before;
         for (std::size_t k = 1; k < images.size(); ++k) {
             if (((images[k] ^ images[k - 1]) & bit) == 0) continue;
             const std::size_t change = times.add();
             times.at_least(k - 1, change, -std::int64_t{scans[k - 1].group->delay.end});
             times.at_least(change, k, 0);
-            if (before) times.at_least(*before, change, debounce_ms);
+            if (before) times.at_least(*before, change, stable_ms[input]);
             before = change;
         }
     }
@@ -190,7 +192,7 @@ std::optional<Course> realize(const Realization& how, std::span<const CourseScan
     bound_delays(times, scans);
     const bool driver = how.assume == Assume::driver;
     bound_timer(times, scans, driver);
-    if (driver) bound_inputs(times, scans, images, how.debounce_ms);
+    bound_inputs(times, scans, images, how.stable_ms);
     if (overdue) times.at_least(overdue->from, overdue->to, std::int64_t{overdue->more_than_ms} + 1);
     if (!times.solve()) return std::nullopt;
     Course course = lay_out(scans, images, times, driver);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -19,7 +20,7 @@ struct Overdue {
 struct Realization {
     const sequencer::Table& table;
     Assume assume = Assume::any;
-    std::uint32_t debounce_ms = 3;
+    std::array<std::uint32_t, 6> stable_ms{};  ///< how long each input keeps its level
 };
 
 /// Chooses images and times for a course of the explorer so that timer, delays and debouncing allow it, and

@@ -74,7 +74,7 @@ class Search {
                 .preset = option.group->pending.timer_preset,
                 .running = next.running,
                 .zero = next.zero,
-                .wanted = levels_of(option.images & ~option.hits, next.lost)};
+                .wanted = levels_of(option.other, next.lost)};
     }
 
     Levels can(Explorer::Node node, std::size_t age) const {

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "decider.h"
 #include "findings.h"
+#include "monitor.h"
 #include "verify/story.h"
 
 namespace nplc::verify {
@@ -17,12 +20,11 @@ Target target_of(const Property& property) {
             return {.condition = &property.condition, .negated = true};
         case Form::whenever:
             return {.condition = &property.condition, .without = &property.then};
-        case Form::never:
-        case Form::reachable:
-        case Form::always_possible:
-            break;
+        case Form::after_possible:
+            return {.condition = &property.condition, .from = &property.then};
+        default:
+            return {.condition = &property.condition};
     }
-    return {.condition = &property.condition};
 }
 
 const char* reason_of(Form form) {
@@ -34,9 +36,22 @@ const char* reason_of(Form form) {
         case Form::reachable:
             return "no course leads to such a scan";
         case Form::always_possible:
+        case Form::after_possible:
             return "no course leads there any more from the state after the last scan";
         case Form::whenever:
             return "THEN's condition did not hold in time";
+        case Form::never_while:
+            return "it holds after the last scan, and WHILE's condition has held for that time";
+        case Form::only_after:
+            return "it holds after the last scan, and AFTER's condition never held before";
+        case Form::stays:
+            return "after the last scan it is otherwise";
+        case Form::changes_only_in:
+            return "it changed with the last scan";
+        case Form::scan_ends:
+            return "the last scan began there and ended elsewhere";
+        case Form::followed_by:
+            return "THEN's condition does not hold after the last scan";
     }
     return "";
 }
@@ -49,9 +64,12 @@ void make_late(Course& course, std::uint32_t within_ms) {
 Result judged(Decider& decider, const Property& property, std::size_t target, Assume assume) {
     Result result{.name = property.name, .text = property.text};
     const bool late = property.form == Form::whenever;
-    Decider::Finding finding = property.form == Form::always_possible ? decider.stuck_outside(target)
-                               : late && assume == Assume::driver     ? decider.missed_deadline(property)
-                                                                      : decider.scan_of_target(target);
+    const bool possible = property.form == Form::always_possible || property.form == Form::after_possible;
+    const bool timed = property.form == Form::never_while || (late && assume == Assume::driver);
+    Decider::Finding finding = possible                       ? decider.stuck_outside(target)
+                               : timed                        ? decider.missed_deadline(property)
+                               : is_remembered(property.form) ? decider.remembered(property)
+                                                              : decider.scan_of_target(target);
     if (finding.answer == Answer::unknown) {
         result.reason = std::move(finding.why);
         return result;
@@ -130,26 +148,46 @@ void judge_checks(const Decider& decider, const Names& names, const Options& opt
     }
 }
 
+ImageSet permitted_by(const std::vector<Assumption>& assumptions) {
+    ImageSet images = ~ImageSet{};
+    for (const Assumption& assumption : assumptions) images &= ~images_where(assumption.never, {});
+    return images;
+}
+
 /// What the orders do to the motor is no matter of `any`: checks take what the gateway and a motor can do.
 void judge_checks_of_driver(const sequencer::Table& table, const Decider& decider, const Names& names,
                             const Options& options, std::vector<Result>& results) {
     if (options.assume == Assume::driver) return judge_checks(decider, names, options, results);
     Options driver = options;
     driver.assume = Assume::driver;
-    const Machine machine(table, driver.assume, driver.order_time);
+    const Machine machine(table, driver.assume, driver.order_time, permitted_by(options.assumptions));
     judge_checks(Decider(table, machine, driver, {}), names, driver, results);
+}
+
+bool name_moving(const std::vector<Property>& properties) {
+    return std::any_of(properties.begin(), properties.end(), [](const Property& property) {
+        return names_moving(property.condition) || names_moving(property.then) ||
+               names_moving(property.third);
+    });
 }
 
 }  // namespace
 
+bool contradict(const std::vector<Assumption>& assumptions) {
+    return permitted_by(assumptions).none();
+}
+
 Report verify(const sequencer::Table& table, const Names& names, const std::vector<Property>& properties,
               const Options& options) {
-    const Machine machine(table, options.assume, options.order_time);
+    const Machine machine(table, options.assume, options.order_time, permitted_by(options.assumptions),
+                          name_moving(properties));
     std::vector<Target> targets;
+    targets.reserve(properties.size());
     for (const Property& property : properties) targets.push_back(target_of(property));
     Decider decider(table, machine, options, std::move(targets));
 
     Report report;
+    report.assumptions = options.assumptions;
     report.states = decider.coarse().size();
     report.complete = decider.coarse().complete();
     for (std::uint8_t step = 1; step <= sequencer::kLastStep; ++step) {

@@ -8,17 +8,18 @@
 
 namespace nplc::verify {
 
-/// Follows courses, breadth first, with what is remembered of them: a number that begins as 0.
+/// Follows courses, breadth first, with what is remembered of them: a number.
 class Walk {
   public:
-    explicit Walk(const Explorer& explorer) : explorer_(explorer), seen_(explorer.size()) {}
+    explicit Walk(const Explorer& explorer, std::uint16_t memory = 0)
+        : explorer_(explorer), first_memory_(memory), seen_(explorer.size()) {}
 
     /// `pass(edge, images, memory, go_on, show)` is called for each scan that can follow what is remembered.
     /// It calls `go_on(images, memory)` for what is remembered after it, and `show(images)` for a scan that
     /// is looked for, which hands out the course to it.
     template <class Pass>
     void all(const Pass& pass) {
-        add(0, 0, kStart, {}, {});
+        add(0, first_memory_, kStart, {}, {});
         for (std::size_t at = 0; at < places_.size(); ++at) {
             const Explorer::Node node = places_[at].node;
             for (const Explorer::Edge& edge : explorer_.edges_from(node)) {
@@ -63,6 +64,7 @@ class Walk {
     }
 
     const Explorer& explorer_;
+    std::uint16_t first_memory_;
     std::vector<std::vector<std::uint16_t>> seen_;  ///< by node
     std::vector<Reached> places_;
 };

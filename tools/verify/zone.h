@@ -36,6 +36,11 @@ struct Zone {
         left = {milliseconds, milliseconds};
         sum = {passed.least + milliseconds, passed.most + milliseconds};
     }
+    /// What has passed beyond `limit` makes no difference.
+    void cut_passed(std::int32_t limit) {
+        passed = {limit, limit};
+        sum = {left.least + limit, left.most + limit};
+    }
     void begin_deadline() {
         passed = {};
         sum = left;

@@ -63,7 +63,7 @@ bool take_bytes(Input& input, const std::string& text, std::vector<std::uint8_t>
     return false;
 }
 
-void read_table_into(Input& input, const std::string& text) {
+void read_table_into(Input& input, const std::string& text, bool is_whole) {
     std::vector<std::uint8_t> bytes;
     if (!take_bytes(input, text, bytes)) return;
     if (is_text(text) && !intel_hex::is_file(input.file, text)) {
@@ -77,6 +77,14 @@ void read_table_into(Input& input, const std::string& text) {
             "{}: {} bytes hold {} whole terms, and none has STATE 63: this is no sequence table, or "
             "its end is missing",
             input.file, bytes.size(), bytes.size() / kTermBytes));
+        return;
+    }
+    if (length < bytes.size() && is_whole) {
+        input.exit_code =
+            file_problem(fmt::format("{}: {} bytes stand behind the end of the table, so this is another "
+                                     "file or a damaged one; seqc disasm "
+                                     "shows what it reads",
+                                     input.file, bytes.size() - length));
         return;
     }
     if (length < bytes.size()) {
@@ -122,7 +130,7 @@ Input read_input(const InputFile& named) {
                 file_problem(fmt::format("{} brings its own names: leave --symbols out", named.file));
         }
     } else {
-        read_table_into(input, text.text);
+        read_table_into(input, text.text, named.is_whole);
         if (input.exit_code == kOk) read_symbols_into(input, named.symbols);
     }
     return input;

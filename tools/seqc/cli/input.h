@@ -15,7 +15,8 @@ namespace nplc::seqc::cli {
 /// What a subcommand reads.
 struct InputFile {
     std::string file;
-    std::string symbols;  ///< F.sym by name; without one, the file beside a table is taken if it fits
+    std::string symbols{};  ///< F.sym by name; without one, the file beside a table is taken if it fits
+    bool is_whole = false;  ///< bytes behind a table's end are refused, not left out
 };
 
 /// A program or a table from a file, ready to be looked at.
@@ -32,7 +33,7 @@ struct Input {
 /// on standard error.
 Input read_input(const InputFile& named);
 inline Input read_input(const std::string& file) {
-    return read_input(InputFile{file, {}});
+    return read_input(InputFile{.file = file});
 }
 
 /// `--symbols FILE`, the same in every subcommand that takes a table.

@@ -10,6 +10,7 @@
 
 #include "cli/input.h"
 #include "cli/json.h"
+#include "cli/junit.h"
 #include "cli/subcommands.h"
 #include "cli/verify_emit.h"
 #include "cli/verify_proof.h"
@@ -34,6 +35,7 @@ struct VerifyArguments {
     std::string assume = "driver";
     std::string stimulus;
     std::string scenario;
+    std::string junit;
     std::string emit;
     std::string output;
     std::string proof;
@@ -130,6 +132,9 @@ Json document_of(const verify::Report& report, const VerifyArguments& options, c
     Json document;
     document["file"] = options.table.file;
     document["assume"] = options.assume;
+    document["assumptions"] = Json::array();
+    for (const verify::Assumption& assumption : report.assumptions)
+        document["assumptions"].push_back(assumption.text);
     document["states"] = report.states;
     document["complete"] = report.complete;
     document["unreachable"] = Json::array();
@@ -171,9 +176,12 @@ Position position_of_step(const Compilation& program, std::string_view source, s
     return at;
 }
 
-const char* assumption_text(const std::string& assume) {
-    return assume == "any" ? "inputs, INPOS, ERROR and the time between scans are free (--assume any)"
+std::string assumption_text(const std::string& assume, const std::vector<verify::Assumption>& more) {
+    std::string text = assume == "any"
+                           ? "inputs, INPOS, ERROR and the time between scans are free (--assume any)"
                            : "what the gateway and a real motor can do (--assume driver)";
+    for (const verify::Assumption& assumption : more) text += "; " + assumption.text;
+    return text;
 }
 
 /// What a check found, where the step stands.
@@ -218,7 +226,7 @@ std::string text_of(const verify::Report& report, const VerifyArguments& options
     return text + fmt::format("{} of {} checks hold; {} states explored{}; assumed: {}\n", checks_that_hold,
                               verify::checks().size(), report.states,
                               report.complete ? ", all there are" : ", not all",
-                              assumption_text(options.assume));
+                              assumption_text(options.assume, report.assumptions));
 }
 
 /// OUT.scn for the first, OUT-Name.scn for the others.
@@ -245,6 +253,7 @@ int write_courses(const verify::Report& report, const VerifyArguments& options, 
         }
         is_first = false;
     }
+    if (!options.junit.empty()) files.push_back({options.junit, junit_of(report, options.table.file, names)});
     const std::string error = whole_files::write_files(files);
     return error.empty() ? kOk : file_problem(error);
 }
@@ -252,8 +261,10 @@ int write_courses(const verify::Report& report, const VerifyArguments& options, 
 /// What does not go together.
 std::string contradiction(const VerifyArguments& options) {
     if (options.emit.empty()) return options.output.empty() ? "" : "-o goes with --emit";
-    if (options.json || !options.scenario.empty() || !options.stimulus.empty() || !options.proof.empty())
-        return "--emit decides nothing: it does not go with --json, --scenario, --stimulus or --proof";
+    if (options.json || !options.junit.empty() || !options.scenario.empty() || !options.stimulus.empty() ||
+        !options.proof.empty())
+        return "--emit decides nothing: it does not go with --json, --junit, --scenario, --stimulus or "
+               "--proof";
     if (options.assume != "any") {
         return "--emit writes what --assume any asks, so say --assume any: the debounce time, the times of "
                "orders and the lost link of --assume driver are not written for foreign checkers";
@@ -275,6 +286,7 @@ int run(const VerifyArguments& options) {
     if (!reading.error.empty())
         return file_problem(fmt::format("{}:{}: {}", options.table.file, reading.line, reading.error));
     std::vector<verify::Property> properties = std::move(reading.properties);
+    std::vector<verify::Assumption> assumptions = std::move(reading.assumptions);
     if (!options.properties.empty()) {
         const whole_files::FileText text = whole_files::read_text(options.properties);
         if (!text.error.empty()) return file_problem(text.error);
@@ -282,7 +294,15 @@ int run(const VerifyArguments& options) {
         if (!reading.error.empty())
             return file_problem(fmt::format("{}:{}: {}", options.properties, reading.line, reading.error));
         properties.insert(properties.end(), reading.properties.begin(), reading.properties.end());
+        assumptions.insert(assumptions.end(), reading.assumptions.begin(), reading.assumptions.end());
     }
+    if (verify::contradict(assumptions)) {
+        return file_problem(options.table.file +
+                            ": the assumptions allow no inputs at all, so anything would be proved: "
+                            "leave out one ASSUME NEVER");
+    }
+    if (!options.emit.empty() && !assumptions.empty())
+        return file_problem("--emit writes what --assume any asks: leave ASSUME out");
     if (!options.emit.empty()) return emit_question(options.emit, input, properties, options.output);
     const bool translated = input.symbols && input.symbols->drive != nullptr;
     verify::Options how;
@@ -290,6 +310,7 @@ int run(const VerifyArguments& options) {
     how.order_time = [translated](std::span<const sequencer::MotorOrder> orders) {
         return order_time(orders, translated);
     };
+    how.assumptions = assumptions;
     if (input.program) {
         for (const Allowance& allowance : input.program->allowances)
             how.allowances.push_back({allowance.code, allowance.step, allowance.reason});
@@ -299,7 +320,7 @@ int run(const VerifyArguments& options) {
     const int verdict = exit_code_of(report);
     if (!options.proof.empty()) {
         const int written = write_certificate(options.proof, report, verdict == kOk, input, options.assume,
-                                              assumption_text(options.assume));
+                                              assumption_text(options.assume, report.assumptions));
         if (written != kOk) return written;
     }
     if (options.json) return print_json(document_of(report, options, input, names), verdict);
@@ -311,6 +332,7 @@ int run(const VerifyArguments& options) {
 
 void add_verify(arguments::App& app, int& exit_code) {
     const auto options = std::make_shared<VerifyArguments>();
+    options->table.is_whole = true;
     arguments::App& command = *app.add_subcommand(
         "verify", "Explore all that a program or table can do, and prove properties or show how they break");
     command.add_option("file", options->table.file, "A program, F.seq, or a table")->required();
@@ -321,6 +343,10 @@ void add_verify(arguments::App& app, int& exit_code) {
                     "driver: what gateway and motor can do (default); any: all inputs and times are free")
         ->one_of({"driver", "any"});
     command.add_flag("--json", options->json, "JSON for other programs");
+    command
+        .add_option("--junit", options->junit,
+                    "Write the verdicts as JUnit's XML, for continuous integration")
+        ->type_name("F.xml");
     command
         .add_option(
             "--stimulus", options->stimulus,

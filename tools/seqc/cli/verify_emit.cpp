@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <set>
 
@@ -13,6 +14,14 @@ namespace nplc::seqc::cli {
 int emit_question(const std::string& language, const Input& input,
                   const std::vector<verify::Property>& properties, const std::string& output) {
     std::set<std::string> names;
+    const auto is_other = [](const verify::Property& p) { return !verify::is_basic(p); };
+    if (const auto other = std::find_if(properties.begin(), properties.end(), is_other);
+        other != properties.end()) {
+        return file_problem(
+            fmt::format("property '{}': --emit takes NEVER, ALWAYS, IS REACHABLE, ALWAYS POSSIBLE and "
+                        "WHENEVER .. WITHIN without moving",
+                        other->name));
+    }
     for (const verify::Property& property : properties) {
         if (!names.insert(property.name).second)
             return file_problem(

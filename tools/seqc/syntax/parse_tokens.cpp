@@ -13,15 +13,17 @@ namespace nplc::seqc {
 namespace {
 
 constexpr auto kReserved = std::to_array<std::string_view>(
-    {"PROGRAM",    "END_PROGRAM",   "MOTOR", "SCALE",     "VAR_INPUT", "VAR_OUTPUT",
-     "VAR_MOTOR",  "END_VAR",       "AT",    "ON",        "ERROR",     "NEXT",
-     "POWER_UP",   "END_POWER_UP",  "STEP",  "END_STEP",  "OUT",       "WHEN",
-     "ENTRY",      "OWN",           "IF",    "THEN",      "ELSIF",     "ELSE",
-     "END_IF",     "AND",           "OR",    "NOT",       "XOR",       "TRUE",
-     "FALSE",      "INPOS",         "ANY",   "TIMER",     "COUNTER",   "EVERY_SCAN",
-     "COUNT_DOWN", "CLEAR_COUNTER", "TERM",  "REG",       "PROPERTY",  "NEVER",
-     "ALWAYS",     "POSSIBLE",      "IS",    "REACHABLE", "WHENEVER",  "WITHIN",
-     "ALLOW",      "BECAUSE",       "GROUP", "IN",        "EXCEPT",    "NO_HELPER"});
+    {"PROGRAM",    "END_PROGRAM",   "MOTOR",  "SCALE",     "VAR_INPUT", "VAR_OUTPUT",
+     "VAR_MOTOR",  "END_VAR",       "AT",     "ON",        "ERROR",     "NEXT",
+     "POWER_UP",   "END_POWER_UP",  "STEP",   "END_STEP",  "OUT",       "WHEN",
+     "ENTRY",      "OWN",           "IF",     "THEN",      "ELSIF",     "ELSE",
+     "END_IF",     "AND",           "OR",     "NOT",       "XOR",       "TRUE",
+     "FALSE",      "INPOS",         "ANY",    "TIMER",     "COUNTER",   "EVERY_SCAN",
+     "COUNT_DOWN", "CLEAR_COUNTER", "TERM",   "REG",       "PROPERTY",  "NEVER",
+     "ALWAYS",     "POSSIBLE",      "IS",     "REACHABLE", "WHENEVER",  "WITHIN",
+     "ALLOW",      "BECAUSE",       "GROUP",  "IN",        "EXCEPT",    "NO_HELPER",
+     "FOR",        "BETWEEN",       "STAYS",  "CHANGES",   "ONLY",      "FOLLOWED",
+     "WHILE",      "ENDS",          "ASSUME", "STABLE"});
 
 /// Words that begin something on the level above a statement: skipping stops in front of them.
 constexpr std::array kBoundaries = {
@@ -30,7 +32,7 @@ constexpr std::array kBoundaries = {
     std::string_view("END_VAR"),     std::string_view("POWER_UP"),   std::string_view("END_POWER_UP"),
     std::string_view("STEP"),        std::string_view("END_STEP"),   std::string_view("IF"),
     std::string_view("ELSIF"),       std::string_view("ELSE"),       std::string_view("END_IF"),
-    std::string_view("PROPERTY"),    std::string_view("GROUP"),
+    std::string_view("PROPERTY"),    std::string_view("GROUP"),      std::string_view("ASSUME"),
 };
 
 template <std::size_t N>

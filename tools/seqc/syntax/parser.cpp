@@ -71,6 +71,7 @@ void Parser::parse_item(ast::Program& program) {
     if (at("POWER_UP")) return parse_power_up(program);
     if (at("STEP")) return parse_step(program);
     if (at("PROPERTY")) return parse_property(program);
+    if (at("ASSUME")) return parse_assumption(program);
     if (at("TERM")) {
         if (!parse_raw_term(program.terms)) recover();
         return;

@@ -113,6 +113,9 @@ class Parser {
     // parse_properties.cpp
     void parse_property(ast::Program& program);
     bool parse_claim();
+    bool parse_whenever();
+    void parse_assumption(ast::Program& program);
+    void add_claim(const Token& first, ast::Program& program);
     bool parse_step_test();
 
     static constexpr int kDeepest = 100;

@@ -36,6 +36,7 @@ struct Group {
     std::vector<sequencer::MotorOrder> orders;  ///< those of one of the images
     Delay delay;                                ///< driver only
     bool sends = false;
+    bool in_pos = false;        ///< of all its images, if the machine tells motion
     bool resets_error = false;  ///< driver only: sends "reset error"
 };
 
@@ -44,9 +45,14 @@ class Machine {
     /// Between scans without orders.
     static constexpr std::uint32_t kMostIdle = 2;
 
-    Machine(const sequencer::Table& table, Assume assume, const OrderTime& order_time);
+    /// `permitted` are the images that assumptions leave; `tells_motion` keeps apart what begins and ends a
+    /// motion.
+    Machine(const sequencer::Table& table, Assume assume, const OrderTime& order_time,
+            const ImageSet& permitted = ~ImageSet{}, bool tells_motion = false);
 
     Assume assume() const { return assume_; }
+    const ImageSet& permitted() const { return permitted_; }
+    bool tells_motion() const { return tells_motion_; }
     std::span<const Group> groups(std::uint8_t step, bool timer_zero, bool counter_zero) const {
         return rows_[row_of(step, timer_zero, counter_zero)];
     }
@@ -67,6 +73,8 @@ class Machine {
     void fill_step(const sequencer::Table& table, std::uint8_t step, const OrderTime& order_time);
 
     Assume assume_;
+    ImageSet permitted_;
+    bool tells_motion_;
     std::vector<std::vector<Group>> rows_;
     std::vector<std::size_t> first_;
     std::size_t group_count_ = 0;

@@ -26,6 +26,7 @@ struct View {
     std::uint8_t outputs = 0;
     bool timer_zero = true;
     bool counter_zero = true;
+    bool moving = false;  ///< an order to move was given, and no end of it was seen
     bool operator==(const View&) const = default;
 };
 
@@ -37,6 +38,7 @@ struct Condition {
         timer_q,
         counter_q,
         step,
+        moving,
         negation,
         all_of,
         any_of,
@@ -53,19 +55,47 @@ bool holds(const Condition& condition, std::uint8_t image, const View& view);
 /// Bits of HW_INP that the condition names.
 std::uint8_t image_bits_of(const Condition& condition);
 
-enum class Form : std::uint8_t { never, always, reachable, always_possible, whenever };
+bool names_moving(const Condition& condition);
+
+enum class Form : std::uint8_t {
+    never,
+    always,
+    reachable,
+    always_possible,
+    whenever,
+    after_possible,   ///< AFTER then ALWAYS POSSIBLE condition
+    never_while,      ///< NEVER condition WHILE then FOR within_ms
+    only_after,       ///< condition ONLY AFTER then
+    stays,            ///< BETWEEN condition AND then third STAYS ON
+    changes_only_in,  ///< condition CHANGES ONLY IN then
+    scan_ends,        ///< EVERY_SCAN FROM condition ENDS IN then
+    followed_by,      ///< WHENEVER condition FOLLOWED BY then THEN third
+};
 
 struct Property {
     std::string name;
     std::string text;  ///< as written, blanks made single
     Form form = Form::never;
     Condition condition;
-    Condition then{};             ///< whenever
-    std::uint32_t within_ms = 0;  ///< whenever
+    Condition then{};
+    Condition third{};
+    std::uint32_t within_ms = 0;
+};
+
+/// The five forms that foreign checkers are asked for too.
+bool is_basic(const Property& property);
+
+/// What may be taken for granted.
+struct Assumption {
+    std::string text;
+    Condition never{};            ///< of inputs, INPOS and ERROR alone; false if it is about `input`
+    std::uint8_t input = 0;       ///< 0..5, keeps its level
+    std::uint32_t stable_ms = 0;  ///< for so long; 0 if it is about `never`
 };
 
 struct PropertyReading {
     std::vector<Property> properties;
+    std::vector<Assumption> assumptions;
     std::string error;     ///< what is wrong, and what to write; empty if nothing is
     std::size_t line = 0;  ///< of the error, from 1
 };

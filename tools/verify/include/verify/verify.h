@@ -33,6 +33,7 @@ struct Options {
     std::uint32_t debounce_ms = 3;
     std::size_t most_states = 4'000'000;
     std::vector<Allowance> allowances;
+    std::vector<Assumption> assumptions;
 };
 
 struct Report {
@@ -41,7 +42,11 @@ struct Report {
     /// Steps with a name or terms in which no scan begins; none if not complete.
     std::vector<std::uint8_t> unreachable;
     std::vector<Result> results;  ///< built-in checks, then the properties
+    std::vector<Assumption> assumptions;
 };
+
+/// Whether no inputs are left that the assumptions allow, so that everything would be proved.
+bool contradict(const std::vector<Assumption>& assumptions);
 
 Report verify(const sequencer::Table& table, const Names& names, const std::vector<Property>& properties,
               const Options& options);
