@@ -97,6 +97,7 @@ TEST(Decompile, ExamplesComeBackAsTheyWereWritten) {
         const Decompilation result =
             decompiled(program.table, {.origin = name, .motor = {}, .symbols = &program.symbols});
         std::string wanted = spelt_out(words(source));
+        wanted = std::regex_replace(wanted, std::regex("PROPERTY [^;]*; ?"), "");  // a table holds none
         // A product is written in the order of its inputs.
         if (name == "fill_and_count") {  // with its helper step
             wanted = std::regex_replace(wanted, std::regex("ELSIF TIMER.Q THEN NEXT := Away"), "$&_");

@@ -53,6 +53,7 @@ TEST(Examples, PickAndPlaceWalk) {
     EXPECT_EQ(at(2, 0x40, true), (test::Scan{.next = 3, .outputs = 0, .timer = 500}));
     EXPECT_EQ(at(3, 0x40, false), test::Scan{});
     EXPECT_EQ(at(3, 0x40, true), (test::Scan{.next = 4, .outputs = 0, .sends = {"40"}}));
+    EXPECT_EQ(at(3, 0x42, true), test::Scan{});  // no move starts at an open door
     EXPECT_EQ(at(4, 0x40, true), (test::Scan{.next = 1, .outputs = 8}));
     EXPECT_EQ(at(4, 0xC0, true), (test::Scan{.next = 5, .outputs = 0, .sends = {"65"}}));
     EXPECT_EQ(at(5, 0x84, true), (test::Scan{.next = 6, .outputs = 0, .sends = {"61"}}));
