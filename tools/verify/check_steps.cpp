@@ -98,12 +98,16 @@ void find_never_left(const Subject& subject, std::vector<Finding>& findings) {
 /// Steps that go round with inputs as they are and no time needed.
 class Rounds {
   public:
-    explicit Rounds(const Subject& subject) : explorer_(subject.explorer), names_(subject.names) {}
+    explicit Rounds(const Subject& subject) : explorer_(subject.explorer), names_(subject.names) {
+        find_edges_at_once();
+        way_.assign(explorer_.size(), kNowhere);
+    }
 
     std::vector<Finding> find() {
         const unsigned cared = explorer_.machine().cared_bits();
         for (unsigned image = 0; image < 256; ++image) {
-            if ((image & ~cared) == 0) follow_all(static_cast<std::uint8_t>(image));
+            if ((image & ~cared) == 0 && explorer_.machine().permitted()[image])
+                follow_all(static_cast<std::uint8_t>(image));
         }
         return std::move(findings_);
     }
@@ -112,24 +116,69 @@ class Rounds {
     using Node = Explorer::Node;
     static constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
 
-    /// The scan with this image after which no time has passed.
+    /// The scans after which no time has passed: of each node's groups the edge.
+    void find_edges_at_once() {
+        const Machine& machine = explorer_.machine();
+        first_at_once_.reserve(explorer_.size());
+        for (Node node = 0; node < explorer_.size(); ++node) {
+            const Place here = explorer_.place(node);
+            const std::size_t first = at_once_.size();
+            first_at_once_.push_back(first);
+            const auto groups = machine.groups(here.step, !here.runs, here.counter == 0);
+            at_once_.resize(first + groups.size(), kNowhere);
+            for (const Explorer::Edge& edge : explorer_.edges_from(node)) {
+                const Place to = explorer_.place(edge.to);
+                const bool runs = here.runs || groups[edge.group].pending.timer_preset != 0;
+                if (to.runs != runs || to.error_comes || to.motor == Place::Motor::lost) continue;
+                at_once_[first + edge.group] = static_cast<std::uint32_t>(&edge - explorer_.edges().data());
+            }
+        }
+    }
+
     std::uint32_t edge_at_once(Node node, std::uint8_t image) const {
         const Place here = explorer_.place(node);
-        const auto edges = explorer_.edges_from(node);
-        for (const Explorer::Edge& edge : edges) {
-            const Place to = explorer_.place(edge.to);
-            const Group& group = explorer_.group_of(edge);
-            const bool runs = here.runs || group.pending.timer_preset != 0;
-            if (to.runs != runs || to.error_comes || to.motor == Place::Motor::lost) continue;
-            if (explorer_.images_of(edge)[image])
-                return static_cast<std::uint32_t>(&edge - explorer_.edges().data());
+        if (!is_lively(here.step, here.runs)) return kNowhere;
+        const bool shows_error = here.motor != Place::Motor::free || here.error_comes;
+        if (shows_error && !explorer_.allowed(here)[image]) return kNowhere;
+        const Machine& machine = explorer_.machine();
+        return at_once_[first_at_once_[node] +
+                        machine.group_with(here.step, !here.runs, here.counter == 0, image)];
+    }
+
+    /// Steps by timer running, as bits, from which other steps can follow for ever with this image, whatever
+    /// the counter is.
+    void find_lively(std::uint8_t image) {
+        lively_ = {~Steps{0} >> 1U, ~Steps{0} >> 1U};
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (std::uint8_t step = 0; step <= sequencer::kLastStep; ++step) {
+                for (const bool runs : {false, true}) {
+                    if (!is_lively(step, runs) || goes_on(step, runs, image)) continue;
+                    lively_[runs ? 1 : 0] &= ~bit_of(step);
+                    changed = true;
+                }
+            }
         }
-        return kNowhere;
+    }
+
+    bool is_lively(std::uint8_t step, bool runs) const { return (lively_[runs ? 1 : 0] & bit_of(step)) != 0; }
+
+    bool goes_on(std::uint8_t step, bool runs, std::uint8_t image) const {
+        const Machine& machine = explorer_.machine();
+        for (const bool counter_zero : {false, true}) {
+            const auto group = machine.group_with(step, !runs, counter_zero, image);
+            const auto& pending = machine.groups(step, !runs, counter_zero)[group].pending;
+            const std::uint8_t next = pending.next_step == sequencer::kNoSwitch ? step : pending.next_step;
+            const bool runs_then = runs || pending.timer_preset != 0;
+            if ((next != step || runs_then != runs) && is_lively(next, runs_then)) return true;
+        }
+        return false;
     }
 
     void follow_all(std::uint8_t image) {
+        find_lively(image);
+        if ((lively_[0] | lively_[1]) == 0) return;
         round_of_.assign(explorer_.size(), 0);
-        way_.assign(explorer_.size(), kNowhere);
         for (Node node = 0; node < explorer_.size(); ++node) {
             if (round_of_[node] == 0) follow(node, image);
         }
@@ -180,6 +229,9 @@ class Rounds {
 
     const Explorer& explorer_;
     const Names& names_;
+    std::vector<std::uint32_t> at_once_;      ///< edges
+    std::vector<std::size_t> first_at_once_;  ///< by node
+    std::array<Steps, 2> lively_{};
     std::vector<Node> round_of_;
     std::vector<std::uint32_t> way_;
     std::set<Steps> told_;

@@ -136,6 +136,12 @@ void Explorer::successors(const Place& place, const Zone& zone, const Group& gro
     const auto let_pass = [&](Place to) {
         if (!narrowed(part.images, to).any() || allowed(to).none()) return;
         to.pending = part.pending;
+        if (!uses_zones_) {
+            if (next.runs) each(to, now);
+            to.runs = false;
+            each(to, now);
+            return;
+        }
         const Bounds delay = delay_of(place, group, to);
         Zone later = now;
         later.elapse(delay, part.pending);

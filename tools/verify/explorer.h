@@ -119,6 +119,8 @@ class Explorer {
     static View view_of(const Place& place) {
         return {place.step, place.outputs, !place.runs, place.counter == 0, place.motion != Motion::none};
     }
+    /// With which a scan that begins there can be.
+    ImageSet allowed(const Place& place) const;
     /// With which the scan of an edge can be.
     ImageSet images_of(const Edge& edge) const {
         return narrowed(group_of(edge).images & allowed(place(edge.from)), place(edge.to));
@@ -171,7 +173,6 @@ class Explorer {
         bool pending = false;
     };
 
-    ImageSet allowed(const Place& place) const;
     bool is_idle(const Place& place, const Group& group) const;
     Place after(const Place& place, const Group& group) const;
     bool keeps_too_long(const Place& place, const Zone& zone, const Group& group, const View& view,

@@ -46,7 +46,12 @@ bool may_reset_error(const MotorOrder& order) {
 
 Machine::Machine(const sequencer::Table& table, Assume assume, const OrderTime& order_time,
                  const ImageSet& permitted, bool tells_motion)
-    : assume_(assume), permitted_(permitted), tells_motion_(tells_motion), rows_(kRows), first_(kRows) {
+    : assume_(assume),
+      permitted_(permitted),
+      tells_motion_(tells_motion),
+      rows_(kRows),
+      group_with_(kRows),
+      first_(kRows) {
     for (std::size_t i = 0; i < table.size(); ++i) {
         const TermView term = table.term(i);
         steps_with_terms_ |= std::uint64_t{1} << sequencer::step_of(term);
@@ -102,6 +107,7 @@ void Machine::fill_step(const sequencer::Table& table, std::uint8_t step, const 
                 row.push_back(std::move(group));
             }
             row[found->second].images.set(image);
+            group_with_[step * 4U + zeros][image] = static_cast<std::uint16_t>(found->second);
         }
     }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -56,6 +57,11 @@ class Machine {
     std::span<const Group> groups(std::uint8_t step, bool timer_zero, bool counter_zero) const {
         return rows_[row_of(step, timer_zero, counter_zero)];
     }
+    /// Which of `groups` an image belongs to.
+    std::uint16_t group_with(std::uint8_t step, bool timer_zero, bool counter_zero,
+                             std::uint8_t image) const {
+        return group_with_[row_of(step, timer_zero, counter_zero)][image];
+    }
     /// Numbers of the first group of a row; all groups are numbered through.
     std::size_t first_group(std::uint8_t step, bool timer_zero, bool counter_zero) const {
         return first_[row_of(step, timer_zero, counter_zero)];
@@ -76,6 +82,7 @@ class Machine {
     ImageSet permitted_;
     bool tells_motion_;
     std::vector<std::vector<Group>> rows_;
+    std::vector<std::array<std::uint16_t, 256>> group_with_;  ///< by row and image
     std::vector<std::size_t> first_;
     std::size_t group_count_ = 0;
     std::uint16_t greatest_counter_ = 0;
