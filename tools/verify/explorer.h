@@ -122,8 +122,9 @@ class Explorer {
     /// With which a scan that begins there can be.
     ImageSet allowed(const Place& place) const;
     /// With which the scan of an edge can be.
-    ImageSet images_of(const Edge& edge) const {
-        return narrowed(group_of(edge).images & allowed(place(edge.from)), place(edge.to));
+    ImageSet images_of(const Edge& edge) const { return images_of(edge, allowed(place(edge.from))); }
+    ImageSet images_of(const Edge& edge, const ImageSet& allowed_there) const {
+        return narrowed(group_of(edge).images & allowed_there, place(edge.to));
     }
     CourseScan scan_of(const Edge& edge, const ImageSet& images) const;
     /// Whether a scan that begins in `node` can be of `target`.
