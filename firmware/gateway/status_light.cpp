@@ -26,34 +26,35 @@ bool is_fault(SafeReason reason) {
     return true;
 }
 
-/// `count` flashes of 125 ms, 250 ms apart.
-bool flashes(std::uint32_t count, std::uint32_t at) {
-    return at < count * 250 && at % 250 < 125;
+constexpr std::uint32_t kBeat = 125;  // ms
+constexpr std::uint32_t kBeats = 16;
+
+/// One bit for each beat of two seconds, the first one lowest.
+std::uint32_t beats(RunState run_state, SafeReason reason) {
+    if (is_fault(reason)) return 0b0000'0000'0101'0101;
+    switch (run_state) {
+        case RunState::stopped:
+            return 0b0000'1111'0000'1111;
+        case RunState::waiting_for_motor:
+            return 0b0000'0101'0000'0101;
+        case RunState::running:
+            return 0b1111'1111'1111'1111;
+        case RunState::holding:
+        case RunState::held:
+            return 0b0101'0101'0101'0101;
+    }
+    return 0;
 }
 
 }  // namespace
 
 bool status_light(RunState run_state, SafeReason reason, std::uint32_t milliseconds) {
-    if (is_fault(reason)) return flashes(4, milliseconds % 2000);
-    switch (run_state) {
-        case RunState::stopped:
-            return milliseconds % 1000 < 500;
-        case RunState::waiting_for_motor:
-            return flashes(2, milliseconds % 1000);
-        case RunState::running:
-            return true;
-        case RunState::holding:
-        case RunState::held:
-            return milliseconds % 250 < 125;
-    }
-    return false;
+    return (beats(run_state, reason) >> (milliseconds / kBeat % kBeats) & 1U) != 0;
 }
 
 std::uint32_t next_status_light(RunState run_state, SafeReason reason, std::uint32_t milliseconds) {
-    constexpr std::uint32_t kBeat = 125;  // all flashes are multiples of it
-    constexpr std::uint32_t kLongest = 2000;
     const bool now = status_light(run_state, reason, milliseconds);
-    for (std::uint32_t in = kBeat - milliseconds % kBeat; in <= kLongest; in += kBeat) {
+    for (std::uint32_t in = kBeat - milliseconds % kBeat; in <= kBeats * kBeat; in += kBeat) {
         if (status_light(run_state, reason, milliseconds + in) != now) return in;
     }
     return 0;

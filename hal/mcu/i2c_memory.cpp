@@ -4,16 +4,6 @@ namespace nplc::hal_mcu {
 
 using ports::StorageState;
 
-namespace {
-
-constexpr auto kBlank = [] {
-    std::array<std::uint8_t, I2cMemory::kLargestPage> bytes{};
-    bytes.fill(0xFF);
-    return bytes;
-}();
-
-}  // namespace
-
 ports::StorageGeometry I2cMemory::geometry() const {
     return {.size = kind_.size, .erase_block = kind_.page, .program_page = kind_.page, .program_unit = 1};
 }
@@ -48,18 +38,20 @@ base::Status I2cMemory::program(std::uint32_t address, std::span<const std::uint
     if (phase_ != Phase::rest) return base::Error::busy;
     const std::uint32_t in_page = address % kind_.page;
     if (address >= kind_.size || bytes.size() > kind_.page - in_page) return base::Error::bad_geometry;
-    return write(address, bytes);
+    I2cBus::Transfer transfer = at(address);
+    transfer.out = bytes;
+    return write(transfer);
 }
 
 base::Status I2cMemory::erase(std::uint32_t address) {
     if (phase_ != Phase::rest) return base::Error::busy;
     if (address >= kind_.size || address % kind_.page != 0) return base::Error::bad_geometry;
-    return write(address, std::span(kBlank).first(kind_.page));
+    I2cBus::Transfer transfer = at(address);
+    transfer.blanks = static_cast<std::uint8_t>(kind_.page);
+    return write(transfer);
 }
 
-base::Status I2cMemory::write(std::uint32_t address, std::span<const std::uint8_t> bytes) {
-    I2cBus::Transfer transfer = at(address);
-    transfer.out = bytes;
+base::Status I2cMemory::write(const I2cBus::Transfer& transfer) {
     begun_ = clock_.now();
     phase_ = Phase::writing;
     bus_.begin(transfer);

@@ -20,8 +20,9 @@ class Memory final : public I2cBus, public ports::Clock {
         if (!acknowledges) return;
         const std::size_t address = transfer.address[0] * 256U + transfer.address[1];
         for (std::size_t i = 0; i < transfer.out.size(); ++i) bytes.at(address + i) = transfer.out[i];
+        for (std::size_t i = 0; i < transfer.blanks; ++i) bytes.at(address + i) = 0xFF;
         for (std::size_t i = 0; i < transfer.in.size(); ++i) transfer.in[i] = bytes.at(address + i);
-        if (!transfer.out.empty()) cycle_ends = time + base::Milliseconds(5);
+        if (!transfer.out.empty() || transfer.blanks != 0) cycle_ends = time + base::Milliseconds(5);
     }
     State state() override {
         time += base::Microseconds(100);

@@ -84,8 +84,12 @@ void I2cMaster::go_on() {
 
 void I2cMaster::send_next() {
     const std::size_t in_address = transfer_.address.size();
-    const std::uint8_t byte =
-        sent_ < in_address ? transfer_.address[sent_] : transfer_.out[sent_ - in_address];
+    std::uint8_t byte = 0xFF;
+    if (sent_ < in_address) {
+        byte = transfer_.address[sent_];
+    } else if (sent_ - in_address < transfer_.out.size()) {
+        byte = transfer_.out[sent_ - in_address];
+    }
     const std::uint32_t start = sent_ == 0 ? kMcsStart : 0;
     ++sent_;
     i2c().MDR = byte;

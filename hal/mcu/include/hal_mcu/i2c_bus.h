@@ -16,11 +16,12 @@ class I2cBus {
         refused,  ///< nobody acknowledged, or the bus was lost
     };
 
-    /// Device and address are written, then `out`, then a stop. With `in` the device is begun anew and read.
-    /// The bytes must stay until the state is no longer busy.
+    /// Device and address are written, then `out`, then `blanks` times FFh, then a stop. With `in` the device
+    /// is begun anew and read. The bytes must stay until the state is no longer busy.
     struct Transfer {
         std::uint8_t device = 0;  ///< 7 bits
         std::array<std::uint8_t, 2> address{};
+        std::uint8_t blanks = 0;
         std::span<const std::uint8_t> out{};
         std::span<std::uint8_t> in{};
     };

@@ -13,10 +13,9 @@ class I2cMemory final : public ports::Storage {
   public:
     struct Kind {
         std::uint32_t size;   ///< bytes
-        std::uint32_t page;   ///< bytes, kLargestPage at the most
+        std::uint32_t page;   ///< bytes, 128 at the most
         std::uint8_t device;  ///< 7 bits
     };
-    static constexpr std::uint32_t kLargestPage = 128;
     static constexpr Kind k24C256{.size = 32 * 1024, .page = 64, .device = 0x50};
 
     I2cMemory(I2cBus& bus, ports::Clock& clock, const Kind& kind) : bus_(bus), clock_(clock), kind_(kind) {}
@@ -34,7 +33,7 @@ class I2cMemory final : public ports::Storage {
   private:
     enum class Phase : std::uint8_t { rest, writing, write_cycle };
 
-    base::Status write(std::uint32_t address, std::span<const std::uint8_t> bytes);
+    base::Status write(const I2cBus::Transfer& transfer);
     I2cBus::Transfer at(std::uint32_t address) const;
     ports::StorageState end(ports::StorageState result);
     bool is_late() { return clock_.now() - begun_ > kLongest; }

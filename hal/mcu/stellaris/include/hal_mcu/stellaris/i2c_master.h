@@ -20,7 +20,7 @@ class I2cMaster final : public I2cBus {
     void go_on();
     void send_next();
     void receive_first();
-    std::size_t to_send() const { return transfer_.address.size() + transfer_.out.size(); }
+    std::size_t to_send() const { return transfer_.address.size() + transfer_.out.size() + transfer_.blanks; }
 
     Transfer transfer_{};
     std::size_t sent_ = 0;
