@@ -4,29 +4,19 @@ usage: differential_test.py SEQC NANOPLC_SIM CASES [SEED]
 """
 
 import json
-import os
 import random
 import subprocess
 import sys
 import tempfile
 
 import naive
+import programs
 import random_cases
 
 PROPERTIES = 10
 
 
-class Case:
-    def __init__(self, seqc, nanoplc_sim, folder):
-        self.seqc, self.nanoplc_sim, self.folder = seqc, nanoplc_sim, folder
-
-    def path(self, name, content=None):
-        path = os.path.join(self.folder, name)
-        if content is not None:
-            with open(path, "wb") as file:
-                file.write(content)
-        return path
-
+class Case(programs.Programs):
     def verify(self, assume):
         done = subprocess.run([self.seqc, "verify", self.path("t.bin"), "--property", self.path("p.prop"),
                                "--assume", assume, "--json"], capture_output=True, text=True, timeout=120, check=False)

@@ -15,6 +15,7 @@ import sys
 import tempfile
 
 import naive
+import programs
 
 COURSES, SCANS = 3, 250
 STAY = 0x3E  # no next step
@@ -106,17 +107,7 @@ def bare(text, symbols):
     return " ".join(result)
 
 
-class Bench:
-    def __init__(self, seqc, nanoplc_sim, folder):
-        self.seqc, self.nanoplc_sim, self.folder = seqc, nanoplc_sim, folder
-
-    def path(self, name, content=None):
-        path = os.path.join(self.folder, name)
-        if content is not None:
-            with open(path, "wb") as file:
-                file.write(content)
-        return path
-
+class Bench(programs.Programs):
     def build(self, program):
         """Terms, names and own properties."""
         table = self.path("program.bin")
