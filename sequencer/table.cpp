@@ -30,9 +30,8 @@ std::string_view describe(base::Error table_error) {
         case base::Error::bad_register:
             return "REG_NMB is 0; a register is 1..127";
         case base::Error::not_for_motor:
-            return "the motor has no such order; a MAC800 takes register writes with LONGWORD = 1 only, and "
-                   "why a MIDI "
-                   "drive cannot do it seqc tells with MOTOR MAC34";
+            return "the motor has no such order; a MAC800 takes register writes with LONGWORD = 1 only; of a "
+                   "MIDI drive, compiling with MOTOR MAC34 in the program says which and why";
         default:
             return "not a fault of a table";
     }

@@ -50,7 +50,8 @@ foreign_download() {
     }
 }
 
-# foreign_source PACKAGE: its upstream source, into $foreign_state/packages. From then on there are sources only.
+# foreign_source PACKAGE: its source with Debian's patches, in $foreign_state/packages/PACKAGE-VERSION. From then on there are
+# sources only.
 foreign_source() {
     local release
     release=$(. /etc/os-release && echo "${VERSION_CODENAME:-}")
@@ -63,8 +64,7 @@ foreign_source() {
 }
 
 foreign_try_source() {
-    (cd "$foreign_state/packages" && apt-get -q "${foreign_settings[@]}" source --download-only --tar-only "$1") \
-        >>"$foreign_state/log" 2>&1
+    (cd "$foreign_state/packages" && apt-get -q "${foreign_settings[@]}" source "$1") >>"$foreign_state/log" 2>&1
 }
 
 # foreign_dependency PACKAGE: the first package that it depends on.
@@ -75,5 +75,25 @@ foreign_dependency() {
 
 # foreign_unpack PACKAGE FOLDER: of those that were downloaded.
 foreign_unpack() {
-    dpkg -x "$foreign_state"/packages/"$1"_*_*.deb "$2"
+    dpkg -x "$foreign_state"/packages/"$1"_*_*.deb "$2" && foreign_record "$foreign_state"/packages/"$1"_*_*.deb "$2"
+}
+
+# foreign_record FILE.deb FOLDER: writes down in FOLDER's dpkg database which package the unpacked files are of.
+foreign_record() {
+    local name database=$2/var/lib/dpkg
+    mkdir -p "$database/info"
+    name=$(dpkg-deb -f "$1" Package)
+    [[ $(dpkg-deb -f "$1" Multi-Arch) != same ]] || name=$name:$(dpkg-deb -f "$1" Architecture)
+    dpkg --fsys-tarfile "$1" | tar -t | sed -e 's,^\.,,' -e 's,/$,,' -e 's,^$,/.,' >"$database/info/$name.list"
+    { dpkg-deb -f "$1" | sed '/^Package:/a Status: install ok installed'; echo; } >>"$database/status"
+}
+
+# foreign_record_source NAME FOLDER FILE...: the same of what was compiled of the unpacked source package in the current folder.
+foreign_record_source() {
+    local database=$2/var/lib/dpkg
+    mkdir -p "$database/info" "$2/usr/share/doc/$1"
+    cp debian/copyright "$2/usr/share/doc/$1/copyright"
+    printf '%s\n' "${@:3}" >"$database/info/$1.list"
+    printf '%s\n' "Package: $1" 'Status: install ok installed' 'Architecture: source' \
+        "Maintainer: $(sed -n 's/^Maintainer: *//p' debian/control)" "Version: $(dpkg-parsechangelog -S Version)" '' >>"$database/status"
 }

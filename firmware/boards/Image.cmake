@@ -5,7 +5,14 @@
 # BUDGETS are options of sizes.py. STACK is what the linker script sets aside, less what the painting leaves out. Of the
 # RAM the table and the event log, which are data, are not counted; the stack is counted as computed.
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
+include(NplcCommit)
 set(NPLC_BOARDS "${CMAKE_CURRENT_LIST_DIR}")
+set(record_bytes 0)
+if(NPLC_SET_POINTS)
+  set(record_bytes 1024)
+endif()
+math(EXPR table_bytes "(1024 + 1) * 8 + ${record_bytes} + 40")
+set(NPLC_NOT_COUNTED --not-counted "table=${table_bytes}" --not-counted "event log=128")
 
 function(nplc_image board)
   cmake_parse_arguments(ARG "" "LINKER_SCRIPT;STACK" "SOURCES;BUDGETS" ${ARGN})
@@ -16,6 +23,14 @@ function(nplc_image board)
   set(image "${CMAKE_BINARY_DIR}/bin/${name}")
 
   add_executable(${name} ${ARG_SOURCES})
+  set(variant "")
+  foreach(part SET_POINTS MODBUS)
+    if(NPLC_${part})
+      string(TOLOWER "+${part}" part)
+      string(APPEND variant "${part}")
+    endif()
+  endforeach()
+  nplc_commit_source(${name} "${shared}/image_name.cpp.in" "IMAGE=${board}${variant}" "VERSION=${PROJECT_VERSION}")
   set_target_properties(${name} PROPERTIES SUFFIX .elf LINK_DEPENDS "${script};${shared}/sections.ld")
   target_link_libraries(${name} PRIVATE ${core_modules} nplc_options)
   target_link_options(${name} PRIVATE -nostartfiles "-T${script}" "-L${shared}" "-Wl,-Map=${image}.map" -fcallgraph-info=su)
@@ -24,13 +39,11 @@ function(nplc_image board)
     COMMAND "${CMAKE_OBJCOPY}" -O ihex "${image}.elf" "${image}.hex"
     BYPRODUCTS "${image}.bin" "${image}.hex" "${image}.map" "${image}.elf.ltrans0.ltrans.ci" VERBATIM)
 
-  math(EXPR table_bytes "(1024 + 1) * 8 + 40")
-  math(EXPR log_bytes "16 * 8")
   add_custom_target(size_report ALL
     COMMAND Python3::Interpreter "${NPLC_BOARDS}/stack.py" "${image}.elf.ltrans0.ltrans.ci" --board ${board}
             --at-most ${ARG_STACK} > "${image}.stack"
     COMMAND Python3::Interpreter "${NPLC_BOARDS}/sizes.py" "${image}.elf" "${image}.bin" ${ARG_BUDGETS}
-            --stack "${image}.stack" --not-counted "table=${table_bytes}" --not-counted "event log=${log_bytes}"
+            --stack "${image}.stack" ${NPLC_NOT_COUNTED}
     DEPENDS ${name}
     COMMENT "Size of the firmware (${board}, ${NPLC_CPU}, ${CMAKE_BUILD_TYPE}), bytes"
     USES_TERMINAL VERBATIM)

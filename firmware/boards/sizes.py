@@ -17,7 +17,7 @@ LIBRARIES = "compiler's libraries"
 # Namespaces and the folders that they follow; protocol's have one below for each codec.
 FOLDERS = {
     "bare_metal": "firmware/boards/bare_metal", "board": "firmware/boards", "gateway": "firmware/gateway", "motor": "firmware/motor", "protocol": "firmware/protocol",
-    "registers": "firmware/registers", "store": "firmware/store", "hal_mcu": "hal/mcu", "sequencer": "sequencer",
+    "registers": "firmware/registers", "store": "firmware/store", "hal_mcu": "hal/mcu", "sequencer": "sequencer", "update": "firmware/update", "signature": "firmware/signature",
     "base": "hal/base",
 }
 SYMBOL = re.compile(r"^([0-9a-f]+) ([0-9a-f]+) (\w) (.*)$", re.MULTILINE)

@@ -37,10 +37,13 @@ def virtual_calls(board):
         (r"firmware/boards/bare_metal/", [clock, *lines]),
         (r"firmware/motor/midi_motor", ["nplc::motor::MidiV24Link"]),
         (r"firmware/motor/", lines),
-        (r"firmware/store/table_check", ["nplc::gateway::TableKeeper"]),
+        (r"firmware/store/table_check", ["nplc::gateway::TableManager"]),
         (r"firmware/store/", [storage, "nplc::store::TableCheck", "nplc::store::SettingsStore::Check"]),
+        (r"hal/mcu/stellaris/flash", [chip + "ChipFlash"]),
+        (r"firmware/update/", [chip + "Flash"]),
         (r"firmware/gateway/(include/gateway/)?user_port", [*lines, *MOTORS]),
         (r"firmware/gateway/own_registers", [*lines, *MOTORS]),
+        (r"firmware/gateway/sequence_scan", [*MOTORS, "nplc::gateway::SetPoints"]),
         (r"firmware/gateway/", [*MOTORS, chip + "InputPins", chip + "OutputPins", chip + "Watchdog"]),
     ]
 

@@ -60,12 +60,12 @@ Gateway::LoadResult Gateway::load(std::span<const std::uint8_t> bytes, base::Ins
     return {.ok = true};
 }
 
-bool Gateway::lacks_proof() const {
+bool Gateway::needs_proof() const {
     return settings_.require_proof && !is_proven_ && !scan_.table().empty();
 }
 
 void Gateway::look_for_proof() {
-    if (lacks_proof()) {
+    if (needs_proof()) {
         block(SafeReason::no_proof);
     } else if (safe_reason() == SafeReason::no_proof) {
         safe_.set_reason(SafeReason::not_started);
@@ -109,7 +109,7 @@ base::Status Gateway::run_until(After hold_after) {
     if (scan_.table().empty()) return base::Error::no_table;
     if (run_state_ != RunState::stopped && run_state_ != RunState::held) return base::Error::not_stopped;
     if (!enabled()) return base::Error::not_enabled;
-    if (lacks_proof()) return base::Error::no_proof;
+    if (needs_proof()) return base::Error::no_proof;
     if (run_state_ == RunState::stopped) {
         scan_.reset();
         stop_ordered_ = false;
@@ -141,12 +141,22 @@ void Gateway::make_safe(base::Instant now) {
 [[gnu::noinline]] void Gateway::poll(base::Instant now) {
     scan_.wake(now);
     log_.advance(now);
+    watch_polls(now);
     signals_.read(now);
     expire_forces(now);
     note_motor_fault();
     serve_sequence(now);
     show_outputs();
     motor_.begin_orders(now);
+}
+
+/// What a stopped gateway is busy with, such as erasing flash, holds up nothing that moves.
+void Gateway::watch_polls(base::Instant now) {
+    const std::uint32_t late = polls_.begin(now);
+    if (late <= settings_.poll_limit || run_state_ == RunState::stopped) return;
+    if (!polls_.begins_excess(uptime())) return;
+    constexpr std::uint32_t kMost = UINT16_MAX;
+    note(Event::polled_late, static_cast<std::uint16_t>(std::min(late / 1000U, kMost)));
 }
 
 void Gateway::serve_sequence(base::Instant now) {
@@ -181,6 +191,7 @@ void Gateway::start_when_ready(base::Instant now) {
     settings_.on_start == OnStart::stop ? scan_.mode().set_passive() : scan_.mode().forget();
     stop_after_loss_ = false;
     scan_.start(now);
+    polls_.clear_worst();
     note(Event::started);
     if (hold_.breaks_at(state().step)) begin_hold(true, now);
 }
@@ -272,7 +283,7 @@ void Gateway::enter_safe_state(SafeReason reason, base::Instant now) {
 
 void Gateway::set_safe_reason(SafeReason reason, base::Instant now) {
     log_.advance(now);
-    reason = permission_.shown(lacks_proof() ? SafeReason::no_proof : reason);
+    reason = permission_.shown(needs_proof() ? SafeReason::no_proof : reason);
     if (safe_.enter(reason, now, uptime())) note(static_cast<Event>(reason));
     show_outputs();
 }

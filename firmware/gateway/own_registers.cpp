@@ -26,6 +26,8 @@ std::uint32_t in_milliseconds(base::Microseconds time) {
 
 void OwnRegisters::read(std::uint8_t reg, std::span<std::uint8_t> out, base::Instant now) {
     if (reg == TABLE_DATA && out.size() > kRegisterBytes) return read_table(out);
+    if (kHasSetPoints && reg == SET_POINT_POINTER && out.size() > kRegisterBytes)
+        return set_points_.read_window(out);
     for (std::size_t i = 0; i * kRegisterBytes < out.size(); ++i) {
         const std::size_t number = reg + i;
         if (number == FIRED_SCAN) take_fired();
@@ -40,6 +42,7 @@ void OwnRegisters::read_table(std::span<std::uint8_t> out) {
     const auto part = table.subspan(begin, std::min(out.size(), table.size() - begin));
     std::fill(out.begin(), out.end(), std::uint8_t{0});
     std::copy(part.begin(), part.end(), out.begin());
+    set_points_.show_defaults(out.first(part.size()), begin);
     pointer_ += static_cast<std::uint32_t>(out.size());
 }
 
@@ -50,6 +53,11 @@ std::uint32_t OwnRegisters::value(std::uint8_t reg, base::Instant now) const {
     if (reg >= LINK_LOSSES && reg <= REFUSED) return count_value(reg);
     if (reg >= PROOF && reg < PROOF + kProofWords) return tables_.proof_word(reg - PROOF);
     if (reg >= LINE_FAULTS && reg < LINE_FAULTS + kLines) return line_faults(lines_[reg - LINE_FAULTS]);
+    if (kHasSetPoints && reg == SET_POINT_POINTER) return set_points_.pointer();
+    if (kHasSetPoints && ((reg >= SET_POINT_COUNT && reg <= SET_POINT_BYTES) ||
+                          (reg >= SET_POINT && reg < SET_POINT_WANTED + kSetPoints)))
+        return set_points_.value(reg);
+    if (kHasFirmware && reg >= FIRMWARE_BOARD && reg < FIRMWARE_DATA) return firmware_.value(reg);
     if (reg >= SETTINGS) {
         const auto id = static_cast<std::uint8_t>(reg - SETTINGS);
         return registers::gateway::is_setting(id) ? settings_.get(store::Setting{id}) : 0;
@@ -76,7 +84,12 @@ std::uint32_t OwnRegisters::table_value(std::uint8_t reg) const {
         case STORED_MAX:
             return tables_.capacity();
         case STORE_FLAGS:
-            return (tables_.fell_back() ? 1U : 0U) | (settings_.were_damaged() ? 2U : 0U);
+            return (tables_.fell_back() ? 1U : 0U) | (settings_.were_damaged() ? 2U : 0U) |
+                   (set_points_.were_damaged() ? 4U : 0U);
+        case POLL_WORST:
+            return gateway_.polls().worst();
+        case LATE_POLLS:
+            return gateway_.polls().late();
         case COMMAND:
             return last_command_;
         case FORCE_IN:

@@ -10,10 +10,10 @@ using namespace registers::gateway;
 
 namespace {
 
-/// For room in the store while it erases a block, or for it to keep the settings.
+/// For room in the store while it erases a block.
 constexpr base::Microseconds kLongestWait{1'000'000};
 
-Outcome outcome_of(const base::Status& status) {
+CommandResult command_result_of(const base::Status& status) {
     return {status ? Result::done : result_of(status.error())};
 }
 
@@ -22,15 +22,18 @@ Outcome outcome_of(const base::Status& status) {
 void OwnRegisters::poll() {
     tables_.poll();
     settings_.poll();
+    set_points_.poll();
+    if constexpr (kHasFirmware) firmware_.poll(gateway_.uptime(), port_.messages != 0);
 }
 
 base::Instant OwnRegisters::next_poll(base::Instant now) {
-    const base::Instant next = std::min(tables_.next_poll(now), settings_.next_poll(now));
+    base::Instant next = std::min(tables_.next_poll(now), settings_.next_poll(now));
+    if (kHasSetPoints) next = std::min(next, set_points_.next_poll(now));
     switch (waiting_) {
         case Waiting::nothing:
+        case Waiting::saving:
             break;
         case Waiting::room:
-        case Waiting::saving:
             return std::min(next, write_begun_ + kLongestWait + base::Microseconds(1));
         case Waiting::activation:
         case Waiting::reset:
@@ -42,6 +45,7 @@ base::Instant OwnRegisters::next_poll(base::Instant now) {
 void OwnRegisters::begin_write(std::uint8_t reg, std::span<const std::uint8_t> bytes, base::Instant now) {
     drop_write();
     written_ = reg;
+    ++writes_begun_;
     write_begun_ = now;
     outcome_ = write(reg, bytes, now);
 }
@@ -59,12 +63,18 @@ Progress OwnRegisters::poll_write(std::span<const std::uint8_t> bytes, base::Ins
     return outcome_;
 }
 
+Progress OwnRegisters::serve_set_points(SetPointsPart::Writer& writer, std::span<const std::uint8_t> bytes,
+                                        base::Instant now) {
+    const Progress outcome = set_points_.serve(writer, bytes, now);
+    if (outcome) result_ = outcome.word() | (std::uint32_t{SET_POINT_WRITE} << 8);
+    return outcome;
+}
+
 Progress OwnRegisters::continue_write(std::span<const std::uint8_t> bytes, base::Instant now) {
-    const bool late = now - write_begun_ > kLongestWait;
     switch (waiting_) {
         case Waiting::room:
-            if (late) return Outcome{Result::busy};
-            return write_table(bytes);
+            if (now - write_begun_ > kLongestWait) return CommandResult{Result::busy};
+            return kHasFirmware && written_ == FIRMWARE_DATA ? write_firmware(bytes) : write_table(bytes);
         case Waiting::activation:
             return tables_.poll_activation(now);
         case Waiting::reset: {
@@ -73,18 +83,18 @@ Progress OwnRegisters::continue_write(std::span<const std::uint8_t> bytes, base:
             return active;
         }
         case Waiting::saving:
-            if (const Progress kept = settings_.poll_save()) return kept;
-            if (late) return Outcome{Result::busy};
-            return std::nullopt;
+            return settings_.poll_save();
         case Waiting::nothing:
             break;
     }
-    return Outcome{Result::busy};
+    return CommandResult{Result::busy};
 }
 
 Progress OwnRegisters::write(std::uint8_t reg, std::span<const std::uint8_t> bytes, base::Instant now) {
-    if (reg == TABLE_DATA) return bytes.size() < 4 ? Outcome{Result::bad_length} : write_table(bytes);
-    if (bytes.size() != 2 && bytes.size() != 4) return Outcome{Result::bad_length};
+    if (reg == TABLE_DATA) return bytes.size() < 4 ? CommandResult{Result::bad_length} : write_table(bytes);
+    if (kHasFirmware && reg == FIRMWARE_DATA) return write_firmware(bytes);
+    const bool is_request = kHasSetPoints && reg == SET_POINT_WRITE;
+    if (is_request || (bytes.size() != 2 && bytes.size() != 4)) return CommandResult{Result::bad_length};
     const std::uint32_t value =
         bytes.size() == 2 ? base::load_u16(bytes.data()) : base::load_u32(bytes.data());
     return write_value(reg, value, now);
@@ -92,47 +102,54 @@ Progress OwnRegisters::write(std::uint8_t reg, std::span<const std::uint8_t> byt
 
 Progress OwnRegisters::write_value(std::uint8_t reg, std::uint32_t value, base::Instant now) {
     const auto is_known = [](std::uint8_t number) {
-        return (number >= IDENTITY && number <= STORE_FLAGS) ||
-               (number >= STATUS && number < LINE_FAULTS + kLines) ||
+        return (number >= IDENTITY && number <= PASSWORD_STATE) ||
+               (number >= STATUS && number <= LATE_POLLS) ||
                (number >= UPLOAD_STATE && number < PROOF + kProofWords) ||
-               (number >= FIRED_SCAN && number <= FIRED_KEY) ||
-               (number >= FIRED && number < LOG + 2 * kLogEntries);
+               (number >= FIRED_SCAN && number <= (kHasSetPoints ? SET_POINT_DATA : FIRED_KEY)) ||
+               (number >= FIRED && number < LOG + 2 * kLogEntries) ||
+               (kHasSetPoints && number >= SET_POINT && number < SET_POINT_WANTED + kSetPoints) ||
+               (kHasFirmware && number >= FIRMWARE_BOARD && number < FIRMWARE_DATA);
     };
     constexpr std::uint64_t kLow = 0xFFFF'FFFF;
     switch (reg) {
         case SCAN_WORST:
-            gateway_.clear_worst_scan_time();
-            return Outcome{};
+            gateway_.clear_worst();
+            return CommandResult{};
         case FORCE_LEFT:
             gateway_.renew_forces(now);
-            return Outcome{};
+            return CommandResult{};
         case COMMAND:
             return command(value, now);
         case FORCE_IN:
         case FORCE_OUT:
-            return Outcome{force(reg, value, now)};
+            return CommandResult{force(reg, value, now)};
         case BREAK_LOW:
             gateway_.set_breakpoints((gateway_.breakpoints() & ~kLow) | value);
-            return Outcome{};
+            return CommandResult{};
         case BREAK_HIGH:
-            if ((value >> 31) != 0) return Outcome{Result::bad_value};
+            if ((value >> 31) != 0) return CommandResult{Result::bad_value};
             gateway_.set_breakpoints((gateway_.breakpoints() & kLow) | (std::uint64_t{value} << 32));
-            return Outcome{};
+            return CommandResult{};
         case UPLOAD_BYTES:
             upload_bytes_ = value;
-            return Outcome{};
+            return CommandResult{};
         case UPLOAD_CRC:
             upload_crc_ = value;
-            return Outcome{};
+            return CommandResult{};
         case TABLE_POINTER:
-            if (value > tables_.capacity()) return Outcome{Result::bad_value};
+            if (value > tables_.capacity()) return CommandResult{Result::bad_value};
             pointer_ = value;
-            return Outcome{};
+            return CommandResult{};
+        case SET_POINT_POINTER:
+            if (!kHasSetPoints) break;
+            set_points_.point_at(value);
+            return CommandResult{};
         default:
             break;
     }
-    if (reg >= SETTINGS) return Outcome{settings_.set(static_cast<std::uint8_t>(reg - SETTINGS), value)};
-    return Outcome{is_known(reg) ? Result::read_only : Result::no_register};
+    if (reg >= SETTINGS)
+        return CommandResult{settings_.set(static_cast<std::uint8_t>(reg - SETTINGS), value)};
+    return CommandResult{is_known(reg) ? Result::read_only : Result::no_register};
 }
 
 Result OwnRegisters::force(std::uint8_t reg, std::uint32_t value, base::Instant now) {
@@ -149,31 +166,31 @@ Result OwnRegisters::force(std::uint8_t reg, std::uint32_t value, base::Instant 
 
 Progress OwnRegisters::command(std::uint32_t value, base::Instant now) {
     last_command_ = value;
-    if (value > 0xFF) return Outcome{Result::bad_value};
+    if (value > 0xFF) return CommandResult{Result::bad_value};
     const auto command = static_cast<Command>(value);
     switch (command) {
         case Command::run:
-            return outcome_of(gateway_.run());
+            return command_result_of(gateway_.run());
         case Command::scan:
-            return outcome_of(gateway_.scan_once());
+            return command_result_of(gateway_.scan_once());
         case Command::step:
-            return outcome_of(gateway_.step_once());
+            return command_result_of(gateway_.step_once());
         case Command::hold:
-            return Outcome{gateway_.hold() ? Result::done : Result::not_running};
+            return CommandResult{gateway_.hold() ? Result::done : Result::not_running};
         case Command::stop:
             gateway_.stop(now);
-            return Outcome{};
+            return CommandResult{};
         case Command::safe:
             tables_.abandon_upload();
             gateway_.make_safe(now);
-            return Outcome{};
+            return CommandResult{};
         case Command::clear_log:
             gateway_.clear_log();
-            return Outcome{};
+            return CommandResult{};
         case Command::reset:
             return reset(now);
         case Command::keep_settings:
-            if (gateway_.run_state() != gateway::RunState::stopped) return Outcome{Result::not_stopped};
+            if (gateway_.run_state() != gateway::RunState::stopped) return CommandResult{Result::not_stopped};
             settings_.begin_save();
             waiting_ = Waiting::saving;
             return std::nullopt;
@@ -182,50 +199,74 @@ Progress OwnRegisters::command(std::uint32_t value, base::Instant now) {
         case Command::upload_abort:
         case Command::activate:
             return table_command(command, now);
+        case Command::firmware_begin:
+        case Command::firmware_commit:
+        case Command::firmware_abort:
+            if constexpr (kHasFirmware) return firmware_command(command);
+            break;
     }
-    return Outcome{Result::bad_value};
+    return CommandResult{Result::bad_value};
+}
+
+/// The board may stand still for an erasure: only while nothing can run.
+CommandResult OwnRegisters::firmware_command(Command command) {
+    if (command == Command::firmware_abort) return firmware_.abandon();
+    if (command == Command::firmware_commit)
+        return gateway_.is_in_service() ? firmware_.commit(upload_bytes_, upload_crc_)
+                                        : Result::not_in_service;
+    if (gateway_.run_state() != gateway::RunState::stopped) return Result::not_stopped;
+    const Result begun = firmware_.begin(upload_bytes_);
+    if (begun == Result::done) gateway_.begin_service();
+    return begun;
+}
+
+Progress OwnRegisters::write_firmware(std::span<const std::uint8_t> bytes) {
+    const Result result = firmware_.write(bytes);
+    if (result != Result::busy) return CommandResult{result};
+    waiting_ = Waiting::room;
+    return std::nullopt;
 }
 
 /// After it the stored table is the active one, which it becomes only while the motor stands still.
 Progress OwnRegisters::reset(base::Instant now) {
-    if (gateway_.run_state() != gateway::RunState::stopped) return Outcome{Result::not_stopped};
+    if (gateway_.run_state() != gateway::RunState::stopped) return CommandResult{Result::not_stopped};
     if (tables_.stored().length != 0 && !tables_.stored_is_active()) {
         tables_.begin_activation(now);
         waiting_ = Waiting::reset;
         return std::nullopt;
     }
     reset_asked_ = true;
-    return Outcome{};
+    return CommandResult{};
 }
 
 Progress OwnRegisters::table_command(Command command, base::Instant now) {
     switch (command) {
         case Command::upload_begin:
             pointer_ = 0;
-            return outcome_of(tables_.begin_upload());
+            return command_result_of(tables_.begin_upload());
         case Command::upload_commit:
-            return outcome_of(tables_.commit(upload_bytes_, upload_crc_));
+            return command_result_of(tables_.commit(upload_bytes_, upload_crc_));
         case Command::upload_abort:
             tables_.abandon_upload();
-            return Outcome{};
+            return CommandResult{};
         default:
             break;
     }
-    if (gateway_.run_state() != gateway::RunState::stopped) return Outcome{Result::not_stopped};
+    if (gateway_.run_state() != gateway::RunState::stopped) return CommandResult{Result::not_stopped};
     tables_.begin_activation(now);
     waiting_ = Waiting::activation;
     return std::nullopt;
 }
 
 Progress OwnRegisters::write_table(std::span<const std::uint8_t> bytes) {
-    if (pointer_ + bytes.size() > tables_.capacity()) return Outcome{Result::no_space};
+    if (pointer_ + bytes.size() > tables_.capacity()) return CommandResult{Result::no_space};
     const base::Status status = tables_.upload(pointer_, bytes);
     if (!status && status.error() == base::Error::busy) {
         waiting_ = Waiting::room;
         return std::nullopt;
     }
     if (status) pointer_ += static_cast<std::uint32_t>(bytes.size());
-    return outcome_of(status);
+    return command_result_of(status);
 }
 
 }  // namespace nplc::gateway

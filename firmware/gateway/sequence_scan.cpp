@@ -74,6 +74,7 @@ SequenceScan::Result SequenceScan::begin(std::uint8_t inputs, base::Instant now)
         return Result::waiting;
     }
     progress_ = now;
+    if (take_values(now)) return Result::waiting;
     image_ = present_image(inputs);
     if ((image_ & sequencer::kError) != 0) mode_.set_passive();
     if (unchanged_key_ == engine_.key(image_)) {
@@ -86,6 +87,27 @@ SequenceScan::Result SequenceScan::begin(std::uint8_t inputs, base::Instant now)
     engine_.begin(image_);
     in_scan_ = true;
     return Result::waiting;
+}
+
+/// Not in the middle of a move, nor while what is written would be lost. POWER_UP writes all by itself.
+bool SequenceScan::may_take_values() const {
+    if constexpr (NPLC_SET_POINTS == 0) return false;
+    const std::uint8_t step = engine_.state().step;
+    if (values_ == nullptr || !values_->has_change(step)) return false;
+    if (step == 0) return true;
+    const bool moves = !mode_.is_passive() && !mode_.is_velocity() && !motor_.in_position();
+    return !moves && !motor_.error() && motor_.link() == motor::Link::up;
+}
+
+/// True while the motor has to take one of them.
+bool SequenceScan::take_values(base::Instant now) {
+    if (!may_take_values()) return false;
+    const auto order = values_->take(engine_.state().step);
+    if (!order) return false;
+    motor_.send(*order);
+    motor_.begin_orders(now);
+    if (observer_ != nullptr) observer_->ordered(now, *order);
+    return true;
 }
 
 sequencer::InputImage SequenceScan::present_image(std::uint8_t inputs) const {
@@ -129,6 +151,7 @@ base::Instant SequenceScan::next_poll(std::uint8_t inputs, base::Microseconds lo
     if (resumes_) return now;
     if (in_scan_) return motor_.has_room() ? now : patience(longest_wait);
     if (!motor_.settled()) return idle_ ? now : patience(longest_wait);
+    if (may_take_values()) return std::max(now, next_scan_);
     // At once unless a scan would do nothing; else when the timer is 0, the only part of a key that nobody
     // brings.
     if (unchanged_key_ != engine_.key(present_image(inputs))) return std::max(now, next_scan_);

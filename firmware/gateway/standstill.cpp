@@ -24,7 +24,7 @@ std::uint8_t Standstill::register_of_phase() const {
 }
 
 Progress Standstill::poll(base::Instant now) {
-    if (!motor::delivers(motor_.link()) || now - begun_ > kLongest) return Outcome{Result::link_down};
+    if (!motor::delivers(motor_.link()) || now - begun_ > kLongest) return CommandResult{Result::link_down};
     if (!asked_) {
         if (phase_ == Phase::second_position && now - position_at_ < kBetween) return std::nullopt;
         asked_ = motor_.begin_access({.reg = register_of_phase(), .longword = !is_word()});
@@ -60,14 +60,14 @@ Progress Standstill::take(std::uint32_t value, base::Instant now) {
             phase_ = Phase::speed;
             return std::nullopt;
         case Phase::speed:
-            if (value != 0) return Outcome{Result::moving};
+            if (value != 0) return CommandResult{Result::moving};
             phase_ = Phase::second_position;
             return std::nullopt;
         case Phase::second_position:
             break;
     }
     const bool still = value - position_ + 1 <= 2;  // modulo 2^32: -1, 0 or 1 count
-    return Outcome{still ? Result::done : Result::moving};
+    return CommandResult{still ? Result::done : Result::moving};
 }
 
 }  // namespace nplc::gateway

@@ -20,6 +20,7 @@ bool is_fault(SafeReason reason) {
         case SafeReason::no_port:
         case SafeReason::no_proof:
         case SafeReason::bad_settings:
+        case SafeReason::bad_set_points:
         case SafeReason::bad_run_mark:
             return true;
     }

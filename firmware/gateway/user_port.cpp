@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/bytes.h"
+
 namespace nplc::gateway {
 
 namespace mactalk = protocol::mactalk;
@@ -31,8 +33,10 @@ bool only_reads(Kind kind) {
     if (line_ == nullptr) return;
     decoder_.take_long_writes(static_cast<std::uint8_t>(settings_.at_start(store::Setting::gateway_address)));
     receive(now);
+    const auto unit = static_cast<std::uint8_t>(settings_.at_start(store::Setting::gateway_address));
+    if (modbus_.poll(unit, now, settings_.at_start(store::Setting::user_baud))) begin_modbus(now);
     go_on(now);
-    transmit();
+    transmit(now);
 }
 
 base::Instant UserPort::next_poll(base::Instant now) {
@@ -42,6 +46,9 @@ base::Instant UserPort::next_poll(base::Instant now) {
         case Serving::nothing:
         case Serving::own_write:
             return next;
+        case Serving::set_points:
+            if (!SetPointsPart::kIsThere) return next;
+            return std::min(next, begun_ + SetPointsPart::kLongestWait + base::Microseconds(1));
         case Serving::motor:
             return std::min(next, bridge_.next_poll(now, read_pause()));
         case Serving::motor_line:
@@ -56,7 +63,13 @@ void UserPort::receive(base::Instant now) {
         const std::size_t count = line_->read(bytes);
         for (const auto& byte : std::span(bytes).first(count)) {
             if (byte.framing_error) {
+                modbus_.damaged(now);
                 decoder_.abandon();
+                continue;
+            }
+            const auto unit = static_cast<std::uint8_t>(settings_.at_start(store::Setting::gateway_address));
+            if (modbus_.take(byte.value, unit, now)) {
+                begin_modbus(now);
             } else if (const auto request = decoder_.receive(byte.value)) {
                 begin(*request, now);
             }
@@ -71,18 +84,53 @@ bool UserPort::is_for_motor(std::uint8_t address) const {
 
 void UserPort::begin(const Request& request, base::Instant now) {
     ++own_.port().messages;
+    modbus_.pass_over();
     const bool own = request.address == settings_.at_start(store::Setting::gateway_address);
     if (!own && !is_for_motor(request.address)) return;
     drop();
+    is_modbus_ = false;
     begun_ = now;
     own ? begin_own(request, now) : begin_motor(request, now);
 }
 
+/// In the other of the two languages that the line may speak; as any message it ends the wait for the one
+/// before.
+[[gnu::noinline]] void UserPort::begin_modbus(base::Instant now) {
+    ++own_.port().messages;
+    drop();
+    is_modbus_ = true;
+    begun_ = now;
+    switch (modbus_.begin(now)) {
+        case ModbusPart::Need::nothing:
+            return;
+        case ModbusPart::Need::own_write:
+            data_size_ = sizeof(std::uint32_t);
+            base::store_u32(data_.data(), modbus_.value());
+            own_.begin_write(modbus_.reg(), std::span(data_).first(data_size_), now);
+            serving_ = Serving::own_write;
+            return;
+        case ModbusPart::Need::motor:
+            return begin_motor(modbus_.motor_request(), now);
+    }
+}
+
 void UserPort::drop() {
+    modbus_.drop();
     if (serving_ == Serving::own_write) own_.drop_write();
     if (serving_ == Serving::motor) bridge_.drop();
     serving_ = Serving::nothing;
     out_.size = sent_ = 0;
+}
+
+/// What is being stored of set-points ends as it ends.
+void UserPort::cancel_own_write() {
+    const bool waits_to_set = serving_ == Serving::set_points && set_points_.request == 0;
+    if (serving_ != Serving::own_write && !waits_to_set) return;
+    if (!waits_to_set) own_.drop_write();
+    const std::uint8_t reg =
+        waits_to_set ? std::uint8_t{registers::gateway::SET_POINT_WRITE} : own_.written();
+    own_.set_result(static_cast<std::uint32_t>(Result::too_late) | std::uint32_t{reg} << 8);
+    refuse();
 }
 
 void UserPort::begin_own(const Request& request, base::Instant now) {
@@ -97,6 +145,11 @@ void UserPort::begin_own(const Request& request, base::Instant now) {
         case Kind::write:
             data_size_ = decoder_.data().size();
             std::copy(decoder_.data().begin(), decoder_.data().end(), data_.begin());
+            if (SetPointsPart::kIsThere && request.reg == registers::gateway::SET_POINT_WRITE) {
+                set_points_ = {Origin::user_port, now};
+                serving_ = Serving::set_points;
+                return;
+            }
             own_.begin_write(request.reg, std::span(data_).first(data_size_), now);
             serving_ = Serving::own_write;
             return;
@@ -106,7 +159,10 @@ void UserPort::begin_own(const Request& request, base::Instant now) {
 }
 
 void UserPort::begin_motor(const Request& request, base::Instant now) {
-    if (!motor_allows(request)) return refuse();
+    if (!motor_allows(request)) {
+        if (is_modbus_) modbus_.refuse(Result::not_allowed);
+        return refuse();
+    }
     if (!only_reads(request.kind)) gateway_.forget_mode();
     if (!MotorBridge::carries(request.kind)) return pass_on(now);
     bridge_.begin(request, now);
@@ -143,9 +199,17 @@ void UserPort::go_on(base::Instant now) {
     switch (serving_) {
         case Serving::nothing:
             return;
-        case Serving::own_write: {
-            const Progress outcome = own_.poll_write(std::span(data_).first(data_size_), now);
+        case Serving::own_write:
+        case Serving::set_points: {
+            const auto bytes = std::span(data_).first(data_size_);
+            const bool is_own = !SetPointsPart::kIsThere || serving_ == Serving::own_write;
+            const Progress outcome =
+                is_own ? own_.poll_write(bytes, now) : own_.serve_set_points(set_points_, bytes, now);
             if (!outcome) return;
+            if (is_modbus_) {
+                serving_ = Serving::nothing;
+                return modbus_.end_write(outcome);
+            }
             return outcome.is_done() ? answer(mactalk::encode_accept()) : refuse();
         }
         case Serving::motor:
@@ -165,8 +229,11 @@ void UserPort::serve_motor(base::Instant now) {
         case MotorBridge::State::under_way:
             return;
         case MotorBridge::State::answered:
-            return answer(bridge_.answer());
+            if (!is_modbus_) return answer(bridge_.answer());
+            serving_ = Serving::nothing;
+            return modbus_.end_motor(bridge_.data());
         case MotorBridge::State::failed:
+            if (is_modbus_) modbus_.refuse(Result::link_down);
             return refuse();
     }
 }
@@ -196,8 +263,10 @@ void UserPort::answer(const mactalk::EncodedReply& reply) {
     serving_ = Serving::nothing;
 }
 
-void UserPort::transmit() {
+void UserPort::transmit(base::Instant now) {
     if (sent_ < out_.size) sent_ += line_->write(out_.view().subspan(sent_));
+    if (modbus_.has_out())
+        modbus_.note_sent(line_->write(modbus_.out(now, settings_.at_start(store::Setting::user_baud))));
 }
 
 }  // namespace nplc::gateway

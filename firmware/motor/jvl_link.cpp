@@ -174,7 +174,7 @@ void JvlLink::on_byte(std::uint8_t byte, base::Instant now) {
     if (event.kind == Kind::reply) on_reply(event.reply);
 }
 
-/// An answer repeats its request, so that of a read given up before is told apart, unless it asked the same.
+/// An answer repeats its request, so that of a read dropped before is told apart, unless it asked the same.
 void JvlLink::on_reply(const protocol::flexmac::Message& reply) {
     protocol::flexmac::Message request = reply;
     request.value = 0;

@@ -289,7 +289,7 @@ void JvlMotor::hold_in_position(base::Instant now) {
     hold_counts_ = false;
 }
 
-/// Two motor samples, then a believed status whose bytes are both from after them: of the next two pairs the
+/// Two motor samples, then a valid status whose bytes are both from after them: of the next two pairs the
 /// first may begin with an older byte.
 void JvlMotor::update_hold(base::Instant now) {
     if (!holds_ || now < hold_until_) return;

@@ -84,9 +84,9 @@ MidiOutcome MidiCanLink::receive() {
 
 /// Another master's requests are answered too.
 void MidiCanLink::count(const ports::CanFrame& frame, const can::Answer& answer) {
-    using Said = can::Answer::Kind;
-    const bool answers =
-        answer.kind == Said::accepted || answer.kind == Said::value || answer.kind == Said::refused;
+    using AnswerKind = can::Answer::Kind;
+    const bool answers = answer.kind == AnswerKind::accepted || answer.kind == AnswerKind::value ||
+                         answer.kind == AnswerKind::refused;
     if (answers && answer.address == address_) return answers_.answered();
     const can::Request request = can::decode_request(frame);
     const bool asks = request.kind == can::Request::Kind::command ||

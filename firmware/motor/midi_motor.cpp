@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "motor/midi_guidance.h"
+
 namespace nplc::motor {
 namespace {
 
 namespace midi = registers::midi;
-using registers::A_SOLL;
 using registers::INPOSWIN;
 using registers::MODE_REG;
 using registers::T_SOLL;
@@ -43,8 +44,8 @@ constexpr MidiMessage query(midi::Query number) {
     return {.is_query = true, .number = number};
 }
 
-constexpr MidiMessage command(midi::Command number, std::uint32_t data = 0) {
-    return {.number = number, .data = data};
+constexpr MidiMessage command(midi::Command number) {
+    return {.number = number};
 }
 
 }  // namespace
@@ -290,10 +291,10 @@ void MidiMotor::begin_reset(base::Instant now) {
 }
 
 /// The first reason counts. The drive is led to a stop.
-void MidiMotor::raise(MidiFault fault, Lack lack) {
+void MidiMotor::raise(MidiFault fault, Limitation limitation) {
     if (fault_ == MidiFault::none) {
         fault_ = fault;
-        lack_ = lack;
+        limitation_ = limitation;
     }
     registers_.set_word(MODE_REG, 0);
     registers_.drop_awaited();
@@ -346,86 +347,16 @@ MidiMotor::Message MidiMotor::next_command(base::Instant now) {
     if (reset_wanted_) return command(midi::RESET);
     if (zero_unclear_ || motion_.is_doubtful()) return {};
     if (zero_wanted_) return command(midi::ZERO_POSITION);
-    if (registers_.is_set(T_SOLL)) {
-        const auto torque = midi::torque_of_t_soll(registers_.word(T_SOLL), drive_.most_torque());
-        if (torque && *torque != drive_.torque()) return command(midi::TORQUE, *torque);
-    }
-    if (registers_.is_set(INPOSWIN)) {
-        const auto tolerance = midi::tolerance_of_window(drive_.model(), registers_.word(INPOSWIN));
-        if (tolerance && *tolerance != drive_.tolerance()) return command(midi::TOLERANCE, *tolerance);
-    }
+    MidiGuidance guidance(registers_, drive_, motion_);
+    if (const Message parameter = guidance.next_parameter()) return parameter;
     if (registers_.mode() == 0)
         return motion_.moves() || (motion_.is_stray() && error()) ? command(midi::STOP) : Message{};
     if (refusals_ != 0 && now < retry_at_) return {};
     if (motion_.is_stray()) return command(midi::STOP);
     if (!session_.is_alone(now)) return {};
-    return registers_.mode() == 1 ? next_for_run() : next_for_move();
-}
-
-bool MidiMotor::fit_ramp(std::uint16_t period, std::uint8_t& ramp) {
-    ramp = drive_.ramp();
-    if (!registers_.is_set(A_SOLL)) return true;
-    const auto needed = midi::ramp_of_a_soll(drive_.model(), registers_.word(A_SOLL), period);
-    if (needed) {
-        ramp = *needed;
-        return true;
-    }
-    raise(MidiFault::bad_value, Lack::too_soft);
-    return false;
-}
-
-/// 000 §VI 15h: the speed may be changed in mid-run, the direction may not, nor the ramp.
-MidiMotor::Message MidiMotor::next_for_run() {
-    const std::int32_t speed = registers_.v_soll();
-    if (speed == 0) return motion_.moves() ? command(midi::STOP) : Message{};
-    const auto period = midi::period_of_v_soll(drive_.model(), static_cast<std::int16_t>(speed));
-    if (!period) {
-        raise(MidiFault::bad_value, Lack::too_slow);
-        return {};
-    }
-    const bool left = speed < 0;
-    const std::uint32_t run =
-        std::uint32_t{left ? std::uint8_t{midi::kTurnsLeft} : std::uint8_t{0}} << 16 | *period;
-    if (motion_.state() == MidiMotion::State::running && left == motion_.turns_left())
-        return *period == motion_.period() ? Message{} : command(midi::RUN, run);
-    if (motion_.moves()) return command(midi::STOP);
-    std::uint8_t ramp = 0;
-    if (!motion_.at_rest() || !fit_ramp(*period, ramp)) return {};
-    if (ramp != drive_.ramp()) return command(midi::RAMP, ramp);
-    return command(midi::RUN, run);
-}
-
-/// V_SOLL 0 holds a move back, as JVL's does; unset, the module's own speed holds.
-MidiMotor::Message MidiMotor::next_for_move() {
-    const bool has_speed = registers_.is_set(V_SOLL);
-    const bool is_held_back = has_speed && registers_.v_soll() == 0;
-    if (motion_.state() == MidiMotion::State::running || is_held_back)
-        return motion_.moves() ? command(midi::STOP) : Message{};
-    const auto goal = target();
-    if (!goal) {
-        raise(MidiFault::bad_value, Lack::too_far);
-        return {};
-    }
-    if (motion_.holds(*goal) || !motion_.at_rest()) return {};
-    std::uint16_t period = drive_.period();
-    if (has_speed) {
-        const auto wanted =
-            midi::period_of_v_soll(drive_.model(), static_cast<std::int16_t>(registers_.v_soll()));
-        if (!wanted) {
-            raise(MidiFault::bad_value, Lack::too_slow);
-            return {};
-        }
-        period = *wanted;
-    }
-    if (period == 0) {
-        raise(MidiFault::bad_value, Lack::no_speed);
-        return {};
-    }
-    std::uint8_t ramp = 0;
-    if (!fit_ramp(period, ramp)) return {};
-    if (period != drive_.period()) return command(midi::SPEED, period);
-    if (ramp != drive_.ramp()) return command(midi::RAMP, ramp);
-    return command(midi::GO_TO, static_cast<std::uint32_t>(*goal));
+    const Message motion = guidance.next_motion();
+    if (guidance.limitation() != Limitation::none) raise(MidiFault::bad_value, guidance.limitation());
+    return motion;
 }
 
 /// After all orders. A write is done when its commands are through.
@@ -449,15 +380,15 @@ MidiMotor::Message MidiMotor::next_access() {
 
 // What an order does.
 
-MidiMotor::Lack MidiMotor::lack_of(const Order& order) const {
+MidiMotor::Limitation MidiMotor::limitation_of(const Order& order) const {
     return order.is_register_write
-               ? midi::lack_of_write(drive_.model(), order.reg, order.longword, order.value)
-               : midi::lack_of_command(order.command);
+               ? midi::limitation_of_write(drive_.model(), order.reg, order.longword, order.value)
+               : midi::limitation_of_command(order.command);
 }
 
 void MidiMotor::execute(const Order& order) {
-    const Lack lack = lack_of(order);
-    if (lack != Lack::none) return raise(MidiFault::bad_value, lack);
+    const Limitation limitation = limitation_of(order);
+    if (limitation != Limitation::none) return raise(MidiFault::bad_value, limitation);
     const unsigned number = order.command & 0x1FU;
     const auto mode = static_cast<std::uint16_t>(order.command >> 5 & 3);
     if (order.is_register_write) {
@@ -495,7 +426,7 @@ void MidiMotor::write_word(unsigned number, std::uint16_t value) {
 void MidiMotor::reset_error() {
     session_.acknowledge();
     fault_ = MidiFault::none;
-    lack_ = Lack::none;
+    limitation_ = Limitation::none;
     if (!drive_.trips()) return;
     reset_wanted_ = true;
     fault_ = MidiFault::tripped;
@@ -507,7 +438,7 @@ void MidiMotor::begin_write() {
         .is_register_write = true, .reg = access.reg, .longword = access.longword, .value = access.value};
     access_error_ = error();
     const bool in_vain = order.reg == MODE_REG && access_error_;
-    if (in_vain || lack_of(order) != Lack::none) return access_.fail();
+    if (in_vain || limitation_of(order) != Limitation::none) return access_.fail();
     execute(order);
 }
 
@@ -548,7 +479,7 @@ std::uint32_t MidiMotor::error_bits() const {
 }
 
 std::optional<std::int32_t> MidiMotor::target() const {
-    return midi::increments_of_counts(drive_.model(), registers_.position(registers::P_SOLL));
+    return MidiGuidance(registers_, drive_, motion_).target();
 }
 
 void MidiMotor::stop() {

@@ -95,9 +95,9 @@ bool is_sendable(const Message& message) {
         case Level::reg:
             return message.target != 0 && message.target <= 0xFF;
         case Level::address:
-            return true;
+            break;
     }
-    return false;
+    return true;
 }
 
 class Writer {

@@ -140,10 +140,7 @@ Answer AnswerDecoder::receive(std::uint8_t byte) {
     if (!waiting_) return {};
     const bool begun = frame_.in_frame();
     // A control character within a reply: some of the reply was lost.
-    if (begun && byte < 0x20 && byte != kStx && byte != kEtx) {
-        frame_.abandon();
-        spoilt_ = true;
-    }
+    if (begun && byte < 0x20 && byte != kStx && byte != kEtx) frame_.abandon();
     const FrameReader::State state = frame_.receive(byte);
     if (state == FrameReader::State::inside) {
         if (begun && byte == kStx) spoilt_ = true;

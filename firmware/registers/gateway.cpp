@@ -21,7 +21,12 @@ constexpr std::array kMap{
     Row{STORE_FLAGS, 1, "STORE_FLAGS", kRead,
         "bit 0: the last stored table is damaged or gone, and an older one or none is in use; bit 1: the "
         "same "
-        "of the settings, with older or initial ones"},
+        "of the settings, with older or initial ones; bit 2: the same of the set-points, with older values "
+        "or "
+        "defaults"},
+    Row{PASSWORD_STATE, 1, "PASSWORD_STATE", kRead,
+        "0: this port asks for no password; 1: it does, and this client has not given it; 2: it has"},
+    Row{PASSWORD, 1, "PASSWORD", Access::write, "the port's password, 8 to 128 bytes, see Password below"},
     Row{STATUS, 1, "STATUS", kRead, "see Status below"},
     Row{SAFE_REASON, 1, "SAFE_REASON", kRead, "why the outputs are safe, see Reasons below; 0: they are not"},
     Row{SAFE_SINCE, 1, "SAFE_SINCE", kRead, "UPTIME at which the reason came"},
@@ -37,7 +42,7 @@ constexpr std::array kMap{
     Row{SCANS, 1, "SCANS", kRead, "finished scans, modulo 2^32"},
     Row{SCAN_TIME, 1, "SCAN_TIME", kRead, "us from the end of the scan before to the end of the last one"},
     Row{SCAN_WORST, 1, "SCAN_WORST", kBoth,
-        "the longest SCAN_TIME since the run began; a write sets it to 0"},
+        "the longest SCAN_TIME since the run began; a write sets it and POLL_WORST to 0"},
     Row{LINK, 1, "LINK", kRead, "0 down, 1 starting, 2 works but the loss is not acknowledged (01h), 3 up"},
     Row{FORCE_LEFT, 1, "FORCE_LEFT", kBoth,
         "ms until forcing ends, 0: nothing is forced; a write of any value begins the time anew"},
@@ -58,6 +63,11 @@ constexpr std::array kMap{
         "with a "
         "framing error, breaks too, in bits 15..0; characters lost by overruns in bits 31..16; each stays at "
         "65535"},
+    Row{POLL_WORST, 1, "POLL_WORST", kRead,
+        "us that a poll came late at the worst since the run began, from the poll before or from when a "
+        "sleeping board was to wake"},
+    Row{LATE_POLLS, 1, "LATE_POLLS", kRead,
+        "polls later than the setting poll_limit since the start, while the sequence was not stopped"},
     Row{COMMAND, 1, "COMMAND", Access::write, "see Commands below; reads the last one"},
     Row{FORCE_IN, 1, "FORCE_IN", kBoth, "bits 5..0 levels, bits 13..8 which inputs are forced; 0: none"},
     Row{FORCE_OUT, 1, "FORCE_OUT", kBoth, "bits 3..0 levels, bits 11..8 which outputs are forced; 0: none"},
@@ -80,11 +90,44 @@ constexpr std::array kMap{
         "SCANS of the scan that FIRED is about; reading it (in a block too) takes a new one"},
     Row{FIRED_STEP, 1, "FIRED_STEP", kRead, "the step that it was in"},
     Row{FIRED_KEY, 1, "FIRED_KEY", kRead, "HW_INP in bits 7..0, timer = 0 in bit 8, counter = 0 in bit 9"},
+    Row{SET_POINT_COUNT, 1, "SET_POINT_COUNT", kRead,
+        "set-points of the active table in bits 7..0, most of them in bits 15..8, recipes that there is room "
+        "for in bits 23..16; 0: this firmware keeps none"},
+    Row{SET_POINT_STATE, 1, "SET_POINT_STATE", kRead, "see Set-points below"},
+    Row{SET_POINT_CRC, 1, "SET_POINT_CRC", kRead,
+        "CRC-32 of the values in force, 4 bytes each, in their order"},
+    Row{SET_POINT_CHANGES, 1, "SET_POINT_CHANGES", kRead, "values changed since the start"},
+    Row{SET_POINT_RECORD, 1, "SET_POINT_RECORD", kRead,
+        "CRC-32 of the record of the active table's set-points; 0 without one"},
+    Row{SET_POINT_BYTES, 1, "SET_POINT_BYTES", kRead, "the record's length; 0 without one"},
+    Row{SET_POINT_POINTER, 1, "SET_POINT_POINTER", kBoth,
+        "what SET_POINT_DATA shows: in bits 31..16 0 the record, 1 and on a recipe, 254 how the last "
+        "requests "
+        "ended, 255 the last changes; in bits 15..0 the byte from which"},
+    Row{SET_POINT_DATA, 1, "SET_POINT_DATA", kRead,
+        "in a block from SET_POINT_POINTER: 60 bytes of what it points at; see Set-points below"},
+    Row{SET_POINT_WRITE, 1, "SET_POINT_WRITE", Access::write,
+        "a request of 12 to 108 bytes, see Set-points below"},
     Row{FIRED, kFiredWords, "FIRED", kRead,
         "terms that were true in it: bit n of register 96 + k is term 32 k + n"},
     Row{LOG, 2 * kLogEntries, "LOG", kRead,
         "slot s in 128 + 2 s: UPTIME; 129 + 2 s: event in bits 7..0, step in 15..8, a detail in 31..16; "
         "0: empty"},
+    Row{SET_POINT, kSetPoints, "SET_POINT", kRead,
+        "values in force, in the steps of what takes them, signed"},
+    Row{SET_POINT_WANTED, kSetPoints, "SET_POINT_WANTED", kRead,
+        "values that are stored, in force as soon as the sequence takes them"},
+    Row{FIRMWARE_BOARD, 1, "FIRMWARE_BOARD", kRead,
+        "which board's firmware this is; 0: it is not renewed over this port, and the registers that follow "
+        "read 0"},
+    Row{FIRMWARE_STATE, 1, "FIRMWARE_STATE", kRead,
+        "in bits 15..0 as UPLOAD_STATE, of a firmware; bit 16 the slot that runs; bit 17 it is confirmed"},
+    Row{FIRMWARE_VERSION, kFirmwareSlots, "FIRMWARE_VERSION", kRead,
+        "as FW_VERSION, of what is in slots 0 and 1; 0: none"},
+    Row{FIRMWARE_SLOT, kFirmwareSlots, "FIRMWARE_SLOT", kRead,
+        "of slots 0 and 1: bit 0 complete, bit 1 confirmed, bits 15..8 starts on trial"},
+    Row{FIRMWARE_RECEIVED, 1, "FIRMWARE_RECEIVED", kRead, "bytes taken"},
+    Row{FIRMWARE_DATA, 1, "FIRMWARE_DATA", Access::write, "a piece of a firmware, see Firmware below"},
     Row{SETTINGS, kMostSettings + 1, "SETTINGS", kBoth,
         "200 + n is setting n; written only while stopped; see Settings below"},
 };

@@ -1,5 +1,8 @@
 // Registers of MAC50, MAC95, MAC140 and MAC141 (001 §3.2). Where the manual only recommends a range, the
 // limits are those of the format.
+#include <array>
+
+#include "registers/layout.h"
 #include "tables.h"
 
 namespace nplc::registers {
@@ -166,7 +169,29 @@ constexpr Register kSmall[] = {
 };
 // clang-format on
 
+using Bits = std::array<std::uint32_t, 8>;
+
+template <class Holds>
+constexpr Bits bits_where(const Holds& holds) {
+    Bits bits{};
+    for (const Register& reg : kSmall) {
+        if (holds(reg)) bits[reg.number / 32U] |= 1U << reg.number % 32U;
+    }
+    return bits;
+}
+
+constexpr Bits kLongOnes = bits_where([](const Register& reg) { return is_32_bit(reg.format); });
+constexpr Bits kSignedOnes = bits_where([](const Register& reg) { return reg.min < 0; });
+
+constexpr bool has(const Bits& bits, std::uint8_t number) {
+    return (bits[number / 32U] >> number % 32U & 1U) != 0;
+}
+
 }  // namespace
+
+Width small_width_of(std::uint8_t number) {
+    return {static_cast<std::uint8_t>(has(kLongOnes, number) ? 4 : 2), has(kSignedOnes, number)};
+}
 
 std::span<const Register> small_map() {
     return kSmall;

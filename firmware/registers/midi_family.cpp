@@ -48,8 +48,8 @@ midi::Model which(const DriveModel& model) {
     return static_cast<midi::Model>(model.index);
 }
 
-Refusal refusal_of(midi::Lack lack) {
-    return lack == midi::Lack::none ? Refusal() : midi::text_of(lack);
+Refusal refusal_of(midi::Limitation limitation) {
+    return limitation == midi::Limitation::none ? Refusal() : midi::text_of(limitation);
 }
 
 DriveValue position(midi::Model model, std::uint32_t bits) {
@@ -84,17 +84,17 @@ std::span<const DriveModel> MidiFamily::models() const {
 }
 
 Refusal MidiFamily::refuses_command(const DriveModel&, std::uint8_t command) const {
-    return refusal_of(midi::lack_of_command(command));
+    return refusal_of(midi::limitation_of_command(command));
 }
 
 Refusal MidiFamily::refuses_write(const DriveModel& model, std::uint8_t reg, bool longword,
                                   std::uint32_t value) const {
-    return refusal_of(midi::lack_of_write(which(model), reg, longword, value));
+    return refusal_of(midi::limitation_of_write(which(model), reg, longword, value));
 }
 
 Refusal MidiFamily::refuses_profile(const DriveModel& model, std::int16_t v_soll,
                                     std::uint16_t a_soll) const {
-    return refusal_of(midi::lack_of_profile(which(model), v_soll, a_soll));
+    return refusal_of(midi::limitation_of_profile(which(model), v_soll, a_soll));
 }
 
 std::optional<DriveValue> MidiFamily::value_of(const DriveModel& model, const Register& reg,

@@ -60,108 +60,110 @@ bool takes_any(unsigned cell) {
     return kP.has(cell) || (kPointers.has(cell) && cell != L_REG_P);
 }
 
-Lack lack_of_missing(unsigned cell) {
-    if (kL.has(cell) || cell == L_REG_P || cell == KVOUT) return Lack::load_factor;
-    if (cell == P_FNC || cell == P_FNC + 1U) return Lack::function_error;
-    if (cell == P_IST || cell == P_IST + 1U) return Lack::actual_position;
-    if (kHome.has(cell)) return Lack::homing;
-    if (cell == GEARF1 || cell == GEARF2 || cell == V_EXT) return Lack::gear;
-    return cell == ANINP ? Lack::analogue : Lack::no_register;
+Limitation limitation_of_missing(unsigned cell) {
+    if (kL.has(cell) || cell == L_REG_P || cell == KVOUT) return Limitation::load_factor;
+    if (cell == P_FNC || cell == P_FNC + 1U) return Limitation::function_error;
+    if (cell == P_IST || cell == P_IST + 1U) return Limitation::actual_position;
+    if (kHome.has(cell)) return Limitation::homing;
+    if (cell == GEARF1 || cell == GEARF2 || cell == V_EXT) return Limitation::gear;
+    return cell == ANINP ? Limitation::analogue : Limitation::no_register;
 }
 
-Lack lack_of_word(Model model, unsigned cell, std::uint16_t value) {
-    if (takes_any(cell)) return Lack::none;
-    if (cell == MODE_REG) return value <= 2 ? Lack::none : Lack::mode;
+Limitation limitation_of_word(Model model, unsigned cell, std::uint16_t value) {
+    if (takes_any(cell)) return Limitation::none;
+    if (cell == MODE_REG) return value <= 2 ? Limitation::none : Limitation::mode;
     if (cell == V_SOLL || kV.has(cell))
-        return period_of_v_soll(model, static_cast<std::int16_t>(value)) ? Lack::none : Lack::too_slow;
-    if (cell == A_SOLL || kA.has(cell)) return value != 0 ? Lack::none : Lack::no_acceleration;
-    if (cell == T_SOLL || kT.has(cell)) return value <= kMostTorqueOfT ? Lack::none : Lack::too_much_torque;
+        return period_of_v_soll(model, static_cast<std::int16_t>(value)) ? Limitation::none
+                                                                         : Limitation::too_slow;
+    if (cell == A_SOLL || kA.has(cell)) return value != 0 ? Limitation::none : Limitation::no_acceleration;
+    if (cell == T_SOLL || kT.has(cell))
+        return value <= kMostTorqueOfT ? Limitation::none : Limitation::too_much_torque;
     if (cell == INPOSWIN || kZ.has(cell))
-        return tolerance_of_window(model, value) ? Lack::none : Lack::window;
-    return lack_of_missing(cell);
+        return tolerance_of_window(model, value) ? Limitation::none : Limitation::window;
+    return limitation_of_missing(cell);
 }
 
 /// 001 §5.2.1.4. The link's own commands (0Ah, 0Bh, 13h, 1Dh to 1Fh) and NOPs have nothing to do here.
-Lack lack_of_number(std::uint8_t number) {
+Limitation limitation_of_number(std::uint8_t number) {
     switch (number) {
         case 0x04:
         case 0x08:
         case 0x09:
         case 0x16:
-            return Lack::function_error;
+            return Limitation::function_error;
         case 0x10:
-            return Lack::homing;
+            return Limitation::homing;
         default:
-            return Lack::none;
+            return Limitation::none;
     }
 }
 
 }  // namespace
 
-std::string_view text_of(Lack lack) {
-    switch (lack) {
-        case Lack::none:
+std::string_view text_of(Limitation limitation) {
+    switch (limitation) {
+        case Limitation::none:
             return "the MIDI drive can do this";
-        case Lack::load_factor:
+        case Limitation::load_factor:
             return "a MIDI drive has no load factor: leave out the L registers and KVOUT";
-        case Lack::function_error:
+        case Limitation::function_error:
             return "a MIDI drive has no P_FNC: move by P_SOLL, or relative with 11h, 12h or 15h";
-        case Lack::homing:
+        case Limitation::homing:
             return "a MIDI drive searches no home: move to a sensor, then set P_IST to 0 with 03h";
-        case Lack::mode:
+        case Limitation::mode:
             return "a MIDI drive has modes 0 (stop), 1 (velocity) and 2 (position) only";
-        case Lack::gear:
+        case Limitation::gear:
             return "a MIDI drive has no pulse input and no gear";
-        case Lack::analogue:
+        case Limitation::analogue:
             return "a MIDI drive has no analogue input";
-        case Lack::actual_position:
+        case Limitation::actual_position:
             return "a MIDI drive's position can only be set to 0: write P_IST as a longword 0, or send 03h";
-        case Lack::no_register:
+        case Limitation::no_register:
             return "a MIDI drive has nothing that this register could set";
-        case Lack::too_far:
+        case Limitation::too_far:
             return "this position is beyond a MIDI drive's -1073741824 to 1073741823 increments";
-        case Lack::too_slow:
+        case Limitation::too_slow:
             return "a MIDI drive cannot turn so slowly: V 0, or at least 2 on MAC34 and 8 on MAC23 (0.95 and "
                    "3.8 rpm)";
-        case Lack::no_speed:
+        case Limitation::no_speed:
             return "the MIDI drive's own speed is none (period 0): select or write V before a move";
-        case Lack::no_acceleration:
+        case Limitation::no_acceleration:
             return "acceleration 0 would have no limit on a MIDI drive: give A at least 1";
-        case Lack::too_soft:
+        case Limitation::too_soft:
             return "this speed with this acceleration needs a ramp of more than 30600 increments: raise A or "
                    "lower V";
-        case Lack::too_much_torque:
+        case Limitation::too_much_torque:
             return "torque above 1023 does not exist";
-        case Lack::window:
+        case Limitation::window:
             return "a MIDI drive's window (INPOSWIN, Z) is 1 to 104 counts on MAC34 and 1 to 524 on MAC23";
     }
     return {};
 }
 
-Lack lack_of_command(std::uint8_t command) {
+Limitation limitation_of_command(std::uint8_t command) {
     const auto mode = static_cast<std::uint8_t>(command >> 5 & 3);
     const auto low = static_cast<std::uint8_t>(command & 0x1F);
-    if (mode == kCommandMode) return lack_of_number(low);
-    return low >= kFirstL && low < kFirstZ ? Lack::load_factor : Lack::none;
+    if (mode == kCommandMode) return limitation_of_number(low);
+    return low >= kFirstL && low < kFirstZ ? Limitation::load_factor : Limitation::none;
 }
 
-Lack lack_of_write(Model model, std::uint8_t reg, bool longword, std::uint32_t value) {
-    if (longword && reg == P_IST) return value == 0 ? Lack::none : Lack::actual_position;
-    const Lack lack = lack_of_word(model, reg, static_cast<std::uint16_t>(value));
-    if (lack != Lack::none || !longword) return lack;
+Limitation limitation_of_write(Model model, std::uint8_t reg, bool longword, std::uint32_t value) {
+    if (longword && reg == P_IST) return value == 0 ? Limitation::none : Limitation::actual_position;
+    const Limitation limitation = limitation_of_word(model, reg, static_cast<std::uint16_t>(value));
+    if (limitation != Limitation::none || !longword) return limitation;
     if (is_pair(reg)) {
         const bool fits = increments_of_counts(model, static_cast<std::int32_t>(value)).has_value();
-        return fits ? Lack::none : Lack::too_far;
+        return fits ? Limitation::none : Limitation::too_far;
     }
-    return lack_of_word(model, reg + 1U, static_cast<std::uint16_t>(value >> 16));
+    return limitation_of_word(model, reg + 1U, static_cast<std::uint16_t>(value >> 16));
 }
 
-Lack lack_of_profile(Model model, std::int16_t v_soll, std::uint16_t a_soll) {
-    if (v_soll == 0) return Lack::none;
+Limitation limitation_of_profile(Model model, std::int16_t v_soll, std::uint16_t a_soll) {
+    if (v_soll == 0) return Limitation::none;
     const auto period = period_of_v_soll(model, v_soll);
-    if (!period) return Lack::too_slow;
-    if (a_soll == 0) return Lack::no_acceleration;
-    return ramp_of_a_soll(model, a_soll, *period) ? Lack::none : Lack::too_soft;
+    if (!period) return Limitation::too_slow;
+    if (a_soll == 0) return Limitation::no_acceleration;
+    return ramp_of_a_soll(model, a_soll, *period) ? Limitation::none : Limitation::too_soft;
 }
 
 std::optional<std::int32_t> increments_of_counts(Model model, std::int32_t counts) {

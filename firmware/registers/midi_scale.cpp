@@ -6,7 +6,6 @@ namespace nplc::registers::midi {
 namespace {
 
 constexpr std::uint32_t kMinutePerRev = kTicksPerSecond * 60;
-constexpr std::uint16_t kLongest = 0xFFFF;
 constexpr auto kTwiceRamp = std::uint64_t{2} * kRampIncrements;
 
 /// measure = (value + offset) x numerator / denominator, a value in thousandths.
@@ -45,29 +44,6 @@ std::uint32_t rpm_times_period(Model model) {
     return kMinutePerRev / static_cast<std::uint32_t>(facts_of(model).increments_per_rev);
 }
 
-std::optional<std::uint16_t> period_of_rpm(Model model, Ratio rpm) {
-    const Ratio period = Ratio{rpm_times_period(model), 1} / rpm;
-    const std::int64_t nearest = (2 * period.numerator + period.denominator) / (2 * period.denominator);
-    // Slower than 65535 and faster than 1 is not to be had, though it would round to them.
-    const bool slower = period.numerator > kLongest * period.denominator;
-    if (slower || period.numerator < period.denominator) return std::nullopt;
-    return static_cast<std::uint16_t>(nearest);
-}
-
-std::optional<std::uint16_t> period_of_speed(std::uint32_t increments_per_second) {
-    const std::uint32_t speed = increments_per_second;
-    if (speed > kTicksPerSecond || speed * std::uint64_t{kLongest} < kTicksPerSecond) return std::nullopt;
-    return static_cast<std::uint16_t>((kTicksPerSecond + speed / 2) / speed);
-}
-
-Ratio rpm_of_period(Model model, std::uint16_t period) {
-    return Ratio{rpm_times_period(model), 1} / Ratio{period, 1};
-}
-
-Ratio speed_of_period(std::uint16_t period) {
-    return Ratio{kTicksPerSecond, 1} / Ratio{period, 1};
-}
-
 std::optional<std::uint8_t> unstall_of_speed(std::uint32_t increments_per_second) {
     constexpr std::uint32_t kFastest = kTicksPerSecond / kTicksPerLongPeriod;
     const std::uint32_t speed = increments_per_second;
@@ -90,15 +66,6 @@ std::optional<std::uint8_t> ramp_of(std::uint32_t speed, std::uint32_t accelerat
         (is_enough(middle) ? ramp : below) = middle;
     }
     return static_cast<std::uint8_t>(ramp);
-}
-
-Ratio acceleration_of(std::uint8_t ramp, std::uint32_t speed) {
-    return Ratio{speed, 1} * (Ratio{speed, 1} / Ratio{static_cast<std::int64_t>(kTwiceRamp * ramp), 1});
-}
-
-std::optional<std::uint8_t> torque_of(std::uint32_t part, std::uint32_t whole, std::uint8_t imax) {
-    if (part > whole || whole == 0 || whole > kLongest) return std::nullopt;
-    return static_cast<std::uint8_t>(part * imax / whole);
 }
 
 std::int32_t temperature_of(Model model, std::uint8_t measure) {

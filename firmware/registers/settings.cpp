@@ -49,6 +49,8 @@ constexpr std::array<SettingInfo, kSettings> kAll{{
      "a MIDI drive's address on its V24 line; from the next reset on if kept"},
     {Setting::require_proof, "require_proof", "", 0, 0, 1, false, false,
      "1: a table starts only if it was uploaded with a certificate of seqc verify"},
+    {Setting::poll_limit, "poll_limit", "us", 5'000, 1'000, 1'000'000, false, false,
+     "a poll so much later than due, while the sequence is not stopped, is an event"},
 }};
 
 /// What the firmware needs of a setting, in eight bytes: a board that shows no names has none in its memory.

@@ -1,22 +1,8 @@
 #include "store/settings_store.h"
 
-#include <algorithm>
-
 #include "base/crc32.h"
 
 namespace nplc::store {
-
-base::Status SettingsStore::Check::take(std::span<const std::uint8_t> bytes) {
-    if (bytes.size() > bytes_.size() - have_) return base::Error::no_space;
-    std::copy(bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(have_));
-    have_ += bytes.size();
-    return {};
-}
-
-base::Status SettingsStore::Check::end() {
-    const auto values = decode_settings(std::span(bytes_).first(have_));
-    return values ? base::Status{} : base::Status{values.error()};
-}
 
 base::Result<SettingValues> SettingsStore::mount() {
     if (const auto status = slots_.mount(); !status) return status.error();

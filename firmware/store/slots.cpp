@@ -17,10 +17,6 @@ bool is_blank(std::span<const std::uint8_t> bytes) {
 }  // namespace
 
 base::Status Slots::mount() {
-    phase_ = Phase::idle;
-    waiting_ = false;
-    current_.reset();
-    fallback_ = false;
     if (!layout_.is_possible()) return base::Error::bad_geometry;
     for (unsigned i = 0; i < slots_.size(); ++i) {
         if (const auto status = examine(slots_[i], i); !status) return status;
@@ -38,10 +34,7 @@ base::Status Slots::examine(Slot& slot, unsigned number) {
     if (const auto status = storage_.read(layout_.mark(number), mark); !status) return status;
     if (const auto status = storage_.read(layout_.superseded(number), superseded); !status) return status;
     slot.superseded = !is_blank(superseded);
-    if (is_blank(mark)) {
-        slot.state = is_blank(header) ? SlotState::empty : SlotState::unfinished;
-        return {};
-    }
+    if (is_blank(mark)) return {};
     slot.state = SlotState::damaged;
     const auto decoded = decode(header);
     slot.header_known = decoded.ok() && decoded.value().kind == kind_ &&

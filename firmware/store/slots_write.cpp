@@ -37,14 +37,12 @@ base::Status Slots::write(std::uint32_t offset, std::span<const std::uint8_t> by
     return {};
 }
 
-/// Both buffers still hold what came last.
+/// Both buffers still hold what came last, one behind the other up to received_.
 bool Slots::repeats(std::uint32_t offset, std::span<const std::uint8_t> bytes) const {
     if (offset > received_ || received_ - offset < bytes.size() || bytes.empty()) return false;
     for (const std::uint8_t byte : bytes) {
         const Buffer& buffer = offset >= fill_.begin ? fill_ : flush_;
-        if (offset < buffer.begin || offset - buffer.begin >= buffer.used ||
-            buffer.bytes[offset - buffer.begin] != byte)
-            return false;
+        if (offset < buffer.begin || buffer.bytes[offset - buffer.begin] != byte) return false;
         ++offset;
     }
     return true;
@@ -64,21 +62,16 @@ base::Status Slots::finish(std::uint32_t length, std::uint32_t crc) {
 }
 
 void Slots::poll() {
-    if (phase_ != Phase::erasing && phase_ != Phase::receiving && phase_ != Phase::closing) return;
-    if (wait_for_storage()) return;
-    switch (phase_) {
-        case Phase::erasing:
-            if (!is_erased()) return erase_next();
-            phase_ = Phase::receiving;
-            return;
-        case Phase::receiving:
-            if (flushed() && fill_.used == kBuffer) flush_fill();
-            if (!flushed()) program_next(layout_.content(target_));
-            return;
-        case Phase::closing:
-            return close_next();
-        default:
-            return;
+    const bool works = phase_ == Phase::erasing || phase_ == Phase::receiving || phase_ == Phase::closing;
+    if (!works || wait_for_storage()) return;
+    if (phase_ == Phase::closing) return close_next();
+    if (phase_ == Phase::receiving) {
+        if (flushed() && fill_.used == kBuffer) flush_fill();
+        if (!flushed()) program_next(layout_.content(target_));
+    } else if (is_erased()) {
+        phase_ = Phase::receiving;
+    } else {
+        erase_next();
     }
 }
 
@@ -220,8 +213,8 @@ void Slots::set_current() {
     target_ = 1U - target_;
     erased_ = layout_.slot_bytes();
     const SlotState other = slots_[target_].state;
-    if (other == SlotState::empty) erased_ -= layout_.erase_block();
-    if (other == SlotState::unfinished || other == SlotState::damaged) erased_ = 0;
+    if (other == SlotState::unfinished) erased_ -= layout_.erase_block();
+    if (other == SlotState::damaged) erased_ = 0;
     if (other != SlotState::good) slots_[target_] = {};
     closing_ = Closing::clearing;
 }

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "file_descriptor.h"
+#include "hal_linux/whole_file.h"
 #include "storage_bounds.h"
-#include "whole_file.h"
 
 namespace nplc::hal_linux {
 namespace {

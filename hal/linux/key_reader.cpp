@@ -24,9 +24,11 @@ KeyReader::~KeyReader() {
     if (saved_ != nullptr) tcsetattr(STDIN_FILENO, TCSANOW, &saved_->mode);
 }
 
-std::optional<char> KeyReader::key(std::chrono::milliseconds wait) {
-    pollfd input{.fd = saved_ != nullptr ? STDIN_FILENO : -1, .events = POLLIN, .revents = 0};
-    if (poll(&input, 1, static_cast<int>(wait.count())) <= 0) return std::nullopt;
+std::optional<char> KeyReader::key(std::chrono::milliseconds wait, int other) {
+    pollfd watched[] = {{.fd = saved_ != nullptr ? STDIN_FILENO : -1, .events = POLLIN, .revents = 0},
+                        {.fd = other, .events = POLLIN, .revents = 0}};
+    const pollfd& input = watched[0];
+    if (poll(watched, 2, static_cast<int>(wait.count())) <= 0) return std::nullopt;
     char key = 0;
     if ((input.revents & POLLIN) != 0 && read(STDIN_FILENO, &key, 1) == 1) return key;
     if ((input.revents & POLLHUP) != 0) saved_.reset();

@@ -8,7 +8,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
+#include <system_error>
+
+#include "host/paths.h"
 
 extern char** environ;
 
@@ -69,6 +73,12 @@ unsigned long own_process() {
     return static_cast<unsigned long>(::getpid());
 }
 
+std::string own_folder() {
+    std::error_code error;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+    return error ? "" : name_of(program.parent_path());
+}
+
 Ran run_program(const std::string& program, const std::vector<std::string>& arguments,
                 const std::string& input) {
     const Scratch in(std::tmpfile());
@@ -87,7 +97,8 @@ Ran run_program(const std::string& program, const std::vector<std::string>& argu
         ran.problem = "cannot run '" + program + "': " + std::strerror(ended.error);
         return ran;
     }
-    ran.done = WIFEXITED(ended.status) && WEXITSTATUS(ended.status) == 0;
+    if (WIFEXITED(ended.status)) ran.status = WEXITSTATUS(ended.status);
+    ran.done = ran.status == 0;
     ran.output = content_of(out.get());
     ran.errors = content_of(err.get());
     return ran;

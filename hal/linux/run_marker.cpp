@@ -11,7 +11,7 @@
 
 #include "base/crc32.h"
 #include "file_descriptor.h"
-#include "whole_file.h"
+#include "hal_linux/whole_file.h"
 
 namespace nplc::hal_linux {
 namespace {

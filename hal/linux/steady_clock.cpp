@@ -9,4 +9,9 @@ base::Instant SteadyClock::now() {
     return base::Instant(std::chrono::duration_cast<base::Microseconds>(since));
 }
 
+std::uint64_t calendar_milliseconds() {
+    const auto since = std::chrono::system_clock::now().time_since_epoch();
+    return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(since).count());
+}
+
 }  // namespace nplc::hal_linux

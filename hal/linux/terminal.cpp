@@ -23,6 +23,11 @@ bool input_within(base::Milliseconds wait) {
     return ::poll(&input, 1, static_cast<int>(wait.count())) > 0;
 }
 
+std::size_t read_input(std::span<char> into) {
+    const auto count = ::read(STDIN_FILENO, into.data(), into.size());
+    return count > 0 ? static_cast<std::size_t>(count) : 0;
+}
+
 bool output_has_reader() {
     pollfd output{.fd = STDOUT_FILENO, .events = 0, .revents = 0};
     return ::poll(&output, 1, 0) <= 0 || (output.revents & (POLLERR | POLLHUP)) == 0;

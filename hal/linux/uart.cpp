@@ -27,13 +27,17 @@ bool fits_baud(std::uint32_t made, std::uint32_t wanted) {
     return std::abs(off) * 40 <= std::int64_t{wanted};
 }
 
-/// Raw, with framing errors marked.
-bool set_mode(int descriptor) {
+/// Raw, with framing and parity errors marked.
+bool set_mode(int descriptor, const UartSettings& settings) {
     termios mode{};
     if (::tcgetattr(descriptor, &mode) != 0) return false;
     mode = raw_mode(mode, B38400);
     mode.c_iflag &= ~static_cast<tcflag_t>(IGNPAR | IGNBRK | BRKINT);
     mode.c_iflag |= static_cast<tcflag_t>(PARMRK | INPCK);
+    if (settings.parity != Parity::none) mode.c_cflag |= static_cast<tcflag_t>(PARENB);
+    if (settings.parity == Parity::odd) mode.c_cflag |= static_cast<tcflag_t>(PARODD);
+    if (settings.parity == Parity::even) mode.c_cflag &= ~static_cast<tcflag_t>(PARODD);
+    if (settings.two_stop_bits) mode.c_cflag |= static_cast<tcflag_t>(CSTOPB);
     return ::tcsetattr(descriptor, TCSANOW, &mode) == 0;
 }
 
@@ -47,7 +51,7 @@ bool set_rs485(int descriptor, const Rs485& wanted) {
 
 std::string set_up(int descriptor, const UartSettings& settings) {
     const std::string& path = settings.path;
-    if (!set_mode(descriptor)) return path + ": cannot be set up: " + std::strerror(errno);
+    if (!set_mode(descriptor, settings)) return path + ": cannot be set up: " + std::strerror(errno);
     if (!set_any_baud(descriptor, settings.baud) || !fits_baud(present_baud(descriptor), settings.baud))
         return path + ": this device cannot do " + std::to_string(settings.baud) + " baud";
     if (settings.rs485 && !set_rs485(descriptor, *settings.rs485))

@@ -1,4 +1,4 @@
-#include "whole_file.h"
+#include "hal_linux/whole_file.h"
 
 #include <fcntl.h>
 

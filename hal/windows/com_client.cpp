@@ -5,7 +5,7 @@
 
 #include "clients.h"
 #include "handle.h"
-#include "words.h"
+#include "text.h"
 
 namespace nplc::hal_windows {
 namespace {
@@ -74,7 +74,7 @@ std::string cannot_open(const std::string& port, DWORD reason) {
         case ERROR_PATH_NOT_FOUND:
             return port + ": there is no such port; is the device connected? The device manager lists them";
         default:
-            return port + ": cannot be opened: " + error_words(reason);
+            return port + ": cannot be opened: " + error_text(reason);
     }
 }
 
@@ -112,7 +112,7 @@ host::ByteClient::Opened open_com_client(const std::string& port, std::uint32_t 
     if (!::SetCommState(handle.get(), &mode))
         return {
             nullptr,
-            port + ": cannot be set to " + std::to_string(baud) + " baud: " + error_words(::GetLastError()),
+            port + ": cannot be set to " + std::to_string(baud) + " baud: " + error_text(::GetLastError()),
             true};
     ::PurgeComm(handle.get(), PURGE_RXCLEAR | PURGE_TXCLEAR);
     return {std::make_unique<ComClient>(std::move(handle), port, before), {}};

@@ -3,14 +3,16 @@
 #include <windows.h>
 
 #include <array>
+#include <filesystem>
 
 #include "handle.h"
-#include "words.h"
+#include "host/paths.h"
+#include "text.h"
 
 namespace nplc::host {
 namespace {
 
-using hal_windows::error_words;
+using hal_windows::error_text;
 using hal_windows::Handle;
 using hal_windows::wide;
 
@@ -74,6 +76,12 @@ unsigned long own_process() {
     return ::GetCurrentProcessId();
 }
 
+std::string own_folder() {
+    std::array<wchar_t, 32'768> name{};
+    const DWORD length = ::GetModuleFileNameW(nullptr, name.data(), static_cast<DWORD>(name.size()));
+    return length == 0 ? "" : name_of(std::filesystem::path(name.data(), name.data() + length).parent_path());
+}
+
 Ran run_program(const std::string& program, const std::vector<std::string>& arguments,
                 const std::string& input) {
     const Handle in = scratch();
@@ -81,7 +89,7 @@ Ran run_program(const std::string& program, const std::vector<std::string>& argu
     const Handle err = scratch();
     Ran ran;
     if (!in || !out || !err || !fill(in, input)) {
-        ran.problem = "cannot write a temporary file: " + error_words(::GetLastError());
+        ran.problem = "cannot write a temporary file: " + error_text(::GetLastError());
         return ran;
     }
     STARTUPINFOW start{};
@@ -96,14 +104,15 @@ Ran run_program(const std::string& program, const std::vector<std::string>& argu
                           &child)) {
         const DWORD reason = ::GetLastError();
         ran.missing = reason == ERROR_FILE_NOT_FOUND || reason == ERROR_PATH_NOT_FOUND;
-        ran.problem = "cannot run '" + program + "': " + error_words(reason);
+        ran.problem = "cannot run '" + program + "': " + error_text(reason);
         return ran;
     }
     const Handle thread(child.hThread);
     const Handle process(child.hProcess);
     DWORD code = 1;
     ::WaitForSingleObject(process.get(), INFINITE);
-    ran.done = ::GetExitCodeProcess(process.get(), &code) && code == 0;
+    if (::GetExitCodeProcess(process.get(), &code)) ran.status = static_cast<int>(code);
+    ran.done = ran.status == 0;
     ran.output = content_of(out);
     ran.errors = content_of(err);
     return ran;

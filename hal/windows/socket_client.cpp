@@ -7,7 +7,7 @@
 #include "clients.h"
 #include "host/endpoint.h"
 #include "host/loopback.h"
-#include "words.h"
+#include "text.h"
 
 namespace nplc::hal_windows {
 namespace {
@@ -121,7 +121,7 @@ int join(SOCKET socket, const sockaddr_in& address) {
 std::string cannot_connect(const std::string& name, int reason) {
     if (reason == WSAECONNREFUSED || reason == WSAETIMEDOUT)
         return name + ": nobody listens there; is the program running?";
-    return name + ": cannot be connected: " + error_words(static_cast<unsigned long>(reason));
+    return name + ": cannot be connected: " + error_text(static_cast<unsigned long>(reason));
 }
 
 }  // namespace

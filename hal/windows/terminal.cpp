@@ -44,6 +44,12 @@ bool input_within(base::Milliseconds wait) {
     return ::WaitForSingleObject(input, static_cast<DWORD>(wait.count())) == WAIT_OBJECT_0;
 }
 
+std::size_t read_input(std::span<char> into) {
+    DWORD count = 0;
+    const HANDLE input = ::GetStdHandle(STD_INPUT_HANDLE);
+    return ::ReadFile(input, into.data(), static_cast<DWORD>(into.size()), &count, nullptr) != 0 ? count : 0;
+}
+
 bool output_has_reader() {
     const HANDLE output = ::GetStdHandle(STD_OUTPUT_HANDLE);
     if (::GetFileType(output) != FILE_TYPE_PIPE) return true;

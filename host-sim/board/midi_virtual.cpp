@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include "sim/midi_stage.h"
 
 namespace nplc::sim {
 namespace {
@@ -16,20 +16,6 @@ MidiDriveOptions complete(MidiDriveOptions options) {
     if (options.can && options.address == 0) options.address = 1;
     if (options.rate == 0) options.rate = options.can ? kCanRate : midi::kFactoryBaud;
     return options;
-}
-
-MidiModule::Input input_of(action::DriveInput input) {
-    switch (input) {
-        case action::DriveInput::upper_stop:
-            return MidiModule::Input::upper_stop;
-        case action::DriveInput::lower_stop:
-            return MidiModule::Input::lower_stop;
-        case action::DriveInput::reference:
-            return MidiModule::Input::reference;
-        case action::DriveInput::security:
-            return MidiModule::Input::security;
-    }
-    return MidiModule::Input::security;
 }
 
 }  // namespace
@@ -72,7 +58,7 @@ std::string MidiVirtual::note(const motor::AnyDriver& driver) const {
     const MidiFault fault = motor != nullptr ? motor->fault() : MidiFault::none;
     if (fault == MidiFault::none) return {};
     std::string text(motor::text_of(fault));
-    if (fault == MidiFault::bad_value) text += fmt::format(": {}", midi::text_of(motor->lack()));
+    if (fault == MidiFault::bad_value) text += fmt::format(": {}", midi::text_of(motor->limitation()));
     if (fault != MidiFault::tripped) return text;
     for (const midi::Bit& bit : midi::status_bits()) {
         if ((motor->drive_status() & midi::kTrips & bit.mask) != 0) text += fmt::format("; {}", bit.text);
@@ -88,11 +74,6 @@ void MidiVirtual::sample() {
 
 std::int32_t MidiVirtual::shaft() const {
     return midi::counts_of_increments(options_.model, static_cast<std::int32_t>(drive_.module().shaft()));
-}
-
-std::int64_t MidiVirtual::increments_of(std::int64_t counts) const {
-    const registers::Scale scale = registers::scale_of(registers::Model::mac140);
-    return counts * midi::facts_of(options_.model).increments_per_rev / scale.counts_per_rev;
 }
 
 void MidiVirtual::fill(Snapshot& snapshot) const {
@@ -114,44 +95,12 @@ bool MidiVirtual::fail() {
     return true;
 }
 
-bool MidiVirtual::load(int torque) {
-    drive_.module().set_load(torque * options_.module.imax / kWholeTorque);
-    return true;
-}
-
 void MidiVirtual::store(const StoredRegister& parameter) {
     drive_.module().execute(parameter.number, 0, parameter.bits);
 }
 
-bool MidiVirtual::stop(const action::StopMotor& stop) {
-    if (stop.torque_per_count != 0) return false;
-    drive_.module().stop_shaft(stop.above, increments_of(stop.counts));
-    return true;
-}
-
-bool MidiVirtual::set_input(const action::SetDriveInput& input) {
-    drive_.module().set_input(input_of(input.input), input.active);
-    return true;
-}
-
-bool MidiVirtual::connect(const action::DriveSwitch& connected) {
-    drive_.module().connect(input_of(connected.input), connected.on_above, increments_of(connected.counts));
-    return true;
-}
-
-bool MidiVirtual::set_supply(double volts) {
-    drive_.module().set_supply(static_cast<std::int32_t>(std::lround(1000 * volts)));
-    return true;
-}
-
-bool MidiVirtual::set_temperature(int celsius) {
-    drive_.module().set_temperature(1000 * celsius);
-    return true;
-}
-
-bool MidiVirtual::break_encoder() {
-    drive_.module().connect_encoder(false);
-    return true;
+std::string_view MidiVirtual::act(const action::OnMotor& what) {
+    return sim::act(drive_.module(), what) ? std::string_view() : missing_for(what);
 }
 
 }  // namespace nplc::sim

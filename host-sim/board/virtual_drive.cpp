@@ -27,6 +27,29 @@ std::unique_ptr<VirtualDrive> make_virtual_drive(const VirtualDriveOptions& opti
     return nullptr;
 }
 
+namespace {
+
+struct MissingPart {
+    std::string_view operator()(const action::LoadMotor&) const { return "a load"; }
+    std::string_view operator()(const action::MotorBrake&) const { return "a brake"; }
+    std::string_view operator()(const action::StopMotor&) const { return "a mechanical stop of that kind"; }
+    std::string_view operator()(const action::FreeMotor&) const { return {}; }
+    std::string_view operator()(const action::MotorSensor&) const { return "a home sensor"; }
+    std::string_view operator()(const action::SetDriveInput&) const { return "an input of that kind"; }
+    std::string_view operator()(const action::DriveSwitch&) const { return "an input of that kind"; }
+    std::string_view operator()(const action::MotorAnalogue&) const { return "an analogue input"; }
+    std::string_view operator()(const action::MotorPulses&) const { return "a pulse input"; }
+    std::string_view operator()(const action::MotorSupply&) const { return "a supply that can be set"; }
+    std::string_view operator()(const action::MotorTemperature&) const { return "a temperature"; }
+    std::string_view operator()(const action::BreakEncoder&) const { return "an encoder that can break"; }
+};
+
+}  // namespace
+
+std::string_view missing_for(const action::OnMotor& what) {
+    return std::visit(MissingPart{}, what);
+}
+
 void spoil(LineDirection& direction, const action::SpoilLine& what) {
     LineFaults faults = direction.faults();
     faults.drop = what.drop.value_or(faults.drop);

@@ -13,6 +13,8 @@ MacMotorOptions motor_options(const WorldOptions& options) {
     MacMotorOptions result;
     result.baud = static_cast<std::int32_t>(options.baud);
     result.old_register_codes = options.old_register_codes;
+    result.depth = options.depth;
+    result.load = options.load;
     return result;
 }
 
@@ -56,11 +58,13 @@ World::World(std::vector<std::uint8_t> table, const WorldOptions& options)
 
 void World::start_gateway(gateway::StartCause cause) {
     const bool first = !controller_;
+    ++starts_;
     const bool uploaded =
         controller_ && tables().upload_state() == static_cast<std::uint32_t>(store::Phase::done);
     if (uploaded) table_.clear();
     on_their_way_.clear();
     followed_ = {};
+    lose_set_points();
     ports::Storage& storage = options_.storage != nullptr ? *options_.storage : flash_;
     settings_.emplace(storage, kSettingsArea);
     settings_->start(initial_settings(options_));
@@ -75,7 +79,8 @@ void World::start_gateway(gateway::StartCause cause) {
         .motor = *motor_,
         .storage = storage,
         .user_line = &user_line_.port(),
-        .motor_mactalk_line = options_.motor_mactalk_wired ? &mactalk_line_.port() : nullptr};
+        .motor_mactalk_line = options_.motor_mactalk_wired ? &mactalk_line_.port() : nullptr,
+        .set_points = &kSetPointArea};
     controller_.emplace(ports, kTableArea, table_memory_, *settings_, cause);
     if (options_.polling != Polling::steadily) controller_->sequence().pace(base::Microseconds(250));
     controller_->sequence().observe(this);
@@ -122,7 +127,7 @@ Time World::next_event() const {
         consider(line->from_motor().next_arrival());
         if (line->has_waiting()) next = std::min(next, line->to_motor().busy_until());
     }
-    if (!user_waiting_.empty()) next = std::min(next, user_line_.from_motor().busy_until());
+    if (!waiting_.user.empty()) next = std::min(next, user_line_.from_motor().busy_until());
     return std::max(next, now_);
 }
 
@@ -174,11 +179,11 @@ void World::move_characters() {
     }
 }
 
-/// The firmware looks at this line when it polls anyway, so that a person changes nothing in its timing.
+/// The firmware looks at this line when it polls anyway, so that the user changes nothing in its timing.
 void World::move_user_characters() {
-    if (!user_waiting_.empty() && user_line_.from_motor().free(now_)) {
-        user_line_.from_motor().start(user_waiting_.front(), now_);
-        user_waiting_.pop_front();
+    if (!waiting_.user.empty() && user_line_.from_motor().free(now_)) {
+        user_line_.from_motor().start(waiting_.user.front(), now_);
+        waiting_.user.pop_front();
     }
     if (user_line_.service(now_)) wake();
     while (const auto byte = user_line_.to_motor().take(now_)) user_received_.push_back(byte->value);
@@ -222,6 +227,7 @@ Time World::next_poll() {
 
 void World::poll_gateway() {
     ++polls_;
+    serve_set_points();
     controller_->poll(instant());
     follow_orders();
     line_.service(now_);
@@ -229,11 +235,13 @@ void World::poll_gateway() {
     user_line_.service(now_);
     mactalk_line_.service(now_);
     next_poll_ = next_poll();
+    if (!waiting_.set_points.empty())
+        next_poll_ = std::min(next_poll_, now_ + Time(std::chrono::milliseconds(1)));
     if (board_.watchdog_bites(instant())) start_gateway(gateway::StartCause::watchdog);
     if (controller_->reset_asked()) start_gateway(gateway::StartCause::power_up);
 }
 
-/// The driver executes in the order given, and gives up all that waits behind the one under way, or all.
+/// The driver executes in the order given, and drops all that waits behind the one under way, or all.
 void World::follow_orders() {
     const motor::Counters counters = motor_->counters();
     if (counters.orders == followed_.orders && counters.discarded == followed_.discarded) return;

@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "sim/motor_stage.h"
 #include "sim/world.h"
@@ -39,72 +42,19 @@ void World::power_motor(bool on) {
     motor_powered_ = on;
 }
 
-void World::stop_motor(const action::StopMotor& stop) {
-    if (!drive_) return act(mac_, stop);
-    if (!drive_->stop(stop)) drive_has_no("a mechanical stop of that kind");
-}
-
-void World::free_motor() {
-    if (drive_) return drive_->free();
-    act(mac_, action::FreeMotor{});
-}
-
-void World::connect_sensor(const action::MotorSensor& sensor) {
-    if (drive_) return drive_has_no("a home sensor");
-    act(mac_, sensor);
-}
-
-void World::set_drive_input(const action::SetDriveInput& input) {
-    if (drive_ && !drive_->set_input(input)) drive_has_no("an input of that kind");
-}
-
-void World::connect_switch(const action::DriveSwitch& connected) {
-    if (drive_ && !drive_->connect(connected)) drive_has_no("an input of that kind");
-}
-
-void World::set_analogue(double volts) {
-    if (drive_) return drive_has_no("an analogue input");
-    act(mac_, action::MotorAnalogue{volts});
-}
-
-void World::set_pulses(const action::MotorPulses& pulses) {
-    if (drive_) return drive_has_no("a pulse input");
-    act(mac_, pulses);
-}
-
-void World::set_supply(const action::MotorSupply& supply) {
-    if (!drive_) return act(mac_, supply);
-    if (!drive_->set_supply(supply.volts)) drive_has_no("a supply that can be set");
-}
-
 void World::seed(std::uint64_t value) {
     line_.reseed(value);
     if (drive_) drive_->reseed(value);
 }
 
-void World::load_motor(int torque) {
-    if (!drive_) return act(mac_, action::LoadMotor{torque});
-    if (!drive_->load(torque)) drive_has_no("a load");
-}
-
-void World::set_brake(int torque) {
-    if (drive_) return drive_has_no("a brake");
-    act(mac_, action::MotorBrake{torque});
-}
-
-void World::set_temperature(int celsius) {
-    if (!drive_) return act(mac_, action::MotorTemperature{celsius});
-    if (!drive_->set_temperature(celsius)) drive_has_no("a temperature");
-}
-
-void World::break_encoder() {
-    if (!drive_) return act(mac_, action::BreakEncoder{});
-    if (!drive_->break_encoder()) drive_has_no("an encoder that can break");
+void World::act(const action::OnMotor& what) {
+    if (!drive_) return sim::act(mac_, what);
+    if (const std::string_view missing = drive_->act(what); !missing.empty()) drive_has_no(missing);
 }
 
 /// The scenario goes on, and says so.
-void World::drive_has_no(const char* what) {
-    log("the virtual " + std::string(options_.drive->model->family->name()) + " drive does not have " + what);
+void World::drive_has_no(std::string_view what) {
+    log(fmt::format("the virtual {} drive does not have {}", options_.drive->model->family->name(), what));
 }
 
 void World::gateway(action::Gateway what) {
@@ -120,6 +70,38 @@ void World::gateway(action::Gateway what) {
         case action::Gateway::restart:
             start_gateway(gateway::StartCause::power_up);
             return;
+    }
+}
+
+/// One after the other: each waits until the one before is stored.
+void World::set_points(const action::SetPoints& asked) {
+    wake();
+    waiting_.set_points.push_back(asked);
+}
+
+void World::refused(gateway::Result why) {
+    log("refused: " + waiting_.set_points.front().text + ": " +
+        std::string(registers::gateway::describe(why)));
+}
+
+/// The gateway starts anew, and what it was storing is stored or not.
+void World::lose_set_points() {
+    if (waiting_.writer && waiting_.writer->request != 0) {
+        refused(gateway::Result::interrupted);
+        waiting_.set_points.pop_front();
+    }
+    waiting_.writer.reset();
+}
+
+void World::serve_set_points() {
+    while (!waiting_.set_points.empty()) {
+        if (!waiting_.writer) waiting_.writer = {.origin = gateway::Origin::scenario, .since = instant()};
+        const auto ended =
+            controller_->set_points().serve(*waiting_.writer, waiting_.set_points.front().request, instant());
+        if (!ended) return;
+        if (!ended.is_done()) refused(static_cast<gateway::Result>(ended.word() & 0xFF));
+        waiting_.writer.reset();
+        waiting_.set_points.pop_front();
     }
 }
 

@@ -46,7 +46,7 @@ class Pace {
 
 class StatusLine {
   public:
-    explicit StatusLine(Time wall) : next_(wall) {}
+    StatusLine(bool wanted, Time wall) : on_(wanted && host::is_terminal(stdout)), next_(wall) {}
     ~StatusLine() {
         if (on_) fmt::print("\r\033[K");
     }
@@ -62,7 +62,7 @@ class StatusLine {
     }
 
   private:
-    bool on_ = host::is_terminal(stdout);
+    bool on_;
     Time next_;
 };
 
@@ -106,7 +106,7 @@ int serve(VirtualDevices& devices, const ServeOptions& options) {
     std::string error;
     {
         Pace pace(options.speed, options.wall_clock());
-        StatusLine status(options.wall_clock());
+        StatusLine status(!devices.has_console(), options.wall_clock());
         while (g_ended == 0 && error.empty()) {
             const Time wall = options.wall_clock();
             error = devices.advance(pace.now(wall));

@@ -61,6 +61,7 @@ void LineDirection::start(std::uint8_t byte, Time now) {
         luck = draw_all();
     else
         undrawn_ += kDraws;
+    const std::uint8_t mask_before = std::exchange(last_mask_, std::uint8_t{0});
     if (cut_) {
         ++counters_.cut;
         return;
@@ -75,6 +76,8 @@ void LineDirection::start(std::uint8_t byte, Time now) {
         received = {static_cast<std::uint8_t>(byte ^ luck.mask), true};
     } else if (luck.damage < faults_.damage) {
         ++counters_.damaged;
+        last_mask_ = luck.mask;
+        if (luck.mask == mask_before) ++counters_.damaged_alike;
         received.value = static_cast<std::uint8_t>(byte ^ luck.mask);
     }
     Time arrival = busy_until_;

@@ -97,7 +97,7 @@ bool FastMacSlave::execute_on_link(fastmac::Number number) {
             slow_ = true;
             return true;
         case fastmac::Number::transmit_address:
-            // R: two, because a master believes a status byte only when it came twice.
+            // R: two, because a master takes a status byte as valid only when it came twice.
             address_due_in_ = 2;
             return true;
         case fastmac::Number::use_flexmac:

@@ -66,6 +66,7 @@ constexpr MotorConstants kBig{
 Plant::Plant(double full_acceleration, int steps, const Load& load, double elsewhere)
     : acceleration_of_one_(full_acceleration / kFullTorque / steps / steps),
       elsewhere_256_(256 * elsewhere),
+      steps_(steps),
       fastest_(kFastest / steps),
       slow_(kSlow / steps),
       thrown_(thrown_in(steps)),

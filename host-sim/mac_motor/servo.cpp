@@ -51,6 +51,7 @@ void Servo::power_up(MotorMemory& memory) {
     regulator_.reset();
     drive_ = {};
     torque_ = v_ist_ = test_samples_ = 0;
+    asked_.fill(0);
     i2t_ = uit_ = 0;
     quick_.rest();
     last_counts_ = plant_.counts();
@@ -87,6 +88,7 @@ std::int32_t Servo::advance(MotorMemory& memory, const Terminals& terminals, Inn
     if (memory.take_settings_written()) use_settings(memory);
     take_sums(memory);
     plant_.take_load();
+    late_ = std::clamp(std::as_const(plant_).load().late_inner_samples, 0, Load::kLatest);
     if (depth_ == Depth::current_loop) {
         run_inner(memory, terminals, watcher);
     } else {
@@ -108,12 +110,16 @@ void Servo::run_inner(MotorMemory& memory, const Terminals& terminals, InnerWatc
     double regenerated = 0;
     inner_.use_every_mark(hall_int(memory));
     inner_.clear_at_the_end();
+    const std::int32_t late = late_ % kInnerSamples;
+    const std::int32_t torque = late_ == 0 ? torque_ : asked(late_ / kInnerSamples);
+    const std::int32_t earlier = late == 0 ? torque : asked(late_ / kInnerSamples + 1);
     for (int n = 0; n < kInnerSamples; ++n) {
         inner_.sense(plant_.counts());
+        const std::int32_t acting = n < late ? earlier : torque;
         if (plain) {
-            inner_.drive_torque(torque_);
+            inner_.drive_torque(acting);
         } else {
-            set_voltages(memory, terminals);
+            set_voltages(memory, terminals, acting);
             if (watcher != nullptr) show_inner_sample(memory, *watcher);
         }
         squares += inner_.squares();
@@ -133,11 +139,11 @@ void Servo::show_inner_sample(MotorMemory& memory, InnerWatcher& watcher) const 
     watcher.inner_sample();
 }
 
-void Servo::set_voltages(const MotorMemory& memory, const Terminals& terminals) {
+void Servo::set_voltages(const MotorMemory& memory, const Terminals& terminals, std::int32_t acting) {
     switch (drive_.kind) {
         case Drive::Kind::velocity:
         case Drive::Kind::torque:
-            return inner_.drive_torque(torque_);
+            return inner_.drive_torque(acting);
         case Drive::Kind::analogue_torque:
             torque_ = analogue_torque(memory, terminals);
             return inner_.drive_torque(torque_);
@@ -167,10 +173,18 @@ void Servo::run_outer(const MotorMemory& memory, const Terminals& terminals) {
     const bool driven = drive_.kind == Drive::Kind::velocity || drive_.kind == Drive::Kind::torque ||
                         drive_.kind == Drive::Kind::analogue_torque;
     const QuickLoop::Step step =
-        driven ? quick_.drive(torque_, supply_.volts(), plant_) : quick_.brake(plant_);
+        driven ? quick_.drive(acting_torque(), supply_.volts(), plant_) : quick_.brake(plant_);
     const bool dumped = supply_.dumping() && step.watts < 0;
     supply_.step(step.watts);
     warm(step.squares, dumped ? -step.watts : 0);
+}
+
+/// Of a whole outer sample.
+double Servo::acting_torque() const {
+    if (late_ == 0) return torque_;
+    const double earlier = static_cast<double>(late_ % kInnerSamples) / kInnerSamples;
+    const std::int32_t ago = late_ / kInnerSamples;
+    return asked(ago) * (1 - earlier) + asked(ago + 1) * earlier;
 }
 
 Servo::Result Servo::carry_out(const Drive& drive, MotorMemory& memory) {
@@ -179,6 +193,8 @@ Servo::Result Servo::carry_out(const Drive& drive, MotorMemory& memory) {
                                             : Regulator::Output{.torque = unregulated_torque(drive, memory)};
     drive_ = drive;
     torque_ = out.torque;
+    asked_[asked_next_] = torque_;
+    asked_next_ = (asked_next_ + 1) % asked_.size();
     memory.set(cell::VF_OUT, torque_);
     memory.show_filters(out.ff_out, out.vb_out);
     return {out.torque, out.correction};

@@ -50,6 +50,15 @@ DeviceCommandLine<MacsimOptions> parse_macsim(int argc, const char* const* argv)
                    "what happens to the first motor: pulses, voltages, loads, stops, its supply; see "
                    "host-sim/scenario")
         ->type_name("S.scn");
+    app.add_option(
+           "--plant", options.plant,
+           "inertia, friction and load of a real axis, as `macreg fit` writes them; of the first motor")
+        ->type_name("axis.toml");
+    app.add_option(
+           "--control", options.control,
+           "where lines such as `motor load 500` say what happens to the first motor, each answered; - is "
+           "standard input")
+        ->type_name("EP");
     add_speed(app, "times real time, lines included, 0.01..100 (1)", options.speed);
     app.add_option("--baud", "rate of the FastMAC line (19200)")->each([&](const std::string& text) {
         rack.fastmac_baud = baud("--baud", text);

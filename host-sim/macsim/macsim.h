@@ -13,6 +13,8 @@ struct MacsimOptions {
     std::string fastmac;  ///< endpoint, or empty
     std::string mactalk;
     std::string scenario;  ///< file: what happens to the first unit
+    std::string plant;     ///< file: of the first unit
+    std::string control;   ///< endpoint or "-", or empty: where that is said while it runs
     std::string flash;     ///< file of the first unit; the others' with their address behind it
     double speed = 1;
 };

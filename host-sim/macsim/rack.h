@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sim/client_line.h"
@@ -32,6 +33,9 @@ class Rack {
 
     /// Around the first unit; both outlive the rack. advance() may then throw EndlessRules.
     void play(const Scenario& scenario, const Names& names) { stage_.emplace(motor(0), scenario, names); }
+
+    /// Does these to it too, from now on; after play().
+    void also(Actions actions) { stage_->also(std::move(actions), now_); }
 
     Time now() const { return now_; }
     /// What a client sends waits for the line to be free; beyond 64 KiB it is lost.

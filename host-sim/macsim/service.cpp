@@ -2,6 +2,8 @@
 
 #include "host/files.h"
 #include "macsim.h"
+#include "sim/axis.h"
+#include "sim/bench_line.h"
 #include "sim/device_memory.h"
 #include "sim/text.h"
 
@@ -59,13 +61,20 @@ class RackService final : public VirtualDevices {
         for (std::size_t i = 0; error.empty() && i < rack_.size(); ++i)
             error = files_.add(options.flash, options.rack.units[i].address,
                                std::make_unique<FlashMemory>(rack_.motor(i)));
-        if (error.empty() && !options.scenario.empty()) error = play(options);
+        if (error.empty() && !(options.scenario.empty() && options.control.empty())) error = play(options);
+        if (error.empty()) error = couple(options);
+        if (error.empty()) error = control_.open(options.control);
         if (error.empty()) error = fastmac_.open(options.fastmac);
         if (error.empty()) error = mactalk_.open(options.mactalk);
     }
     std::string advance(Time to) override {
         rack_.send_fastmac(fastmac_.read());
         rack_.send_mactalk(mactalk_.read());
+        control_.serve([this](std::string_view line) {
+            return carry_out(
+                line, names_, [this] { return status(); },
+                [this](Actions actions) { rack_.also(std::move(actions)); });
+        });
         try {
             rack_.advance(to);
         } catch (const EndlessRules& endless) {
@@ -76,8 +85,9 @@ class RackService final : public VirtualDevices {
         return files_.save_changed();
     }
     std::string endpoints() const override {
-        return fastmac_.described("fastmac") + mactalk_.described("mactalk");
+        return fastmac_.described("fastmac") + mactalk_.described("mactalk") + control_.described();
     }
+    bool has_console() const override { return control_.is_console(); }
     std::string status() const override {
         std::string text;
         for (std::size_t i = 0; i < rack_.size(); ++i)
@@ -87,21 +97,32 @@ class RackService final : public VirtualDevices {
 
   private:
     std::string play(const MacsimOptions& options) {
-        constexpr std::size_t kLargest = std::size_t{4} << 20U;
-        const std::string& file = options.scenario;
-        const host::FileContent content = host::read_file(file, kLargest);
-        if (!content.problem.empty())
-            return fmt::format("{}: cannot be opened: {}; name a scenario", file, content.problem);
         names_.motor = rack_.motor(0).model();
         names_.motor_alone = true;
         names_.free_pins = options.fastmac.empty();
+        const std::string error = options.scenario.empty() ? std::string() : read(options.scenario);
+        if (error.empty()) rack_.play(scenario_, names_);
+        return error;
+    }
+
+    std::string couple(const MacsimOptions& options) {
+        if (options.plant.empty() && !scenario_.plant) return {};
+        const AxisReading axis = read_axis(options.plant, scenario_, rack_.motor(0).model());
+        if (axis.error.empty()) rack_.motor(0).plant().load() = axis.load;
+        return axis.error;
+    }
+
+    std::string read(const std::string& file) {
+        constexpr std::size_t kLargest = std::size_t{4} << 20U;
+        const host::FileContent content = host::read_file(file, kLargest);
+        if (!content.problem.empty())
+            return fmt::format("{}: cannot be opened: {}; name a scenario", file, content.problem);
         ParsedScenario parsed = parse_scenario(content.bytes, file, names_);
         if (!parsed.mistakes.empty()) {
             const Mistake& first = parsed.mistakes.front();
             return fmt::format("{}:{}: {}", file, first.place(), first.message);
         }
         scenario_ = std::move(parsed.scenario);
-        rack_.play(scenario_, names_);
         return {};
     }
 
@@ -110,6 +131,7 @@ class RackService final : public VirtualDevices {
     Rack rack_;
     Endpoint fastmac_;
     Endpoint mactalk_;
+    ControlPort control_;
     MemoryFiles files_;
 };
 

@@ -5,7 +5,7 @@ namespace {
 
 namespace midi = registers::midi;
 
-constexpr std::size_t kMostDeeds = 10'000;
+constexpr std::size_t kMostActions = 10'000;
 
 std::int32_t field(const midi::CommandRow& row, std::size_t number, std::uint32_t data) {
     return midi::unpack(row.fields[number], data);
@@ -23,8 +23,8 @@ bool MidiModule::may_execute(const midi::CommandRow& row, std::uint32_t data) co
 
 bool MidiModule::execute(std::uint8_t number, std::uint8_t sub_index, std::uint32_t data) {
     if (!carry_out(number, sub_index, data)) return false;
-    if (deeds_.size() == kMostDeeds) deeds_.pop_front();
-    deeds_.push_back({Time{ticks_ * 125}, number, data});
+    if (actions_.size() == kMostActions) actions_.pop_front();
+    actions_.push_back({Time{motion_.now() * 125}, number, data});
     return true;
 }
 
@@ -48,50 +48,51 @@ bool MidiModule::carry_out(std::uint8_t number, std::uint8_t sub_index, std::uin
 bool MidiModule::set_parameter(std::uint8_t number, std::uint32_t data) {
     const midi::CommandRow& row = *midi::find_command(number);
     const std::int32_t value = row.fields[0].bits == 0 ? 0 : field(row, 0, data);
-    const MidiMemory before = memory_;
+    MidiMemory memory = eeprom_.values;
     switch (number) {
         case midi::STOP_TORQUE:
-            memory_.standby = value == 1;
+            memory.standby = value == 1;
             break;
         case midi::END_STOPS:
-            memory_.stops = static_cast<std::uint8_t>(value);
+            memory.stops = static_cast<std::uint8_t>(value);
             break;
         case midi::REFERENCE:
             reference_enabled_ = value == 1;
             break;
         case midi::ADDRESS:
-            memory_.address = static_cast<std::uint8_t>(value);
+            memory.address = static_cast<std::uint8_t>(value);
             break;
         case midi::UPPER_STOP:
-            memory_.upper_stop = value;
+            memory.upper_stop = value;
             break;
         case midi::LOWER_STOP:
-            memory_.lower_stop = value;
+            memory.lower_stop = value;
             break;
         case midi::ZERO_POSITION:
-            set_origin();
+            motion_.set_origin();
+            memory.position = eeprom_.values.position;
             break;
         case midi::TORQUE:
-            memory_.torque = static_cast<std::uint8_t>(value);
+            memory.torque = static_cast<std::uint8_t>(value);
             break;
         case midi::SPEED:
-            memory_.period = static_cast<std::uint16_t>(value);
+            memory.period = static_cast<std::uint16_t>(value);
             break;
         case midi::UNSTALL:
-            memory_.unstall = static_cast<std::uint8_t>(value);
+            memory.unstall = static_cast<std::uint8_t>(value);
             break;
         case midi::RAMP:
-            memory_.ramp = static_cast<std::uint8_t>(value);
+            memory.ramp = static_cast<std::uint8_t>(value);
             break;
         case midi::BAUD:
-            memory_.baud_code = static_cast<std::uint8_t>(value);
+            memory.baud_code = static_cast<std::uint8_t>(value);
             wants_restart_ = true;
             break;
         default:
-            memory_.tolerance = static_cast<std::uint8_t>(value);
+            memory.tolerance = static_cast<std::uint8_t>(value);
             break;
     }
-    if (memory_ != before) ++memory_writes_;
+    eeprom_.write(memory);
     return true;
 }
 
@@ -104,69 +105,54 @@ bool MidiModule::move(std::uint8_t number, std::uint32_t data) {
             return start_prepared();
         case midi::GO_TO:
         case midi::GO_TO_ZERO:
-            go_to(number == midi::GO_TO ? static_cast<std::int32_t>(data) : 0);
+            motion_.go_to(number == midi::GO_TO ? static_cast<std::int32_t>(data) : 0);
             return true;
         case midi::RUN:
             return run(data);
         case midi::SEGMENT:
         case midi::PAUSE:
-            return add_segment(number, data);
+            return motion_.add_segment({number, data});
         case midi::STOP:
-            if (mode_ == Mode::segments && profile_.running())
-                return false;  // 003 §VII 17h: only 13h, 14h, 15h
-            ramp_down();
+            if (motion_.follows_segments()) return false;  // 003 §VII 17h: only 13h, 14h, 15h
+            motion_.ramp_down();
             return true;
         case midi::EMERGENCY_STOP:
-            stop_hard();
+            motion_.stop_hard();
             return true;
         case midi::POWER_ON:
-            powered_ = true;
+            motion_.give_power();
             return true;
         default:
-            cut_power();
+            motion_.cut_power();
             return true;
     }
 }
 
 /// R: of several the last one counts.
 bool MidiModule::prepare(std::uint8_t number, std::uint32_t data) {
-    prepared_ = Prepared{number, data};
+    prepared_ = MidiMotion::Segment{number, data};
     armed_ = false;
     return true;
 }
 
 /// R: without anything prepared nothing happens, and nothing is refused.
 bool MidiModule::start_prepared() {
-    if (!on_ || !prepared_ || deaf()) return true;
-    const Prepared prepared = *prepared_;
+    if (!is_on() || !prepared_ || deaf()) return true;
+    const MidiMotion::Segment prepared = *prepared_;
     prepared_.reset();
     const midi::CommandRow& row = *midi::find_command(prepared.number);
     return may_execute(row, prepared.data) && move(prepared.number, prepared.data);
 }
 
-/// 000 §VI 15h. R: refused during other motions.
-bool MidiModule::run(std::uint32_t data) {
-    const midi::CommandRow& row = *midi::find_command(midi::RUN);
-    const auto period = static_cast<std::uint16_t>(field(row, 1, data));
-    const bool running = mode_ == Mode::run && profile_.running();
-    if (moving() && !running) return false;
-    if (period == 0) {
-        ramp_down();
-        return true;
-    }
-    if (!running) begin_motion(Mode::run, field(row, 0, data) == midi::kTurnsLeft ? -1 : 1);
-    profile_.begin_run(period, memory_.ramp);
-    if (!running) schedule(profile_.interval());
-    return true;
+void MidiModule::drop_prepared() {
+    prepared_.reset();
+    armed_ = false;
 }
 
-/// 000 §VI 16h, 1Eh. R: refused during other motions.
-bool MidiModule::add_segment(std::uint8_t number, std::uint32_t data) {
-    const bool running = mode_ == Mode::segments && profile_.running();
-    if (moving() && !running) return false;
-    if (!segments_.push({number, data})) return false;
-    if (!running) next_segment();
-    return true;
+bool MidiModule::run(std::uint32_t data) {
+    const midi::CommandRow& row = *midi::find_command(midi::RUN);
+    const int direction = field(row, 0, data) == midi::kTurnsLeft ? -1 : 1;
+    return motion_.run(direction, static_cast<std::uint16_t>(field(row, 1, data)));
 }
 
 }  // namespace nplc::sim

@@ -1,7 +1,5 @@
 #include "sim/midi_module.h"
 
-#include <algorithm>
-
 #include "registers/midi_scale.h"
 
 namespace nplc::sim {
@@ -22,24 +20,15 @@ constexpr std::uint32_t bit(bool is_set, std::uint32_t mask) {
 MidiModule::MidiModule(Model model, const MidiOptions& options)
     : model_(model),
       options_(options),
-      memory_(factory_memory(model, options.can, options.imax)),
-      shaft_(midi::facts_of(model).increments_per_rev, options.imax),
-      supply_(midi::facts_of(model).max_supply * 3 / 5) {
-    memory_.address = options.address;
+      eeprom_{factory_memory(model, options.can, options.imax)},
+      supply_(midi::facts_of(model)),
+      motion_(model, options.imax, inputs_, eeprom_, supply_,
+              {.on_braking = [this] { check_supply(); }, .on_hard_stop = [this] { drop_prepared(); }}) {
+    eeprom_.values.address = options.address;
 }
 
 void MidiModule::advance(Time to) {
-    const Ticks until = to.count() / kNanosecondsPerTick;
-    for (;;) {
-        const bool drags = next_drag_ && *next_drag_ <= until && !(next_step_ && *next_step_ < *next_drag_);
-        std::optional<Ticks>& next = drags ? next_drag_ : next_step_;
-        if (!next || *next > until) break;
-        ticks_ = std::max(ticks_, *next);
-        next.reset();
-        drags ? drag() : step();
-        look_at_switches();
-    }
-    ticks_ = std::max(ticks_, until);
+    while (motion_.advance(to.count() / kNanosecondsPerTick)) look_at_switches();
 }
 
 bool MidiModule::take_boot() {
@@ -49,108 +38,96 @@ bool MidiModule::take_boot() {
 }
 
 void MidiModule::start(Ticks deaf) {
-    cut_power();
-    prepared_.reset();
-    armed_ = reference_enabled_ = over_voltage_kept_ = false;
-    trips_ = stopped_by_ = 0;
+    motion_.cut_power();
+    drop_prepared();
+    reference_enabled_ = false;
+    supply_.forget_over_voltage();
+    trips_ = 0;
+    motion_.forget_end_stops();
     wants_restart_ = false;
-    baud_code_ = memory_.baud_code;
+    baud_code_ = eeprom_.values.baud_code;
     boot_pending_ = true;
-    deaf_until_ = ticks_ + deaf;
+    deaf_until_ = motion_.now() + deaf;
     check_world();
 }
 
 void MidiModule::restart() {
     if (factory_reset_) {
-        const std::int32_t position = memory_.position;
-        memory_ = factory_memory(model_, options_.can, options_.imax);
-        memory_.position = position;
-        ++memory_writes_;
+        const std::int32_t position = eeprom_.values.position;
+        eeprom_.values = factory_memory(model_, options_.can, options_.imax);
+        eeprom_.values.position = position;
+        ++eeprom_.writes;
     }
     factory_reset_ = false;
     start(kDeafTicks);
 }
 
 void MidiModule::set_address(std::uint8_t address) {
-    memory_.address = address;
-    ++memory_writes_;
+    eeprom_.values.address = address;
+    ++eeprom_.writes;
     boot_pending_ = true;
 }
 
 void MidiModule::power_off() {
-    if (!on_) return;
-    run_out();
-    cut_power();
-    on_ = false;
+    if (!is_on()) return;
+    motion_.run_out();
+    motion_.cut_power();
+    supply_.switch_on(false);
 }
 
 void MidiModule::power_on() {
-    if (on_) return;
-    on_ = true;
-    position_ = set_point_ = goal_ = memory_.position;
+    if (is_on()) return;
+    supply_.switch_on(true);
+    motion_.set_position(eeprom_.values.position);
     start(kDeafTicks);
 }
 
 void MidiModule::set_memory(const MidiMemory& memory) {
-    memory_ = memory;
+    eeprom_.values = memory;
     baud_code_ = memory.baud_code;
-    position_ = set_point_ = goal_ = memory.position;
+    motion_.set_position(memory.position);
 }
 
-void MidiModule::remember() {
-    if (memory_.position == position_) return;
-    memory_.position = position_;
-    ++memory_writes_;
-}
-
-void MidiModule::set_input(Input which, bool active) {
-    switches_[index(which)].reset();
-    change_input(which, active);
+void MidiModule::set_input(Input input, bool active) {
+    inputs_.disconnect(input);
+    change_input(input, active);
 }
 
 void MidiModule::connect(Input input, bool on_above, std::int64_t at) {
-    switches_[index(input)] = Switch{at, on_above};
+    inputs_.connect(input, on_above, at);
     look_at_switches();
 }
 
 void MidiModule::look_at_switches() {
-    for (const Input input : {Input::upper_stop, Input::lower_stop, Input::reference, Input::security}) {
-        const std::optional<Switch>& connected = switches_[index(input)];
-        if (connected)
-            change_input(input, connected->on_above ? shaft() > connected->at : shaft() < connected->at);
+    for (const Input input : MidiInputs::kAll) {
+        if (const auto active = inputs_.switched(input, shaft())) change_input(input, *active);
     }
 }
 
-void MidiModule::change_input(Input which, bool active) {
-    bool& level = inputs_[index(which)];
-    const bool released = level && !active;
-    if (level == active) return;
-    level = active;
-    if (which == Input::security) {
+void MidiModule::change_input(Input input, bool active) {
+    if (!inputs_.set(input, active)) return;
+    if (input == Input::security) {
         // 003 §IV: it holds the module in reset; R: a release is a start.
-        active ? cut_power() : start(kDeafTicks);
+        active ? motion_.cut_power() : start(kDeafTicks);
         return;
     }
     // 003 §IV: the position is 0 where the input goes inactive, turning clockwise.
-    if (which == Input::reference && released && reference_enabled_ && direction_ > 0 && profile_.running())
-        set_origin();
+    const bool finds_reference = input == Input::reference && !active && reference_enabled_;
+    if (finds_reference && motion_.direction() > 0 && motion_.follows_profile()) motion_.set_origin();
 }
 
 void MidiModule::trip(std::uint32_t trip_bit) {
     // R: a MAC23 has one bit for all but the supply.
     if (model_ == Model::mac23 && trip_bit != midi::kSupplyTrip) trip_bit = midi::kThermalTrip23;
     trips_ |= trip_bit;
-    prepared_.reset();
-    armed_ = false;
-    cut_power();
+    drop_prepared();
+    motion_.cut_power();
 }
 
 void MidiModule::check_supply() {
-    const auto& facts = midi::facts_of(model_);
-    over_voltage_kept_ = over_voltage_kept_ || supply() >= facts.over_voltage;
-    if (std::int64_t{supply()} * 100 > std::int64_t{facts.max_supply} * midi::kTripPercent)
-        trip(midi::kAmplifierTrip);
-    if (supply() < midi::kLeastSupply) trip(midi::kSupplyTrip);
+    supply_.check();
+    if (supply_.trips_amplifier()) trip(midi::kAmplifierTrip);
+    if (supply_.trips_supply()) trip(midi::kSupplyTrip);
 }
 
 /// Causes that are still there trip again at once.
@@ -161,47 +138,29 @@ void MidiModule::check_world() {
 }
 
 void MidiModule::set_supply(std::int32_t millivolts) {
-    supply_ = millivolts;
-    if (on_) check_supply();
+    supply_.set(millivolts);
+    if (is_on()) check_supply();
 }
 
 void MidiModule::set_temperature(std::int32_t thousandths) {
     temperature_ = thousandths;
-    if (on_) check_world();
+    if (is_on()) check_world();
 }
 
 void MidiModule::connect_encoder(bool connected) {
     encoder_ = connected;
-    if (on_) check_world();
-}
-
-bool MidiModule::moving() const {
-    if (mode_ == Mode::coast || profile_.running()) return true;
-    return busy() && adjusts();
-}
-
-std::uint8_t MidiModule::torque() const {
-    if (!powered_) return 0;
-    return memory_.standby && !moving() ? static_cast<std::uint8_t>(memory_.torque / 2) : memory_.torque;
-}
-
-bool MidiModule::busy() const {
-    if (!on_ || !powered_) return false;
-    if (mode_ == Mode::run) return stalled_;
-    if (mode_ == Mode::segments) return std::abs(position_ - set_point_) > memory_.tolerance;
-    return mode_ == Mode::position && std::abs(position_ - goal_) > memory_.tolerance;
+    if (is_on()) check_world();
 }
 
 bool MidiModule::fault() const {
-    return on_ && trips_ != 0;
+    return is_on() && trips_ != 0;
 }
 
 std::uint32_t MidiModule::status() const {
-    const auto& facts = midi::facts_of(model_);
     const bool has_kept_bit = options_.release >= 0x0704;
-    return trips_ | stopped_by_ | bit(supply() >= facts.over_voltage, midi::kOverVoltage) |
-           bit(supply() <= facts.under_voltage, midi::kUnderVoltage) |
-           bit(over_voltage_kept_ && has_kept_bit, midi::kOverVoltageKept);
+    return trips_ | motion_.stopped_by() | bit(supply_.warns_high(), midi::kOverVoltage) |
+           bit(supply_.warns_low(), midi::kUnderVoltage) |
+           bit(supply_.over_voltage_kept() && has_kept_bit, midi::kOverVoltageKept);
 }
 
 std::uint32_t MidiModule::measures() const {
@@ -213,9 +172,9 @@ std::uint32_t MidiModule::measures() const {
 }
 
 std::uint32_t MidiModule::settings() const {
-    const std::uint32_t standby = memory_.standby ? 1 : 0;
-    return std::uint32_t{memory_.ramp} << 24 | std::uint32_t{memory_.torque} << 16 | standby << 12 |
-           std::uint32_t{memory_.stops} << 8 | memory_.tolerance;
+    const std::uint32_t standby = eeprom_.values.standby ? 1 : 0;
+    return std::uint32_t{eeprom_.values.ramp} << 24 | std::uint32_t{eeprom_.values.torque} << 16 |
+           standby << 12 | std::uint32_t{eeprom_.values.stops} << 8 | eeprom_.values.tolerance;
 }
 
 std::optional<std::uint32_t> MidiModule::answer(std::uint8_t query, std::uint8_t sub_index) const {
@@ -229,17 +188,17 @@ std::optional<std::uint32_t> MidiModule::answer(std::uint8_t query, std::uint8_t
     };
     switch (query) {
         case midi::GET_POSITION:
-            return static_cast<std::uint32_t>(position_);
+            return static_cast<std::uint32_t>(position());
         case midi::GET_STATUS:
             return status();
         case midi::GET_UPPER_STOP:
-            return static_cast<std::uint32_t>(memory_.upper_stop);
+            return static_cast<std::uint32_t>(eeprom_.values.upper_stop);
         case midi::GET_LOWER_STOP:
-            return static_cast<std::uint32_t>(memory_.lower_stop);
+            return static_cast<std::uint32_t>(eeprom_.values.lower_stop);
         case midi::GET_RELEASE:
             return options_.release;
         case midi::GET_SPEEDS:
-            return std::uint32_t{memory_.unstall} << 24 | memory_.period;
+            return std::uint32_t{eeprom_.values.unstall} << 24 | eeprom_.values.period;
         case midi::GET_SETTINGS:
             return settings();
         case midi::GET_MEASURES:
@@ -248,18 +207,19 @@ std::optional<std::uint32_t> MidiModule::answer(std::uint8_t query, std::uint8_t
             return four(
                 [this](unsigned at) { return at == midi::kImaxAddress ? std::uint32_t{options_.imax} : 0U; });
         default:
-            return four([image = eeprom_image(memory_)](unsigned at) { return std::uint32_t{image[at]}; });
+            return four(
+                [image = eeprom_image(eeprom_.values)](unsigned at) { return std::uint32_t{image[at]}; });
     }
 }
 
 MidiModule::Leds MidiModule::leds() const {
-    const auto& facts = midi::facts_of(model_);
     const std::int32_t mark = facts_of(model_).increments_per_rev / kTopZeros;
-    return {.supply_good = on_ && supply() >= facts.under_voltage && supply() <= facts.over_voltage,
+    const auto& facts = midi::facts_of(model_);
+    return {.supply_good = is_on() && supply() >= facts.under_voltage && supply() <= facts.over_voltage,
             .fault = fault(),
             .catching_up = busy(),
-            .top_zero = on_ && position_ % mark == 0,
-            .ballast = on_ && braking_is_cut()};
+            .top_zero = is_on() && position() % mark == 0,
+            .ballast = is_on() && motion_.braking_is_cut()};
 }
 
 }  // namespace nplc::sim

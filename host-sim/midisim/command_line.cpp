@@ -81,6 +81,11 @@ DeviceCommandLine<MidisimOptions> parse_midisim(int argc, const char* const* arg
     app.add_option("--baud",
                    "rate of the client: 9600, 19200, 38400 (the first module's, also when it changes)")
         ->each([&](const std::string& text) { options.baud = baud(text); });
+    app.add_option(
+           "--control", options.control,
+           "where lines such as `motor load 500` say what happens to the first module, each answered; - is "
+           "standard input")
+        ->type_name("EP");
     add_speed(app, "times real time, line included, 0.01..100 (1)", options.speed);
     return parse_devices(app, argc, argv, options, [&] {
         const bool on_can = !options.can.empty();

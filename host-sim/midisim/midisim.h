@@ -14,6 +14,7 @@ struct MidisimOptions {
     std::string v24;         ///< endpoint, or empty: then `can` is not
     std::string can;         ///< interface
     std::uint32_t baud = 0;  ///< of the client; 0: the first module's
+    std::string control;     ///< endpoint or "-", or empty: where it is said what happens to the first module
     std::string eeprom;      ///< file of the first module; the others' with their address behind it
     double speed = 1;
 };

@@ -2,7 +2,10 @@
 
 #include "hal_linux/socket_can.h"
 #include "midisim.h"
+#include "registers/family.h"
+#include "sim/bench_line.h"
 #include "sim/device_memory.h"
+#include "sim/midi_stage.h"
 
 namespace nplc::sim {
 namespace {
@@ -101,6 +104,7 @@ class ModuleService : public VirtualDevices {
             text += (i == 0 ? "" : " | ") + describe(rack_->module(i));
         return text;
     }
+    bool has_console() const override { return control_.is_console(); }
     /// Switches the modules off, so that they keep their positions.
     std::string finish() override {
         for (std::size_t i = 0; i < rack_->size(); ++i) rack_->module(i).power_off();
@@ -110,14 +114,31 @@ class ModuleService : public VirtualDevices {
   protected:
     /// Answers what went wrong.
     std::string load(const MidisimOptions& options) {
-        std::string error;
+        names_.drive = registers::find_drive(midi::facts_of(rack_->module(0).model()).name);
+        names_.motor_alone = true;
+        stage_.emplace(rack_->module(0));
+        std::string error = control_.open(options.control);
         for (std::size_t i = 0; error.empty() && i < options.units.size(); ++i)
             error = files_.add(options.eeprom, options.units[i].address,
                                std::make_unique<EepromMemory>(rack_->module(i)));
         return error;
     }
 
+    /// What is said at the control port, and what is due of it.
+    void control(Time now) {
+        if (!control_.is_open()) return;
+        control_.serve([this, now](std::string_view line) {
+            return carry_out(
+                line, names_, [this] { return status(); },
+                [this, now](Actions actions) { stage_->also(std::move(actions), now); });
+        });
+        stage_->observe(now);
+    }
+
     std::unique_ptr<Rack> rack_;
+    std::optional<ModuleAlone> stage_;
+    Names names_;
+    ControlPort control_;
     MemoryFiles files_;
 };
 
@@ -130,11 +151,12 @@ class V24Service final : public ModuleService<MidiRack> {
     }
     std::string advance(Time to) override {
         rack_->send(v24_.read());
+        control(rack_->now());
         rack_->advance(to);
         v24_.write(rack_->received());
         return files_.save_changed();
     }
-    std::string endpoints() const override { return v24_.described("v24"); }
+    std::string endpoints() const override { return v24_.described("v24") + control_.described(); }
 
   private:
     Endpoint v24_;
@@ -154,10 +176,11 @@ class CanService final : public ModuleService<MidiCanRack> {
     }
     std::string advance(Time to) override {
         if (port_->gone()) return fmt::format("{}: the interface is gone", interface_);
+        control(to);
         rack_->advance(to);
         return files_.save_changed();
     }
-    std::string endpoints() const override { return "can: " + interface_ + "\n"; }
+    std::string endpoints() const override { return "can: " + interface_ + "\n" + control_.described(); }
 
   private:
     std::string interface_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "registers/mac.h"
-#include "sim/motor_stage.h"
 
 namespace nplc::sim {
 namespace {
@@ -48,37 +47,6 @@ void MotorAlone::observe(Time now) {
 void MotorAlone::power_motor(bool on) {
     if (on && !powered_) switch_on(motor_);
     powered_ = on;
-}
-
-void MotorAlone::load_motor(int torque) {
-    act(motor_, action::LoadMotor{torque});
-}
-void MotorAlone::set_brake(int torque) {
-    act(motor_, action::MotorBrake{torque});
-}
-void MotorAlone::stop_motor(const action::StopMotor& stop) {
-    act(motor_, stop);
-}
-void MotorAlone::free_motor() {
-    act(motor_, action::FreeMotor{});
-}
-void MotorAlone::connect_sensor(const action::MotorSensor& sensor) {
-    act(motor_, sensor);
-}
-void MotorAlone::set_analogue(double volts) {
-    act(motor_, action::MotorAnalogue{volts});
-}
-void MotorAlone::set_pulses(const action::MotorPulses& pulses) {
-    act(motor_, pulses);
-}
-void MotorAlone::set_supply(const action::MotorSupply& supply) {
-    act(motor_, supply);
-}
-void MotorAlone::set_temperature(int celsius) {
-    act(motor_, action::MotorTemperature{celsius});
-}
-void MotorAlone::break_encoder() {
-    act(motor_, action::BreakEncoder{});
 }
 
 }  // namespace nplc::sim

@@ -5,56 +5,67 @@
 
 namespace nplc::sim {
 
-void act(MacMotor& motor, const action::LoadMotor& load) {
-    motor.plant().load().torque = load.torque;
-}
+namespace {
 
-void act(MacMotor& motor, const action::MotorBrake& brake) {
-    motor.plant().load().brake_torque = brake.torque;
-}
+struct Actor {
+    MacMotor& motor;
 
-void act(MacMotor& motor, const action::StopMotor& stop) {
-    Load& load = motor.plant().load();
-    const std::int64_t shaft = motor.plant().counts();
-    const std::int64_t place = stop.above ? std::max(stop.counts, shaft) : std::min(stop.counts, shaft);
-    const bool rigid = stop.torque_per_count == 0;
-    (stop.above ? load.high_stop : load.low_stop) =
-        MechanicalStop{rigid ? place : stop.counts, std::llround(1024 * stop.torque_per_count)};
-}
+    void operator()(const action::LoadMotor& load) const { motor.plant().load().torque = load.torque; }
 
-void act(MacMotor& motor, const action::FreeMotor&) {
-    motor.plant().load().low_stop.reset();
-    motor.plant().load().high_stop.reset();
-}
-
-void act(MacMotor& motor, const action::MotorSensor& sensor) {
-    motor.terminals().connect({.counts = sensor.counts, .on_above = sensor.on_above});
-}
-
-void act(MacMotor& motor, const action::MotorAnalogue& analogue) {
-    motor.terminals().set_analogue(static_cast<std::int32_t>(std::lround(1000 * analogue.volts)));
-}
-
-void act(MacMotor& motor, const action::MotorPulses& pulses) {
-    motor.terminals().set_pulse_rate(pulses.per_second, pulses.with_direction
-                                                            ? PulseFormat::pulse_and_direction
-                                                            : PulseFormat::quadrature);
-}
-
-void act(MacMotor& motor, const action::MotorSupply& supply) {
-    if (!supply.logic) {
-        motor.supply().set_source(supply.volts);
-        return motor.supply().settle();  // a motor at rest would never empty its bus
+    void operator()(const action::MotorBrake& brake) const {
+        motor.plant().load().brake_torque = brake.torque;
     }
-    motor.surroundings().logic_millivolts = static_cast<std::int32_t>(std::lround(1000 * supply.volts));
-}
 
-void act(MacMotor& motor, const action::MotorTemperature& temperature) {
-    motor.surroundings().celsius = temperature.celsius;
-}
+    void operator()(const action::StopMotor& stop) const {
+        Load& load = motor.plant().load();
+        const std::int64_t shaft = motor.plant().counts();
+        const std::int64_t place = stop.above ? std::max(stop.counts, shaft) : std::min(stop.counts, shaft);
+        const bool rigid = stop.torque_per_count == 0;
+        (stop.above ? load.high_stop : load.low_stop) =
+            MechanicalStop{rigid ? place : stop.counts, std::llround(1024 * stop.torque_per_count)};
+    }
 
-void act(MacMotor& motor, const action::BreakEncoder&) {
-    motor.surroundings().encoder_broken = true;
+    void operator()(const action::FreeMotor&) const {
+        motor.plant().load().low_stop.reset();
+        motor.plant().load().high_stop.reset();
+    }
+
+    void operator()(const action::MotorSensor& sensor) const {
+        motor.terminals().connect({.counts = sensor.counts, .on_above = sensor.on_above});
+    }
+
+    void operator()(const action::MotorAnalogue& analogue) const {
+        motor.terminals().set_analogue(static_cast<std::int32_t>(std::lround(1000 * analogue.volts)));
+    }
+
+    void operator()(const action::MotorPulses& pulses) const {
+        motor.terminals().set_pulse_rate(pulses.per_second, pulses.with_direction
+                                                                ? PulseFormat::pulse_and_direction
+                                                                : PulseFormat::quadrature);
+    }
+
+    void operator()(const action::MotorSupply& supply) const {
+        if (!supply.logic) {
+            motor.supply().set_source(supply.volts);
+            return motor.supply().settle();  // a motor at rest would never empty its bus
+        }
+        motor.surroundings().logic_millivolts = static_cast<std::int32_t>(std::lround(1000 * supply.volts));
+    }
+
+    void operator()(const action::MotorTemperature& temperature) const {
+        motor.surroundings().celsius = temperature.celsius;
+    }
+
+    void operator()(const action::BreakEncoder&) const { motor.surroundings().encoder_broken = true; }
+
+    void operator()(const action::SetDriveInput&) const {}
+    void operator()(const action::DriveSwitch&) const {}
+};
+
+}  // namespace
+
+void act(MacMotor& motor, const action::OnMotor& what) {
+    std::visit(Actor{motor}, what);
 }
 
 void switch_on(MacMotor& motor) {

@@ -102,6 +102,27 @@ std::string all_models() {
     return text;
 }
 
+/// For programs outside.
+void add_doors(arguments::App& app, RunOptions& options) {
+    app.add_option(
+           "--mactalk", options.mactalk,
+           "open the gateway's MacTalk port: pty:PATH, unix:PATH or tcp:127.0.0.1:PORT; with --realtime")
+        ->type_name("EP");
+    app.add_option("--panel", options.panel,
+                   "serve the panel, a page for a browser: 127.0.0.1:PORT (0: any); with --realtime")
+        ->type_name("ADDRESS:PORT");
+    app.add_option("--modbus", options.modbus,
+                   "serve a PLC by Modbus TCP: tcp:127.0.0.1:PORT, or by RTU, 19200 baud, 8E1, unit 1: "
+                   "rtu:/dev/ttyUSB0 or pty:PATH; with --realtime. `nanoplc modbus-map` prints the map")
+        ->type_name("EP");
+    app.add_option("--mqtt", options.mqtt,
+                   "show the axis to a broker as Sparkplug B's node nanoplc/sim: HOST:PORT; with --realtime")
+        ->type_name("HOST:PORT");
+    app.add_option("--metrics", options.metrics,
+                   "serve metrics for Prometheus: 127.0.0.1:PORT; with --realtime")
+        ->type_name("ADDRESS:PORT");
+}
+
 void add_run(arguments::App& parent, RunOptions& options) {
     arguments::App& app = *parent.add_subcommand(
         "run", "Run a sequence on the simulated gateway with a virtual motor; prints a timeline");
@@ -114,6 +135,9 @@ void add_run(arguments::App& parent, RunOptions& options) {
     app.add_option("--scenario", options.scenario,
                    "inputs, line faults and expectations, see host-sim/scenario")
         ->type_name("S.scn");
+    app.add_option("--plant", options.plant,
+                   "inertia, friction and load of a real axis, as `macreg fit` writes them")
+        ->type_name("axis.toml");
     add_read(app, "--for", "TIME", "end after this time (10s without a scenario; no end with --realtime)",
              "a time, such as 500ms, 5s or 2min", into(options.length, [](const std::string& text) {
                  const auto time = parse_duration(text);
@@ -143,10 +167,7 @@ void add_run(arguments::App& parent, RunOptions& options) {
                  return text == "can";
              }));
     app.add_flag("--realtime", options.realtime, "wall-clock time; keys 0-5 toggle inputs, q ends");
-    app.add_option(
-           "--mactalk", options.mactalk,
-           "open the gateway's MacTalk port: pty:PATH, unix:PATH or tcp:127.0.0.1:PORT; with --realtime")
-        ->type_name("EP");
+    add_doors(app, options);
     app.add_option("--flash", options.flash, "file that keeps the gateway's flash: stored table and settings")
         ->type_name("FILE");
     app.add_flag("--quiet", options.quiet, "only the summary");
@@ -178,10 +199,39 @@ void add_scan(arguments::App& parent, ScanOptions& options) {
         kExitCodes));
 }
 
+void add_fmu(arguments::App& parent, FmuCommand& command) {
+    arguments::App& app = *parent.add_subcommand(
+        "fmu", "Write a virtual motor, or a gateway and its motor, as an FMU for other simulators");
+    app.add_option("-o,--output", command.output, "the FMU, such as motor.fmu")
+        ->type_name("F.fmu")
+        ->required();
+    app.add_option(
+           "--with-gateway", command.program,
+           "a gateway that runs this program, F.seq, F.bin or F.hex; without it the motor alone, whose "
+           "registers the importer writes")
+        ->type_name("PROGRAM");
+    app.add_option("--symbols", command.symbols, "names for a table, as of run")->type_name("F.sym");
+    add_read(app, "--motor,--model", "MODEL", "the motor (the program's own; MAC140 without one)",
+             "a JVL motor: MAC50, MAC95, MAC140, MAC141 or MAC800",
+             into(command.motor, [](const std::string& text) { return registers::model_of(text); }));
+    add_read(app, "--fmi", "VERSION", "of the standard: 3 (FMI 3.0) or 2 (FMI 2.0)", "3 or 2",
+             into(command.fmi, [](const std::string& text) { return whole<int>(text, 2, 3); }));
+    app.add_option("--plant", command.plant,
+                   "inertia, friction and load of a real axis, as `macreg fit` writes them: where the FMU's "
+                   "parameters begin")
+        ->type_name("axis.toml");
+    app.add_option("--windows", command.windows,
+                   "a library for Windows to put in too, as `tools/portable windows` builds it")
+        ->type_name("F.dll");
+    app.footer(fmt::format("Variables, units and times: host-sim/fmu/README.md.\n{}", kExitCodes));
+}
+
 void check_drive(const RunOptions& run) {
     if (run.can && run.drive == nullptr)
         throw InputError("nanoplc-sim: --midi without a MIDI drive; add --motor MAC23, MAC34-1 or MAC34-2");
     if (run.drive == nullptr) return;
+    if (run.plant)
+        throw InputError("nanoplc-sim: --plant is of a JVL motor's shaft; leave it out with a MIDI drive");
     const auto bauds = run.drive->family->bauds();
     if (run.can.value_or(false)) {
         if (!run.drive->has_can)
@@ -202,9 +252,18 @@ void check_run(const RunOptions& run) {
     check_drive(run);
     if (run.mactalk && !run.realtime)
         throw InputError("nanoplc-sim: --mactalk needs --realtime: outside programs live in real time");
-    if (run.program.empty() && !run.flash && !run.mactalk)
+    if (run.panel && !run.realtime)
+        throw InputError("nanoplc-sim: --panel needs --realtime: a browser lives in real time");
+    if (run.modbus && !run.realtime)
+        throw InputError("nanoplc-sim: --modbus needs --realtime: outside programs live in real time");
+    if (run.metrics && !run.realtime)
+        throw InputError("nanoplc-sim: --metrics needs --realtime: outside programs live in real time");
+    if (run.mqtt && !run.realtime)
+        throw InputError("nanoplc-sim: --mqtt needs --realtime: outside programs live in real time");
+    if (run.program.empty() && !run.flash && !run.mactalk && !run.panel && !run.modbus)
         throw InputError(
-            "nanoplc-sim: run what? name a program, or --flash or --mactalk; see nanoplc-sim --help");
+            "nanoplc-sim: run what? name a program, or --flash, --mactalk, --panel or --modbus; see "
+            "nanoplc-sim --help");
     if (run.junit && !run.scenario)
         throw InputError(
             "nanoplc-sim: --junit without a scenario, whose expectations it writes; add --scenario S.scn");
@@ -223,12 +282,15 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     RunOptions run;
     ScanOptions scan;
     add_run(app, run);
+    FmuCommand fmu;
     add_scan(app, scan);
+    add_fmu(app, fmu);
     const arguments::ParseResult outcome = app.parse(argc, argv);
     if (outcome.kind == arguments::ParseResult::Kind::told) return NothingToDo{};
     if (outcome.kind == arguments::ParseResult::Kind::wrong)
         throw InputError(fmt::format("nanoplc-sim: {}; see nanoplc-sim --help", outcome.error));
     if (app.got_subcommand("scan")) return scan;
+    if (app.got_subcommand("fmu")) return fmu;
     check_run(run);
     return run;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <variant>
 
+#include "fmu_command.h"
 #include "run_command.h"
 
 namespace nplc::sim {
@@ -16,7 +17,7 @@ struct ScanOptions {
 /// Help or version has been asked for and printed.
 struct NothingToDo {};
 
-using CommandLine = std::variant<RunOptions, ScanOptions, NothingToDo>;
+using CommandLine = std::variant<RunOptions, ScanOptions, FmuCommand, NothingToDo>;
 
 /// Throws InputError.
 CommandLine parse_command_line(int argc, const char* const* argv);

@@ -16,7 +16,7 @@
 namespace nplc::sim {
 namespace {
 
-constexpr std::size_t kMost = 4U << 20U;
+constexpr std::size_t kMostBytes = 4U << 20U;
 constexpr std::size_t kMostOfALongOne = 256U << 20U;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& what, const std::string& why) {
@@ -63,7 +63,7 @@ bool has_extension(const std::string& path, std::string_view extension) {
 }
 
 std::string read_input(const std::string& path, const std::string& what) {
-    return read(path, what, kMost);
+    return read(path, what, kMostBytes);
 }
 
 std::string read_long_input(const std::string& path, const std::string& what) {

@@ -26,6 +26,10 @@ int run_command_line(int argc, const char* const* argv) {
         run_scan(scan->table, scan->stimulus);
         return 0;
     }
+    if (const auto* fmu = std::get_if<FmuCommand>(&command)) {
+        write_fmu(*fmu);
+        return 0;
+    }
     const auto* options = std::get_if<RunOptions>(&command);
     if (options == nullptr) return 0;
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(signal, on_signal);

@@ -5,9 +5,32 @@
 #include "registers/mac.h"
 
 namespace nplc::sim {
-namespace {
 
 namespace fastmac = protocol::fastmac;
+
+namespace {
+
+/// Of the longest common subsequence of what is wanted from i on and what is done from j on.
+class CommonLengths {
+  public:
+    template <class Same>
+    CommonLengths(std::size_t wanted, std::size_t done, Same same)
+        : columns_(done + 1), lengths_((wanted + 1) * columns_) {
+        for (std::size_t i = wanted; i-- > 0;) {
+            for (std::size_t j = done; j-- > 0;) {
+                at(i, j) = same(i, j) ? static_cast<std::uint16_t>(at(i + 1, j + 1) + 1)
+                                      : std::max(at(i + 1, j), at(i, j + 1));
+            }
+        }
+    }
+    std::uint16_t& at(std::size_t i, std::size_t j) { return lengths_[i * columns_ + j]; }
+
+  private:
+    std::size_t columns_;
+    std::vector<std::uint16_t> lengths_;
+};
+
+}  // namespace
 
 bool concerns_the_link_only(const SentOrder& order) {
     using fastmac::Number;
@@ -33,28 +56,6 @@ SentOrder as_sent(const Order& order, fastmac::RegisterCode code) {
         return {.command = fastmac::encode_command(fastmac::decode_command(order.command, code))};
     return {.is_register_write = true, .reg = order.reg, .value = order.message.value};
 }
-
-/// Of the longest common subsequence of what is wanted from i on and what is done from j on.
-class CommonLengths {
-  public:
-    template <class Same>
-    CommonLengths(std::size_t wanted, std::size_t done, Same same)
-        : columns_(done + 1), lengths_((wanted + 1) * columns_) {
-        for (std::size_t i = wanted; i-- > 0;) {
-            for (std::size_t j = done; j-- > 0;) {
-                at(i, j) = same(i, j) ? static_cast<std::uint16_t>(at(i + 1, j + 1) + 1)
-                                      : std::max(at(i + 1, j), at(i, j + 1));
-            }
-        }
-    }
-    std::uint16_t& at(std::size_t i, std::size_t j) { return lengths_[i * columns_ + j]; }
-
-  private:
-    std::size_t columns_;
-    std::vector<std::uint16_t> lengths_;
-};
-
-}  // namespace
 
 void OrderList::add(const SentOrder& order) {
     if (first.size() < kKept) first.push_back(order);

@@ -10,6 +10,11 @@
 
 namespace nplc::sim {
 
+/// As the sequence gives it. `code`: the register code that the motor executes its commands by.
+SentOrder as_sent(const Order& order, protocol::fastmac::RegisterCode code);
+/// NOP, 0Ah, 0Bh, 13h, 1Dh, 1Eh, 1Fh; and MODE_REG := 0, with which the gateway stops the motor by itself.
+bool concerns_the_link_only(const SentOrder& order);
+
 /// How many, and the first of them.
 struct OrderList {
     static constexpr std::size_t kKept = 8;
@@ -21,9 +26,8 @@ struct OrderList {
     bool empty() const { return count == 0; }
 };
 
-/// What the sequence ordered against what the motor executed. Left out on both sides: what only concerns the
-/// link (NOP, 0Ah, 0Bh, 13h, 1Dh, 1Eh, 1Fh) and MODE_REG := 0, with which the gateway stops the motor by
-/// itself.
+/// What the sequence ordered against what the motor executed. Left out on both sides: what
+/// concerns_the_link_only().
 struct OrderAudit {
     OrderList missing;    ///< ordered and not executed
     OrderList under_way;  ///< ordered and not executed yet

@@ -7,6 +7,7 @@
 
 #include "base/crc32.h"
 #include "input_file.h"
+#include "rehearsal/names.h"
 #include "seqc/seqc.h"
 #include "seqc/symbol_file.h"
 #include "sequencer/table.h"
@@ -14,22 +15,8 @@
 namespace nplc::sim {
 namespace {
 
-Names names_of(const seqc::Symbols& symbols) {
-    Names names;
-    names.motor = symbols.motor;
-    if (symbols.scale)
-        names.machine = {symbols.scale->unit, symbols.scale->length / symbols.scale->revolutions};
-    std::copy(symbols.inputs.begin(), symbols.inputs.end(), names.inputs.begin());
-    std::copy(symbols.outputs.begin(), symbols.outputs.end(), names.outputs.begin());
-    for (std::size_t step = 0; step < symbols.steps.size(); ++step) {
-        if (!symbols.steps[step].empty()) names.steps[static_cast<std::uint8_t>(step)] = symbols.steps[step];
-    }
-    return names;
-}
-
-std::string rendered(const seqc::Compilation& compilation, const std::string& source,
-                     const std::string& file) {
-    std::string text = seqc::render_all(compilation, source, file);
+std::string rendered(const seqc::Compilation& compilation, const seqc::Sources& sources) {
+    std::string text = seqc::render_all(compilation, sources);
     while (text.ends_with('\n')) text.pop_back();
     return text;
 }
@@ -38,15 +25,17 @@ Program compile(const std::string& file) {
     const std::string source = read_input(file, "a program for seqc");
     if (source.find('\0') != std::string::npos)
         throw InputError(fmt::format("{}: is no text, for it holds zeros; name a program for seqc", file));
-    const seqc::Compilation compilation = seqc::compile(source);
-    if (!compilation.ok) throw InputError(rendered(compilation, source, file));
+    const seqc::Sources sources = seqc::read_sources(file, source);
+    const seqc::Compilation compilation = seqc::compile(sources);
+    if (!compilation.ok) throw InputError(rendered(compilation, sources));
     check_table(compilation.table, file);
     Program program;
     program.file = file;
     program.table = compilation.table;
     program.name = compilation.symbols.program;
-    program.names = names_of(compilation.symbols);
+    program.names = rehearsal::names_of(compilation.symbols);
     program.drive = compilation.symbols.drive;
+    program.symbols_text = seqc::write_symbols(compilation, sources);
     if (const auto warnings = compilation.diagnostics.size(); warnings != 0) {
         program.remark = fmt::format("{}: {} warning{}; `seqc check {}` shows {}", file, warnings,
                                      warnings == 1 ? "" : "s", file, warnings == 1 ? "it" : "them");
@@ -56,13 +45,14 @@ Program compile(const std::string& file) {
 
 /// Throws InputError, also for symbols that do not fit the table.
 void take_names(Program& program, const std::string& file, const std::string& otherwise) {
-    const seqc::SymbolReading reading =
-        seqc::read_symbols(read_input(file, "a symbol file as `seqc build` writes it"), program.table);
+    std::string text = read_input(file, "a symbol file as `seqc build` writes it");
+    const seqc::SymbolReading reading = seqc::read_symbols(text, program.table);
     if (!reading.error.empty()) throw InputError(fmt::format("{}: {}; {}", file, reading.error, otherwise));
     program.name = reading.file.symbols.program;
-    program.names = names_of(reading.file.symbols);
+    program.names = rehearsal::names_of(reading.file.symbols);
     program.drive = reading.file.symbols.drive;
     program.symbols = file;
+    program.symbols_text = std::move(text);
 }
 
 /// Symbols that stand beside a table by chance need not fit.
@@ -77,6 +67,10 @@ void take_names_beside(Program& program, const std::string& file) {
 }
 
 }  // namespace
+
+std::vector<std::uint8_t> Program::content() const {
+    return set_points::with_record(table, names.set_points);
+}
 
 std::string symbols_of(const std::string& file, const std::optional<std::string>& symbols) {
     if (symbols) return *symbols;

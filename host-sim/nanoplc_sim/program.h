@@ -14,11 +14,14 @@ namespace nplc::sim {
 struct Program {
     std::string file;
     std::vector<std::uint8_t> table;  ///< Table::load takes it
+    /// As it is uploaded: the table, then the record of its set-points.
+    std::vector<std::uint8_t> content() const;
     std::size_t terms = 0;
     std::uint32_t crc32 = 0;  ///< of the table, its end term included
     std::string name;         ///< as the source has it; empty for a table without names
     Names names;
     const registers::DriveModel* drive = nullptr;  ///< as in Symbols
+    std::string symbols_text;                      ///< as F.sym holds it; empty for a table without names
     std::string symbols;                           ///< the file that the names of a table come from, or empty
     std::string nameless;  ///< one line for the user why a table's symbols were left out, or empty
     std::string remark;    ///< one line for the user about the source, or empty

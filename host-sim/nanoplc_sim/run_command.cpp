@@ -18,10 +18,12 @@
 #include "hal_linux/key_reader.h"
 #include "host/terminal.h"
 #include "input_file.h"
+#include "panel_door.h"
 #include "program.h"
 #include "session.h"
 #include "shared_line/shared_line.h"
 #include "sim/output_file.h"
+#include "sim_faces.h"
 
 namespace nplc::sim {
 namespace {
@@ -139,17 +141,16 @@ void run_fast(Session& session, const RunOptions& options, const volatile std::s
 /// The gateway's port for programs outside; nothing without --mactalk.
 class Door {
   public:
-    explicit Door(const RunOptions& options) {
+    Door(const RunOptions& options, faces::Seat& operators) {
         if (!options.mactalk) return;
         auto opened = hal_linux::ByteServer::open(*options.mactalk, {.seats = kMostClients});
         if (!opened.server) throw InputError("--mactalk " + opened.error);
         server_ = std::move(opened.server);
-        line_.emplace(*server_);
+        line_.emplace(*server_, &operators);
     }
     bool is_open() const { return line_.has_value(); }
     void announce() const {
-        if (is_open()) fmt::print("mactalk: {}\nready\n", server_->name());
-        std::fflush(stdout);
+        if (is_open()) fmt::print("mactalk: {}\n", server_->name());
     }
     /// By the wall clock: virtual time stands while this process is halted.
     void take_in(Session& session) {
@@ -179,24 +180,34 @@ void show_status(const Session& session) {
 }
 
 /// Virtual time follows the wall clock. The status line is rewritten in place below the timeline.
-void run_realtime(Session& session, Door& door, const volatile std::sig_atomic_t& interrupted) {
+void run_realtime(Session& session, Door& door, SimFaces& faces, PanelDoor& panel,
+                  const volatile std::sig_atomic_t& interrupted) {
     hal_linux::KeyReader keys;
     const bool live = host::is_terminal(stdout);
     if (live && keys.has_keys()) fmt::print("{}\n", session.keys());
     if (live) session.clear_line_before_each("\r\033[K");
     door.announce();
-    const auto start = Clock::now();
-    auto next_status = start;
+    session.after_each_step([&faces, &session] { faces.count(session.world()); });
+    panel.open();
+    faces.announce();
+    if (door.is_open() || panel.is_open() || faces.is_open()) fmt::print("ready\n");
+    std::fflush(stdout);
+    Pace pace(Clock::now());
+    auto next_status = Clock::now();
     while (!session.ended() && interrupted == 0) {
         door.take_in(session);
-        session.advance(std::chrono::duration_cast<Time>(Clock::now() - start));
+        panel.serve(session);
+        session.advance(pace.virtual_time(Clock::now(), panel.speed()));
         door.hand_out(session);
+        faces.serve(session.world());
         if (Clock::now() >= next_status) {
             next_status = Clock::now() + kRefresh;
             if (live) show_status(session);
             std::fflush(stdout);
         }
-        if (const auto key = keys.key(door.is_open() ? kPortWait : kKeyWait)) handle_key(session, *key);
+        const bool has_clients = door.is_open() || panel.is_open() || faces.is_open();
+        if (const auto key = keys.key(has_clients ? kPortWait : kKeyWait, faces.descriptor()))
+            handle_key(session, *key);
     }
     if (live) fmt::print("\r\033[K");
 }
@@ -259,13 +270,27 @@ int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted
     if (!program.remark.empty()) fmt::print(stderr, "{}\n", program.remark);
     tell_stand_in(options, program);
     const auto flash = open_flash(options);
-    Door door(options);
+    SimFaces faces;
+    if (options.modbus) {
+        if (const std::string error = faces.open_modbus(*options.modbus); !error.empty())
+            throw InputError("--modbus " + error);
+    }
+    if (options.metrics) {
+        if (const std::string error = faces.open_metrics(*options.metrics); !error.empty())
+            throw InputError("--metrics " + error);
+    }
+    if (options.mqtt) {
+        if (const std::string error = faces.open_mqtt(*options.mqtt); !error.empty())
+            throw InputError("--mqtt " + error);
+    }
+    Door door(options, faces.seat());
     const std::size_t columns = host::is_terminal(stdout) ? host::terminal_columns() : 0;
     Session session(options, program, scenario, Palette(wants_colour()), columns, flash.get());
+    PanelDoor panel(options.panel, program, faces.model());
     session.heading();
     fmt::print(stderr, "{}", session.doubts());
     if (options.realtime) {
-        run_realtime(session, door, interrupted);
+        run_realtime(session, door, faces, panel, interrupted);
     } else {
         run_fast(session, options, interrupted);
     }

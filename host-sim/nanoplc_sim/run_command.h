@@ -15,10 +15,15 @@ struct RunOptions {
     std::string program;                 ///< empty: the table that the flash holds, or none
     std::optional<std::string> symbols;  ///< without it, F.sym beside a table if it fits
     std::optional<std::string> scenario;
+    std::optional<std::string> plant;  ///< file
     std::optional<std::string> csv;
     std::optional<std::string> vcd;
     std::optional<std::string> junit;
     std::optional<std::string> mactalk;  ///< endpoint of the user's port
+    std::optional<std::string> panel;    ///< ADDRESS:PORT of the browser panel
+    std::optional<std::string> modbus;   ///< where a Modbus TCP server listens
+    std::optional<std::string> metrics;  ///< where metrics are served
+    std::optional<std::string> mqtt;     ///< HOST:PORT of a broker
     std::optional<std::string> flash;    ///< file that keeps the gateway's flash
     std::optional<Time> length;
     std::optional<registers::Model> motor;  ///< the program's own without it

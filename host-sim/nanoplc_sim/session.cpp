@@ -7,6 +7,7 @@
 
 #include "input_file.h"
 #include "junit.h"
+#include "sim/axis.h"
 
 namespace nplc::sim {
 namespace {
@@ -26,6 +27,9 @@ WorldOptions world_options(const RunOptions& options, const Names& names, const 
                        .rate = options.baud.value_or(0),
                        .seed = options.seed};
     }
+    AxisReading axis = read_axis(options.plant.value_or(""), scenario, names.motor);
+    if (!axis.error.empty()) throw InputError(axis.error);
+    world.load = axis.load;
     world.seed = options.seed;
     world.faults = options.faults;
     world.safe_communication = !options.rapid;
@@ -53,12 +57,14 @@ std::string_view in_words(gateway::SafeReason reason) {
             return "outputs safe: watchdog reset";
         case gateway::SafeReason::enable_lost:
             return "outputs safe: enable lost";
+        case gateway::SafeReason::bad_set_points:
+            return "outputs safe: the stored set-points are damaged";
         case gateway::SafeReason::bad_settings:
             return "outputs safe: the stored settings are damaged";
         case gateway::SafeReason::bad_run_mark:
             return "outputs safe: the mark of the last run is damaged";
         case gateway::SafeReason::safe_command:
-            return "outputs safe: a person's command";
+            return "outputs safe: the user's command";
         case gateway::SafeReason::no_lines:
         case gateway::SafeReason::no_store:
         case gateway::SafeReason::no_port:
@@ -97,8 +103,9 @@ Session::Session(const RunOptions& options, const Program& program, const Scenar
       options_(options),
       scenario_(scenario),
       palette_(palette),
+      columns_(columns),
       timeline_(program.names, palette, columns),
-      world_(program.table, world_options(options, program.names, scenario, storage)),
+      world_(program.content(), world_options(options, program.names, scenario, storage)),
       runner_(scenario, program.names, world_),
       auditor_(options.old_register_codes ? protocol::fastmac::RegisterCode::older_example
                                           : protocol::fastmac::RegisterCode::format_list),
@@ -115,7 +122,7 @@ Session::Session(const RunOptions& options, const Program& program, const Scenar
     if (options.junit) junit_.emplace(*options.junit);
     if (!length_ && !options.realtime && !scenario.can_end()) length_ = kDefaultLength;
     world_.on_log([this](const std::string& text) { timeline_.remark('"' + text + '"'); });
-    runner_.on_failure([this](const Outcome& outcome, Time) {
+    runner_.on_failure([this](const ExpectationResult& outcome, Time) {
         timeline_.alarm(fmt::format("FAILED {}:{}: {}", scenario_.file, outcome.line, outcome.expectation));
     });
 }
@@ -152,13 +159,29 @@ std::string Session::motor_in_words() const {
                        world_.setting(store::Setting::safe_communication) == 0 ? "rapid" : "safe");
 }
 
+void Session::say(const std::string& text, std::size_t indent) const {
+    constexpr std::size_t kFurther = 4;
+    constexpr std::size_t kLeast = 20;
+    if (columns_ == 0) {
+        fmt::print("{:{}}{}\n", "", indent, text);
+        return;
+    }
+    const std::size_t margin = indent + kFurther;
+    std::size_t before = indent;
+    for (const std::string& line : wrapped(text, std::max(columns_, margin + kLeast) - margin)) {
+        fmt::print("{:{}}{}\n", "", before, line);
+        before = margin;
+    }
+}
+
 void Session::heading() const {
     const std::string seed =
         options_.faults == LineFaults{} ? "" : fmt::format(", faults with seed {}", options_.seed);
     const std::string names =
         program_.symbols.empty() ? "" : fmt::format(", names from {}", program_.symbols);
-    fmt::print("{}: {} terms, {}{}{}\n\n", program_.file, world_.gateway().table().size(), motor_in_words(),
-               seed, names);
+    say(fmt::format("{}: {} terms, {}{}{}", program_.file, world_.gateway().table().size(), motor_in_words(),
+                    seed, names));
+    fmt::print("\n");
     if (!options_.quiet) timeline_.heading();
 }
 
@@ -170,6 +193,7 @@ void Session::advance(Time limit) {
         if (const auto due = runner_.next_due()) stop = std::min(stop, *due);
         if (csv_) stop = std::min(stop, csv_->next_due());
         world_.step(stop);
+        if (after_step_) after_step_();
         show();
     }
     if (length_ && now() >= *length_) ended_ = true;
@@ -257,19 +281,20 @@ void Session::summary() {
     for (unsigned i = 0; i < kOutputs; ++i) {
         if ((last_.outputs >> i & 1) != 0) outputs += (outputs.empty() ? "" : " ") + program_.names.output(i);
     }
-    fmt::print("\nended at {} ms in step {}, P_IST {} counts ({:.3f} rev), outputs {}{}\n",
-               in_milliseconds(now()), program_.names.step(last_.step), last_.p_ist,
-               static_cast<double>(last_.p_ist) / scale.counts_per_rev, outputs.empty() ? "all off" : outputs,
-               last_.error ? ", ERROR" : "");
-    fmt::print(
+    fmt::print("\n");
+    say(fmt::format("ended at {} ms in step {}, P_IST {} counts ({:.3f} rev), outputs {}{}",
+                    in_milliseconds(now()), program_.names.step(last_.step), last_.p_ist,
+                    static_cast<double>(last_.p_ist) / scale.counts_per_rev,
+                    outputs.empty() ? "all off" : outputs, last_.error ? ", ERROR" : ""));
+    say(fmt::format(
         "{} scans; orders: {} executed, {} discarded; {} messages sent again, {} link losses, {} watchdog "
-        "resets\n",
+        "resets",
         world_.gateway().scans(), driver.counters().orders, driver.counters().discarded,
-        driver.counters().resent, driver.counters().link_losses, world_.board().bites());
+        driver.counters().resent, driver.counters().link_losses, world_.board().bites()));
     lines_in_words();
-    if (csv_) fmt::print("trace: {}\n", *options_.csv);
-    if (vcd_) fmt::print("trace: {}\n", *options_.vcd);
-    if (junit_) fmt::print("JUnit: {}\n", *options_.junit);
+    if (csv_) say(fmt::format("trace: {}", *options_.csv));
+    if (vcd_) say(fmt::format("trace: {}", *options_.vcd));
+    if (junit_) say(fmt::format("JUnit: {}", *options_.junit));
     judgements();
 }
 
@@ -277,23 +302,23 @@ void Session::lines_in_words() {
     const VirtualSerialLine* found = world_.drive() != nullptr ? world_.drive()->line() : &world_.line();
     if (found == nullptr) return;
     const VirtualSerialLine& line = *found;
-    fmt::print("{}\n", in_words("line to the motor", line.to_motor().counters()));
-    fmt::print("{}\n", in_words("line from the motor", line.from_motor().counters()));
+    say(in_words("line to the motor", line.to_motor().counters()));
+    say(in_words("line from the motor", line.from_motor().counters()));
     if (world_.drive() == nullptr) compare_orders();
 }
 
 void Session::compare_orders() {
     const OrderAudit found = auditor_.finish(world_.on_their_way());
     if (!found.under_way.empty()) {
-        fmt::print("still on their way: {}\n", list(found.under_way, program_.names));
+        say(fmt::format("still on their way: {}", list(found.under_way, program_.names)));
     }
     if (found.missing.empty() && found.unordered.empty()) {
-        fmt::print("{}the motor executed what was ordered, and nothing else\n",
-                   found.under_way.empty() ? "" : "apart from that ");
+        say(fmt::format("{}the motor executed what was ordered, and nothing else",
+                        found.under_way.empty() ? "" : "apart from that "));
         return;
     }
-    fmt::print("ordered and not executed: {}\nexecuted and not ordered: {}\n",
-               list(found.missing, program_.names), list(found.unordered, program_.names));
+    say(fmt::format("ordered and not executed: {}", list(found.missing, program_.names)));
+    say(fmt::format("executed and not ordered: {}", list(found.unordered, program_.names)));
 }
 
 void Session::judgements() const {
@@ -301,10 +326,11 @@ void Session::judgements() const {
     const std::size_t failed = runner_.failures();
     fmt::print("expectations: {} passed, {}{} failed{}\n", runner_.outcomes().size() - failed,
                failed != 0 ? palette_.bad : "", failed, palette_.plain);
-    for (const Outcome& outcome : runner_.outcomes()) {
+    for (const ExpectationResult& outcome : runner_.outcomes()) {
         if (outcome.passed) continue;
-        fmt::print("  {}:{}: expected: {}; seen: {}\n", scenario_.file, outcome.line, outcome.expectation,
-                   outcome.seen);
+        say(fmt::format("{}:{}: expected: {}; seen: {}", scenario_.file, outcome.line, outcome.expectation,
+                        outcome.seen),
+            2);
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,7 +38,19 @@ class Session {
     std::uint8_t gateway_address() const { return world_.gateway_address(); }
     std::uint8_t motor_address() const { return world_.motor_address(); }
 
+    /// For who counts what advance() does.
+    void after_each_step(std::function<void()> look) { after_step_ = std::move(look); }
+    /// For faces, between two advance().
+    World& world() { return world_; }
+
     void press(unsigned input);  ///< toggles it
+    /// What a person does to the machine, at this moment.
+    void act(Actions actions) {
+        runner_.also(std::move(actions), now());
+        show();
+    }
+    const Names& names() const { return program_.names; }
+    const Snapshot& seen() const { return last_; }
 
     /// Judges, writes the files and prints the summary. True if every expectation passed.
     bool finish();
@@ -52,6 +65,8 @@ class Session {
     std::string doubts() const;
 
   private:
+    /// A line, broken where the terminal is narrower.
+    void say(const std::string& text, std::size_t indent = 0) const;
     std::string motor_in_words() const;
     void lines_in_words();
     void show();
@@ -65,6 +80,7 @@ class Session {
     const RunOptions& options_;
     const Scenario& scenario_;
     Palette palette_;
+    std::size_t columns_;
     Timeline timeline_;
     World world_;
     ScenarioRunner runner_;
@@ -78,6 +94,7 @@ class Session {
     std::string motor_note_;
     std::uint32_t bites_ = 0;
     bool ended_ = false;
+    std::function<void()> after_step_;
 };
 
 }  // namespace nplc::sim

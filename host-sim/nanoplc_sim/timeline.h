@@ -19,7 +19,7 @@ struct Palette {
 /// colours take no room.
 std::vector<std::string> wrapped(std::string_view text, std::size_t width);
 
-/// A run as a person reads it: one line for everything that happens, on standard output. On a terminal too
+/// A run as the user reads it: one line for everything that happens, on standard output. On a terminal too
 /// narrow for all columns: time, step, position, speed, and what happens, outputs among it.
 class Timeline {
   public:

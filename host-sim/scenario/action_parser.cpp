@@ -13,9 +13,9 @@ namespace nplc::sim {
 namespace {
 
 constexpr std::string_view kActions =
-    "an action: IN0 := 1, pulse IN0 50 ms, toggle IN0, cancel IN0, line ..., motor ..., gateway ..., seed, "
-    "log "
-    "or end";
+    "an action: IN0 := 1, pulse IN0 50 ms, toggle IN0, cancel IN0, line ..., motor ..., gateway ..., set "
+    "..., "
+    "recipe ..., seed, log or end";
 
 constexpr std::string_view kMotor =
     "motor error, motor load, motor brake, motor power, motor stop, motor sensor, motor analogue, motor "
@@ -46,6 +46,8 @@ void ActionParser::action(Actions& list, Time after) {
     if (reader_.take("line")) return line(list, after);
     if (reader_.take("motor")) return motor(list, after);
     if (reader_.take("gateway")) return gateway(list, after);
+    if (reader_.is("set") && !reader_.is(":=", 1)) return set_points(list, after);
+    if (reader_.is("recipe") && !reader_.is(":=", 1)) return recipe(list, after);
     if (reader_.take("seed")) return seed(list, after);
     if (reader_.take("log")) return log(list, after);
     if (reader_.take("end")) return add(list, after, action::End{});

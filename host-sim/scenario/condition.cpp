@@ -28,6 +28,14 @@ bool compare(const Condition& condition, double seen) {
     return false;
 }
 
+/// A copy of a step is that step, unless the condition names the copy.
+double seen_value(const Condition& condition, const Snapshot& snapshot, const Names& names) {
+    const double seen = condition.value.of(snapshot);
+    if (condition.value.kind != Value::Kind::step || seen == condition.operand) return seen;
+    const auto copy = names.copy_of.find(snapshot.step);
+    return copy == names.copy_of.end() ? seen : copy->second;
+}
+
 /// At most four decimals.
 std::string in_unit(double value, const Unit& unit) {
     std::string text = fmt::format("{:.4f}", value / unit.size);
@@ -148,7 +156,7 @@ bool Condition::holds(const Snapshot& snapshot, const Names& names) const {
     const auto part_holds = [&](const Condition& part) { return part.holds(snapshot, names); };
     switch (kind) {
         case Kind::compare:
-            return compare(*this, value.of(snapshot));
+            return compare(*this, seen_value(*this, snapshot, names));
         case Kind::ordered:
             return std::any_of(snapshot.orders.begin(), snapshot.orders.end(), [&](const SentOrder& given) {
                 return normal_order(in_words(given, names.motor)) == order;

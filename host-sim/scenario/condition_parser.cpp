@@ -12,7 +12,7 @@ namespace {
 
 using Relation = Condition::Relation;
 
-/// Conditions are read, judged and given up by recursion.
+/// Conditions are read, judged and destroyed by recursion.
 constexpr int kDeepest = 100;
 
 constexpr std::array<std::pair<std::string_view, Relation>, 6> kRelations{{{"=", Relation::equal},
@@ -315,11 +315,6 @@ void ConditionParser::edge(Event& event) {
     if (is_order && event.edge != Event::Edge::true_now)
         reader_.refuse("an order is a moment, it does not rise, fall or change; remove the word behind it");
     if (is_order) event.edge = Event::Edge::each;
-}
-
-bool ConditionParser::knows_input(std::string_view word) const {
-    const auto found = lookup(word);
-    return found && found->kind == Value::Kind::input;
 }
 
 unsigned ConditionParser::input(std::string_view use) {

@@ -17,6 +17,8 @@ std::string_view why_midi_without(DrivePart part) {
             return "has no pulse input";
         case DrivePart::logic_supply:
             return "has one supply for all (003 §II.1); write motor supply";
+        case DrivePart::plant:
+            return "has a shaft of its own here that takes no plant file; write motor load";
         case DrivePart::temperature:
         case DrivePart::encoder:
         case DrivePart::inputs:

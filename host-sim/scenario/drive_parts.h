@@ -17,6 +17,7 @@ enum class DrivePart : std::uint8_t {
     temperature,
     encoder,  ///< one that is noticed when it breaks
     inputs,   ///< of a MIDI module
+    plant,    ///< a file of one
 };
 
 /// Why the drive has none and what to write instead, without a full stop; empty if it has.

@@ -94,7 +94,6 @@ class ConditionParser {
     /// What `per` is followed by, in counts: a revolution, or the machine's unit.
     double length();
     bool knows(std::string_view word) const { return lookup(word).has_value(); }
-    bool knows_input(std::string_view word) const;
     const Names& names() const { return names_; }
 
   private:
@@ -153,7 +152,9 @@ class ExpectationParser {
 /// What a scenario can do. All functions throw LineMistake.
 class ActionParser {
   public:
-    ActionParser(Reader& reader, ConditionParser& conditions) : reader_(reader), conditions_(conditions) {}
+    /// `recipes`: names of those that the scenario has saved so far.
+    ActionParser(Reader& reader, ConditionParser& conditions, std::vector<std::string>& recipes)
+        : reader_(reader), conditions_(conditions), recipes_(recipes) {}
 
     /// [after TIME] ACTION {, [after TIME] ACTION}; times add up.
     Actions actions();
@@ -202,11 +203,16 @@ class ActionParser {
     bool above_or_below(std::string_view example);
     int whole(std::string_view what, double least, double most, std::string_view mistake);
     void gateway(Actions& list, Time after);
+    // set_point_parser.cpp
+    void needs_set_points() const;
+    void set_points(Actions& list, Time after);
+    void recipe(Actions& list, Time after);
     void seed(Actions& list, Time after);
     void log(Actions& list, Time after);
 
     Reader& reader_;
     ConditionParser& conditions_;
+    std::vector<std::string>& recipes_;
 };
 
 }  // namespace nplc::sim

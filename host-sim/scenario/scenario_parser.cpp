@@ -16,7 +16,7 @@ class LineParser {
     LineParser(std::string_view text, int line, const Names& names, Scenario& scenario)
         : reader_(text),
           conditions_(reader_, names),
-          actions_(reader_, conditions_),
+          actions_(reader_, conditions_, scenario.recipes),
           line_(line),
           scenario_(scenario) {}
 
@@ -34,6 +34,7 @@ class LineParser {
         if (reader_.take("once")) return when(true);
         if (reader_.is("expect") || reader_.is("always") || reader_.is("never")) return expect();
         if (reader_.take("end")) return end();
+        if (reader_.is("motor") && reader_.is("plant", 1)) return plant();
         if (reader_.is("motor") && reader_.is(":=", 2)) {
             reader_.next();
             scenario_.registers.push_back(actions_.stored_register());
@@ -43,6 +44,18 @@ class LineParser {
         if (reader_.is("appears", 1)) return comes(true);
         if (reader_.is("disappears", 1)) return comes(false);
         scenario_.at.push_back({Time{0}, actions_.actions()});
+    }
+
+    /// motor plant "axis.toml"
+    void plant() {
+        reader_.next();
+        reader_.next();
+        const std::string why = why_without(DrivePart::plant, conditions_.names());
+        if (!why.empty()) reader_.refuse(why);
+        if (scenario_.plant) reader_.refuse("the scenario has a plant already; keep one of the two");
+        if (reader_.peek().kind != Token::Kind::text || reader_.peek().text.empty())
+            reader_.fail("the file in quotes, such as motor plant \"axis.toml\"");
+        scenario_.plant = NamedPlant{std::string(reader_.next().text), line_};
     }
 
     void at() {
@@ -239,6 +252,17 @@ ParsedScenario parse_scenario(std::string_view text, const std::string& file, co
     }
     check_expectation_times(parsed);
     return parsed;
+}
+
+ParsedActions parse_actions(std::string_view line, const Names& names) try {
+    std::vector<std::string> recipes;
+    Reader reader(line);
+    ConditionParser conditions(reader, names);
+    ParsedActions parsed{.actions = ActionParser(reader, conditions, recipes).actions()};
+    if (!reader.at_end()) reader.fail("actions separated by commas");
+    return parsed;
+} catch (const LineMistake& mistake) {
+    return {.mistake = mistake.message};
 }
 
 }  // namespace nplc::sim

@@ -23,6 +23,7 @@ struct KindOfAction {
     What operator()(const action::SpoilLine&) const { return What::line; }
     What operator()(const action::Seed&) const { return What::line; }
     What operator()(const action::Gateway&) const { return What::gateway; }
+    What operator()(const action::SetPoints&) const { return What::gateway; }
     What operator()(const action::Log&) const { return What::log; }
     What operator()(const action::End&) const { return What::end; }
     template <class Motor>
@@ -163,31 +164,23 @@ void ScenarioRunner::perform(const Planned& planned) {
     struct Performer {
         ScenarioRunner& self;
         std::uint64_t batch;
+        bool by_rule;
         void operator()(const action::SetInput& a) const { self.stage_.set_input(a.index, a.level); }
         void operator()(const action::ToggleInput& a) const { self.stage_.toggle_input(a.index); }
-        void operator()(const action::Cancel& a) const { self.cancel(a, batch); }
+        /// What has a time of its own was planned first and drops what rules have planned until then.
+        void operator()(const action::Cancel& a) const { self.cancel(a, by_rule ? batch : UINT64_MAX); }
         void operator()(const action::CutLine& a) const { self.stage_.cut_line(a.cut); }
         void operator()(const action::SpoilLine& a) const { self.stage_.spoil_line(a); }
         void operator()(const action::Seed& a) const { self.stage_.seed(a.value); }
         void operator()(const action::FailMotor&) const { self.stage_.fail_motor(); }
         void operator()(const action::PowerMotor& a) const { self.stage_.power_motor(a.on); }
-        void operator()(const action::LoadMotor& a) const { self.stage_.load_motor(a.torque); }
-        void operator()(const action::MotorBrake& a) const { self.stage_.set_brake(a.torque); }
-        void operator()(const action::StopMotor& a) const { self.stage_.stop_motor(a); }
-        void operator()(const action::FreeMotor&) const { self.stage_.free_motor(); }
-        void operator()(const action::MotorSensor& a) const { self.stage_.connect_sensor(a); }
-        void operator()(const action::SetDriveInput& a) const { self.stage_.set_drive_input(a); }
-        void operator()(const action::DriveSwitch& a) const { self.stage_.connect_switch(a); }
-        void operator()(const action::MotorAnalogue& a) const { self.stage_.set_analogue(a.volts); }
-        void operator()(const action::MotorPulses& a) const { self.stage_.set_pulses(a); }
-        void operator()(const action::MotorSupply& a) const { self.stage_.set_supply(a); }
-        void operator()(const action::MotorTemperature& a) const { self.stage_.set_temperature(a.celsius); }
-        void operator()(const action::BreakEncoder&) const { self.stage_.break_encoder(); }
+        void operator()(const action::OnMotor& a) const { self.stage_.act(a); }
         void operator()(const action::Gateway& a) const { self.stage_.gateway(a); }
+        void operator()(const action::SetPoints& a) const { self.stage_.set_points(a); }
         void operator()(const action::Log& a) const { self.stage_.log(a.text); }
         void operator()(const action::End&) const { self.ended_ = true; }
     };
-    std::visit(Performer{*this, planned.batch}, planned.action->what);
+    std::visit(Performer{*this, planned.batch, planned.by_rule}, planned.action->what);
 }
 
 void ScenarioRunner::finish(const Snapshot& snapshot) {
@@ -195,12 +188,12 @@ void ScenarioRunner::finish(const Snapshot& snapshot) {
         if (!judgement.decided) judge_at_end(judgement, snapshot);
     }
     std::sort(outcomes_.begin(), outcomes_.end(),
-              [](const Outcome& a, const Outcome& b) { return a.line < b.line; });
+              [](const ExpectationResult& a, const ExpectationResult& b) { return a.line < b.line; });
 }
 
 std::size_t ScenarioRunner::failures() const {
-    return static_cast<std::size_t>(
-        std::count_if(outcomes_.begin(), outcomes_.end(), [](const Outcome& o) { return !o.passed; }));
+    return static_cast<std::size_t>(std::count_if(outcomes_.begin(), outcomes_.end(),
+                                                  [](const ExpectationResult& o) { return !o.passed; }));
 }
 
 std::string ScenarioRunner::seen_at(const Condition& condition, const Snapshot& snapshot) const {

@@ -23,30 +23,23 @@ SimStorage::SimStorage(const ports::StorageGeometry& geometry, unsigned busy_pol
       bytes_(geometry.size, 0xFF),
       programmed_(geometry.size / geometry.program_unit, false) {}
 
-bool SimStorage::accepts(std::uint32_t address, std::uint32_t size, std::uint32_t alignment) const {
-    return address % alignment == 0 && size % alignment == 0 && size != 0 && address <= geometry_.size &&
-           size <= geometry_.size - address;
-}
-
 base::Status SimStorage::read(std::uint32_t address, std::span<std::uint8_t> out) {
     if (busy_ > 0) return base::Error::busy;
-    if (address > geometry_.size || out.size() > geometry_.size - address) return base::Error::bad_geometry;
+    if (!geometry_.can_read(address, out.size())) return base::Error::bad_geometry;
     std::copy_n(bytes_.data() + address, out.size(), out.begin());
     return {};
 }
 
 base::Status SimStorage::program(std::uint32_t address, std::span<const std::uint8_t> bytes) {
     if (busy_ > 0) return base::Error::busy;
-    const auto size = static_cast<std::uint32_t>(bytes.size());
-    const bool in_page = address / geometry_.program_page == (address + size - 1) / geometry_.program_page;
-    if (!accepts(address, size, geometry_.program_unit) || !in_page) return base::Error::bad_geometry;
+    if (bytes.empty() || !geometry_.can_program(address, bytes.size())) return base::Error::bad_geometry;
     begin({.is_erase = false, .address = address, .bytes = {bytes.begin(), bytes.end()}});
     return {};
 }
 
 base::Status SimStorage::erase(std::uint32_t address) {
     if (busy_ > 0) return base::Error::busy;
-    if (!accepts(address, geometry_.erase_block, geometry_.erase_block)) return base::Error::bad_geometry;
+    if (!geometry_.can_erase(address)) return base::Error::bad_geometry;
     begin({.is_erase = true, .address = address, .bytes = {}});
     return {};
 }

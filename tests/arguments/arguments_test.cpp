@@ -4,8 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <stdexcept>
+
+#include "arguments/commit.h"
 
 namespace nplc::arguments {
 namespace {
@@ -182,7 +186,10 @@ TEST(Arguments, HelpAndVersionArePrinted) {
     app.add_option("--flash", "a file")->type_name("FILE");
     testing::internal::CaptureStdout();
     const ParseResult version = parsed(app, {"--version"});
-    EXPECT_EQ(testing::internal::GetCapturedStdout(), "program 1.2\n");
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), "program 1.2 (commit " + std::string(commit()) + ")\n");
+    EXPECT_TRUE(commit() == "unknown" || std::all_of(commit().begin(), commit().begin() + 7,
+                                                     [](unsigned char c) { return std::isxdigit(c) != 0; }))
+        << commit();
     EXPECT_EQ(version.kind, Kind::told);
     EXPECT_EQ(version.exit_code, 0);
     testing::internal::CaptureStdout();

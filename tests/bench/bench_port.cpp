@@ -1,4 +1,4 @@
-// What a person's reads of the motor cost a running sequence, in virtual time: always the same figures.
+// What a client's reads of the motor cost a running sequence, in virtual time: always the same figures.
 #include <algorithm>
 #include <cstdio>
 

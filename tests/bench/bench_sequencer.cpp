@@ -1,5 +1,5 @@
-// bench_sequencer            time per scan of the engine, its prepared form, a table walk and compiled code
-// bench_sequencer --check    only that all five give the same trace; exit code 1 if not
+// bench_sequencer            time per scan of the engine, a table walk and compiled code
+// bench_sequencer --check    only that all four give the same trace; exit code 1 if not
 //
 // Google Benchmark's own options are taken as well.
 #include <benchmark/benchmark.h>
@@ -88,7 +88,6 @@ struct Case {
         return is_lively(name, size, expected) &&
                equal(name + ": ST CASE", expected, trace(CaseMachine<StCase>())) &&
                equal(name + ": engine in place", expected, trace(loaded.in_place())) &&
-               equal(name + ": prepared form", expected, trace(loaded.prepared())) &&
                equal(name + ": table walk", expected, trace(loaded.walk()));
     }
 
@@ -116,7 +115,6 @@ void Case<Switch, StCase>::enlist() const {
     };
     add("ST CASE", [] { return CaseMachine<StCase>(); });
     add("switch", [] { return SwitchMachine<Switch>(); });
-    add("prepared", [this] { return loaded.prepared(); });
     add("in place", [this] { return loaded.in_place(); });
     add("walk", [this] { return loaded.walk(); });
 }
@@ -137,17 +135,16 @@ class Reporter : public benchmark::ConsoleReporter {
     }
 
     void print_table() const {
-        if (medians_.size() != 5 * kSizes.size()) return;
+        if (medians_.size() != 4 * kSizes.size()) return;
         std::printf("\nMedian ns per scan\n\n");
-        std::printf("| steps x terms | ST CASE | switch | prepared | in place | walk ");
-        std::printf("| prepared / ST CASE | prepared / switch | walk / in place |\n");
-        std::printf("| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+        std::printf("| steps x terms | ST CASE | switch | in place | walk ");
+        std::printf("| in place / ST CASE | walk / in place |\n");
+        std::printf("| --- | --- | --- | --- | --- | --- | --- |\n");
         for (const Size size : kSizes) {
             const auto ns = [&](const char* column) { return medians_.at(name_of(size) + "/" + column); };
-            std::printf("| %s | %.1f | %.1f | %.1f | %.1f | %.1f | %.2f | %.2f | %.1f |\n",
-                        name_of(size).c_str(), ns("ST CASE"), ns("switch"), ns("prepared"), ns("in place"),
-                        ns("walk"), ns("prepared") / ns("ST CASE"), ns("prepared") / ns("switch"),
-                        ns("walk") / ns("in place"));
+            std::printf("| %s | %.1f | %.1f | %.1f | %.1f | %.2f | %.1f |\n", name_of(size).c_str(),
+                        ns("ST CASE"), ns("switch"), ns("in place"), ns("walk"),
+                        ns("in place") / ns("ST CASE"), ns("walk") / ns("in place"));
         }
     }
 
@@ -161,10 +158,8 @@ int run_all(int argc, char** argv) {
     const Case<Switch_62x4, Case_62x4> four(kSizes[2], kTable_62x4);
     const Case<Switch_62x16, Case_62x16> sixteen(kSizes[3], kTable_62x16);
     if (!small.check() || !one.check() || !four.check() || !sixteen.check()) return 1;
-    std::printf("%zu scans of each size: the five traces are equal\n", kCheckedScans);
+    std::printf("%zu scans of each size: the four traces are equal\n", kCheckedScans);
     if (argc == 2 && std::strcmp(argv[1], "--check") == 0) return 0;
-    std::printf("prepared form: %zu, %zu, %zu, %zu bytes\n", small.loaded.prepared_bytes(),
-                one.loaded.prepared_bytes(), four.loaded.prepared_bytes(), sixteen.loaded.prepared_bytes());
 
     small.enlist();
     one.enlist();

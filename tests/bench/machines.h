@@ -3,13 +3,11 @@
 #include <cstdint>
 #include <span>
 #include <stdexcept>
-#include <vector>
 
 #include "sequencer/engine.h"
-#include "sequencer/prepared.h"
 #include "variables.h"
 
-/// The five ways to run one logic. Each takes an image and lets 1 ms pass; all hand their orders to the same
+/// The four ways to run one logic. Each takes an image and lets 1 ms pass; all hand their orders to the same
 /// Sink.
 namespace nplc::bench {
 
@@ -87,12 +85,9 @@ class WalkMachine {
     Sink sink_;
 };
 
-/// The engine in place, or on the prepared form.
-template <class Engine>
-class EngineMachine {
+class InPlaceMachine {
   public:
-    template <class Table>
-    explicit EngineMachine(const Table& table) : engine_(table) {}
+    explicit InPlaceMachine(const sequencer::Table& table) : engine_(table) {}
     void scan(std::uint8_t image) {
         engine_.scan(image, sink_);
         engine_.elapse(1);
@@ -101,46 +96,26 @@ class EngineMachine {
     std::uint64_t hash() const { return sink_.hash; }
 
   private:
-    Engine engine_;
+    sequencer::Engine engine_;
     Sink sink_;
 };
-using InPlaceMachine = EngineMachine<sequencer::Engine>;
-using PreparedMachine = EngineMachine<sequencer::PreparedEngine>;
 
-/// A table loaded and prepared.
 class Loaded {
   public:
-    explicit Loaded(std::span<const std::uint8_t> bytes)
-        : bytes_(bytes),
-          cells_(sequencer::PreparedTable::kCells),
-          actions_(sequencer::PreparedTable::kMaxActions),
-          orders_(sequencer::PreparedTable::kMaxActions) {
+    explicit Loaded(std::span<const std::uint8_t> bytes) : bytes_(bytes) {
         const auto loaded = sequencer::Table::load(bytes);
         if (!loaded.ok) throw std::runtime_error("the generated table is refused");
         table_ = loaded.table;
-        if (!prepared_.prepare(table_, {cells_, actions_, orders_}).ok()) {
-            throw std::runtime_error("the generated table does not fit its prepared form");
-        }
     }
     Loaded(const Loaded&) = delete;
     Loaded& operator=(const Loaded&) = delete;
 
     WalkMachine walk() const { return WalkMachine(bytes_); }
     InPlaceMachine in_place() const { return InPlaceMachine(table_); }
-    PreparedMachine prepared() const { return PreparedMachine(prepared_); }
-    std::size_t prepared_bytes() const {
-        return cells_.size() * sizeof(std::uint16_t) +
-               prepared_.actions_used() * sizeof(sequencer::PreparedTable::Action) +
-               prepared_.orders_used() * sizeof(MotorOrder);
-    }
 
   private:
     std::span<const std::uint8_t> bytes_;
-    std::vector<std::uint16_t> cells_;
-    std::vector<sequencer::PreparedTable::Action> actions_;
-    std::vector<MotorOrder> orders_;
     sequencer::Table table_;
-    sequencer::PreparedTable prepared_;
 };
 
 }  // namespace nplc::bench

@@ -37,21 +37,47 @@ MODULES = [
     Module("firmware/registers", "registers", ("base",), core=True),
     Module("firmware/motor", "motor", ("base", "ports", "protocol", "registers", "sequencer"), core=True),
     Module("firmware/store", "store", ("base", "ports", "registers", "sequencer"), core=True),
+    Module("firmware/signature", "signature", ("base",), core=True),
+    Module("firmware/update", "update", ("base", "ports", "registers", "signature"), core=True),
     Module(
         "firmware/gateway",
         "gateway",
-        ("base", "ports", "sequencer", "protocol", "registers", "motor", "store"),
+        ("base", "ports", "sequencer", "protocol", "registers", "motor", "store", "update"),
         core=True,
     ),
+    Module("firmware/causes", "causes", ("base", "registers")),
+    Module("firmware/toml_files", "toml_files", ()),
+    Module("firmware/plant_file", "plant_file", ("registers", "toml_files")),
+    Module("firmware/set_points", "set_points", ("base", "registers", "toml_files")),
+    Module("firmware/digest", "digest", ()),
+    Module("firmware/broker", "broker", (), os=True),
+    Module("firmware/orders", "orders", ("digest",)),
     Module("firmware/boards", None, ANY, os=True, clock=True),
     Module(
         "firmware/boards/bare_metal",
         "bare_metal",
-        ("base", "ports", "hal_mcu", "motor", "store", "gateway"),
+        ("base", "ports", "hal_mcu", "motor", "store", "gateway", "update"),
         core=True,
     ),
-    Module("firmware/boards/shared_line", "shared_line", ("base", "protocol", "registers", "hal_linux")),
-    Module("host-sim", "sim", ("base", "ports", "protocol", "registers"), os=True),
+    Module("firmware/boards/shared_line", "shared_line", ("base", "protocol", "registers", "hal_linux", "seat")),
+    Module("firmware/faces/seat", "seat", ("base",)),
+    Module(
+        "firmware/faces/model",
+        "faces",
+        ("base", "ports", "sequencer", "protocol", "registers", "motor", "store", "gateway", "seat", "set_points", "causes"),
+    ),
+    Module(
+        "firmware/faces/panel",
+        "panel",
+        ("base", "ports", "sequencer", "registers", "hal_linux", "faces", "seat", "set_points", "causes"),
+        os=True,
+    ),
+    Module("firmware/faces/modbus", "modbus", ("base", "ports", "protocol", "registers", "faces", "seat", "set_points", "causes", "hal_linux"), os=True),
+    Module("firmware/faces/deployment", "deployment", ("base", "registers", "sequencer", "faces", "seat", "orders", "hal_linux")),
+    Module("firmware/faces/mqtt", "mqtt", ("base", "broker", "registers", "faces", "set_points", "causes", "deployment", "orders", "hal_linux"), os=True),
+    Module("firmware/faces/metrics", "metrics", ("base", "registers", "faces", "set_points", "causes", "hal_linux"), os=True),
+    Module("host-sim", "sim", ("base", "ports", "protocol", "registers", "set_points"), os=True),
+    Module("host-sim/axis", "sim", ("host", "plant_file", "registers")),
     Module("host-sim/board", "sim", ANY, os=True, clock=True),
     Module(
         "host-sim/device_server",
@@ -68,37 +94,50 @@ MODULES = [
     Module(
         "host-sim/macsim",
         None,
-        ("arguments", "base", "ports", "protocol", "registers", "host", "hal_linux", "sim"),
+        ("arguments", "base", "plant_file", "ports", "protocol", "registers", "host", "hal_linux", "sim"),
         os=True,
     ),
+    Module("host-sim/fmu", "sim", ANY, os=True),
     Module("host-sim/nanoplc_sim", None, ANY, os=True, clock=True),
     Module("tools/spelling", "spelling", ()),
     Module("tools/whole_files", "whole_files", ("host",)),
     Module("tools/intel_hex", "intel_hex", ("host",)),
-    Module("tools/proof", "proof", ()),
+    Module("tools/proof", "proof", ("digest",)),
     Module("tools/arguments", "arguments", ()),
     Module("tools/mactalk_client", "mactalk_client", ("base", "protocol", "host")),
     Module("tools/midi_client", "midi_client", ("base", "ports", "protocol", "registers", "host", "mactalk_client")),
-    Module("tools/command_line", "command_line", ("arguments", "base", "host", "mactalk_client")),
+    Module("tools/command_line", "command_line", ("arguments", "base", "host", "mactalk_client", "registers")),
+    Module("tools/uploads", "uploads", ("base", "command_line", "digest", "intel_hex", "proof", "registers", "seqc", "sequencer", "set_points", "whole_files")),
+    Module("tools/nanofleet", "nanofleet", ("arguments", "base", "broker", "command_line", "host", "orders", "set_points", "toml_files", "uploads", "whole_files"),
+           os=True),
     Module(
         "tools/nanoctl",
         "nanoctl",
-        ("arguments", "base", "sequencer", "protocol", "registers", "store", "seqc", "host", "intel_hex",
-         "mactalk_client", "command_line", "proof", "spelling", "whole_files"),
+        ("arguments", "base", "causes", "sequencer", "protocol", "registers", "store", "seqc", "host", "intel_hex",
+         "mactalk_client", "command_line", "digest", "proof", "set_points", "signature", "spelling", "update", "uploads", "whole_files"),
     ),
     Module("tools/registers_reference", "registers_reference", ("base", "registers")),
     Module("tools/verify", "verify", ("base", "sequencer", "protocol", "registers")),
-    Module("tools/seqc", "seqc", ("arguments", "base", "sequencer", "protocol", "registers", "host", "intel_hex",
-                                    "proof", "spelling", "verify", "whole_files")),
+    Module("tools/seqc", "seqc", ("arguments", "base", "sequencer", "protocol", "registers", "host", "dap", "digest", "intel_hex",
+                                    "proof", "rehearsal", "rpc", "set_points", "spelling", "verify", "whole_files")),
+    Module("tools/seqc/dap", "dap", ("base", "host", "mactalk_client", "nanoctl", "registers", "rehearsal", "rpc", "seqc", "spelling",
+                                      "whole_files")),
+    # The one door from seqc to the simulator: scenarios are read and programs rehearsed by what nanoplc-sim uses.
+    Module("tools/seqc/rpc", "rpc", ()),
+    Module("tools/seqc/rehearsal", "rehearsal", ("base", "plant_file", "registers", "seqc", "sequencer", "set_points", "sim")),
     Module(
         "tools/macreg",
         "macreg",
-        ("arguments", "base", "protocol", "registers", "host", "mactalk_client", "midi_client", "command_line",
-         "spelling", "whole_files"),
+        ("arguments", "base", "causes", "plant_file", "protocol", "registers", "host", "mactalk_client", "midi_client",
+         "command_line", "spelling", "whole_files"),
     ),
-    Module("tools/macreg/ui", "macreg", ("base", "protocol", "registers", "mactalk_client", "spelling"), os=True),
+    Module("tools/macreg/fit", "macreg", ("plant_file", "registers")),
+    # The one door from macreg to the simulator.
+    Module("tools/macreg/prediction", "macreg", ("plant_file", "registers", "sim")),
+    Module("tools/macreg/ui", "macreg", ("base", "causes", "protocol", "registers", "mactalk_client", "spelling"), os=True),
     Module("tools/cmake", None, ()),
     Module("tests", None, ANY, os=True),
+    Module("tests/bench", None, ANY, os=True, clock=True),
 ]
 
 # Composition roots name concrete parts and the clock: the boards, the simulated one included (the rows that may
@@ -121,9 +160,18 @@ HOSTED_STANDARD = set(
     source_location spanstream sstream stack stacktrace stdexcept stop_token streambuf string strstream syncstream
     system_error thread typeindex typeinfo unordered_map unordered_set valarray vector""".split()
 )
-# Headers that take seconds to compile, and one of libmd: one folder hides them from all others.
-HIDDEN = {"CLI/": "tools/arguments", "toml++/": "firmware/boards", "sha2.h": "tools/proof"}
-LIBRARIES = ("gtest/", "gmock/", "benchmark/", "fmt/", "CLI/", "nlohmann/", "stb/", "toml++/", "sha2.h")
+# Headers that take seconds to compile, and one of libmd: few folders hide them from all others.
+HIDDEN = {
+    "CLI/": ("tools/arguments",),
+    "boost/": ("firmware/faces/panel",),
+    "toml++/": ("firmware/toml_files",),
+    "Eigen/": ("tools/macreg/fit",),
+    "unsupported/Eigen/": ("tools/macreg/fit",),
+    "sha2.h": ("firmware/digest",),
+    "sodium.h": ("firmware/orders",),
+    "minizip/": ("host-sim/fmu", "tests"),
+}
+LIBRARIES = ("gtest/", "gmock/", "benchmark/", "fmt/", "CLI/", "boost/", "nlohmann/", "stb/", "toml++/", "Eigen/", "unsupported/Eigen/", "sha2.h", "sodium.h", "minizip/", "zlib.h")
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
@@ -194,9 +242,10 @@ class Checker:
     def check_foreign(self, path, module, line, header):
         if header in CORE_STANDARD:
             return
-        for hidden, folder in HIDDEN.items():
-            if header.startswith(hidden) and module.folder != folder:
-                self.find(path, line, "hidden library", f"<{header}>: only {folder} may include it; include ours")
+        for hidden, folders in HIDDEN.items():
+            if header.startswith(hidden) and module.folder not in folders:
+                self.find(path, line, "hidden library",
+                          f"<{header}>: only {' and '.join(folders)} may include it; include ours")
                 return
         if header in HOSTED_STANDARD or header.startswith(LIBRARIES):
             if module.core:

@@ -10,7 +10,7 @@ import tty
 import simulator
 from program_case import ProgramCase
 
-LONG = 20  # seconds until something that must come is given up
+LONG = 20  # timeout in seconds of what must come
 
 
 class Terminal:
@@ -80,6 +80,15 @@ class Case(ProgramCase):
             answer += client.receive(0.1)
         self.assertEqual(len(answer), length, answer.hex(" "))
         return answer
+
+    def said(self, client, line):
+        """What a control port answers to a line."""
+        client.send(line.encode() + b"\n")
+        answer = b""
+        end = time.monotonic() + LONG
+        while not answer.endswith(b"\n") and time.monotonic() < end:
+            answer += client.receive(0.1)
+        return answer.decode().rstrip("\n")
 
     def refused_by(self, program, *arguments, says):
         done = subprocess.run([program, *arguments], capture_output=True, timeout=LONG, check=False, text=True)

@@ -18,7 +18,7 @@ from noisy_proxy import NoisyProxy
 from program_case import ProgramCase
 
 MACREG = MACSIM = SIM = SEQC = SHUTTLE = ""
-LONG = 60  # seconds until something that must come is given up
+LONG = 60  # timeout in seconds of what must come
 
 
 class Case(ProgramCase):

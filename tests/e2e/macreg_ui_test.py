@@ -16,7 +16,7 @@ import unittest
 import simulator
 
 MACREG = MACSIM = ""
-LONG = 240  # seconds until something that must come is given up
+LONG = 240  # timeout in seconds of what must come
 
 
 class Case(unittest.TestCase):

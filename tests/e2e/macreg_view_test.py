@@ -20,7 +20,7 @@ from xml.etree import ElementTree
 from program_case import ProgramCase
 
 MACREG = MACSIM = ""
-LONG = 60  # seconds until something that must come is given up
+LONG = 60  # timeout in seconds of what must come
 
 READ = "50 50 50 08 F7 0A F5 AA AA"
 READ_REPLY = "52 52 52 00 FF 0A F5 04 FB 34 CB 12 ED 00 FF 00 FF AA AA"

@@ -13,6 +13,7 @@ import time
 import unittest
 
 import device_case
+import simulator
 from device_case import LONG
 
 PROGRAM = ""
@@ -69,6 +70,107 @@ class Scenarios(Case):
                 file.write(text)
             self.refused_by(PROGRAM, "--fastmac", "unix:" + self.path("f"), "--scenario", self.path("s.scn"), says=said)
         self.refused_by(PROGRAM, "--fastmac", "unix:" + self.path("f"), "--scenario", self.path("no.scn"), says="no.scn: cannot be opened")
+
+
+class Bench(Case):
+    """What happens to the motor is said at a port of its own, while a client talks to the motor."""
+
+    def bench(self, *arguments):
+        self.start("--address", "8", "--mactalk", "pty:" + self.path("tty"), "--control", "unix:" + self.path("bench"), *arguments)
+        return self.kept(device_case.Terminal(self.path("tty"))), self.controller()
+
+    def controller(self):
+        return self.kept(device_case.Socket(socket.AF_UNIX, self.path("bench")))
+
+    def value(self, client, register, bits=16):
+        value = value_in(self.ask(client, read_request(8, register), 19)) & ((1 << bits) - 1)
+        return value - (1 << bits) if value >> (bits - 1) else value
+
+    def until(self, client, register, wanted, bits=16):
+        end = time.monotonic() + LONG
+        value = self.value(client, register, bits)
+        while not wanted(value):
+            self.assertLess(time.monotonic(), end, value)
+            value = self.value(client, register, bits)
+        return value
+
+    def write(self, client, register, value, length=2):
+        self.assertEqual(self.ask(client, write_request(8, register, value, length), 3), ACCEPT)
+
+    def test_homing_against_a_stop(self):
+        """001 section 4.4.15: V_HOME 40, T_HOME 41, HOME_MODE 12 in MODE_REG; where the torque is exceeded P_IST becomes 0."""
+        client, bench = self.bench("--speed", "10")
+        self.write(client, 37, 2)  # STARTMODE: position mode afterwards
+        self.write(client, 40, -200)
+        self.write(client, 41, 300)
+        self.write(client, 2, 12)
+        self.until(client, 10, lambda place: place < -4096, 32)  # a revolution, and no end of it yet
+        self.assertEqual(self.said(bench, "motor stop below -2 rev"), "ok")
+        self.until(client, 2, lambda mode: mode == 2)
+        self.assertLess(abs(self.until(client, 10, lambda place: abs(place) < 400, 32)), 400)
+        self.assertEqual(self.said(bench, "motor stop none"), "ok")
+
+    def test_undervoltage(self):
+        """U_SUPPLY is 151, 1 V is 18.622."""
+        client, bench = self.bench()
+        before = self.value(client, 151)
+        self.assertEqual(self.said(bench, "motor supply 10 V"), "ok")
+        self.assertAlmostEqual(self.until(client, 151, lambda value: value != before), 186, delta=2)
+
+    def test_without_supply_nobody_answers(self):
+        client, bench = self.bench()
+        self.assertEqual(self.said(bench, "motor power off"), "ok")
+        client.send(read_request(8, 5))
+        self.assertEqual(self.said(bench, "status")[:11], "MAC140 @8 m")
+        self.assertEqual(client.receive(0.05), b"")
+        self.assertEqual(self.said(bench, "motor power on"), "ok")
+        self.value(client, 5)
+
+    def test_gear_with_pulses(self):
+        """CNTRL_BITS is 36; USERINTF in its bits 1 and 0 is 0 for the pulse input, taken over at a start: 54h, 56h."""
+        client, bench = self.bench()
+        self.write(client, 36, self.value(client, 36) & ~3)
+        self.assertEqual(self.ask(client, command(0x54, 8), 3), ACCEPT)
+        client.send(command(0x56, 8))
+        self.assertEqual(self.said(bench, "motor pulses 52083 per s"), "ok")
+        self.until(client, 2, lambda mode: mode == 0)
+        self.write(client, 2, 3)
+        self.assertAlmostEqual(self.until(client, 120, lambda pulses: pulses != 0), 100, delta=1)
+
+    def test_what_is_no_line_for_it(self):
+        _, bench = self.bench()
+        other = self.controller()
+        for line, said in (("motor flies", "error: "), ("IN0 := 1", "error: here is the motor alone"),
+                           ("at 2 s motor load 1", "error: "), ("motor load 1 Nm", "error: "), ("motor brake 5", "error: a MAC140 has no output"),
+                           ("when P_IST > 5 motor load 1", "error: "), ("x" * 2000, "error: a line has 1000 characters at the most")):
+            self.assertEqual(self.said(bench, line)[:len(said)], said, line)
+        self.assertEqual(self.said(other, "motor load 1, after 20 ms motor load 0 # two of them"), "ok")
+        self.assertIn("motor load 500", self.said(other, "help"))
+        bench.send(b"motor lo")
+        bench.close()
+        self.clients.remove(bench)
+        self.assertEqual(self.said(self.controller(), "motor load 0"), "ok", "half a line of one who left is nobody's")
+
+    def test_on_standard_input(self):
+        with open(self.path("lines"), "w", encoding="ascii") as file:
+            file.write("motor load 5\n\nmotor flies\nmotor load 0")
+        with open(self.path("lines"), encoding="ascii") as lines:
+            process = subprocess.Popen([PROGRAM, "--mactalk", "unix:" + self.path("m"), "--control", "-"], stdin=lines,
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.running.append(process)
+        simulator.until_ready(process)
+        self.assertEqual(process.stdout.readline(), "ok\n")
+        self.assertIn("error: ", process.stdout.readline())
+        self.assertEqual(process.stdout.readline(), "ok\n")
+        client = self.kept(device_case.Socket(socket.AF_UNIX, self.path("m")))
+        value_in(self.ask(client, read_request(1, 5), 19))  # it serves on
+
+    def test_a_name_in_use_is_refused(self):
+        self.bench()
+        for option in ("--mactalk", "--control"):
+            name = {"--mactalk": "pty:" + self.path("tty"), "--control": "unix:" + self.path("bench")}[option]
+            more = [] if option == "--mactalk" else ["--mactalk", "pty:" + self.path("other")]
+            self.refused_by(PROGRAM, option, name, *more, says="macsim")
 
 
 class MacTalk(Case):
@@ -168,12 +270,12 @@ class FastMac(Case):
         self.start("--model", "MAC140", "--fastmac", "pty:" + self.path("tty"), "--mactalk",
                    "unix:" + self.path("socket"))
         motor = self.kept(device_case.Terminal(self.path("tty")))
-        person = self.kept(device_case.Socket(socket.AF_UNIX, self.path("socket")))
+        client = self.kept(device_case.Socket(socket.AF_UNIX, self.path("socket")))
         self.assertNotEqual(motor.receive(LONG), b"")
-        self.ask(person, write_request(1, 66, 2500, 2), 3)
+        self.ask(client, write_request(1, 66, 2500, 2), 3)
         motor.send(b"\xA9")  # toggle 1, velocity mode, V2 (001 §5.2.1.4: 01 01 001)
         end = time.monotonic() + LONG
-        while value_in(self.ask(person, read_request(1, 5), 19)) & 0xFFFF != 2500:
+        while value_in(self.ask(client, read_request(1, 5), 19)) & 0xFFFF != 2500:
             self.assertLess(time.monotonic(), end)
         while motor.receive(LONG)[-1] & 0x80 == 0:
             self.assertLess(time.monotonic(), end, "the toggle is not echoed")

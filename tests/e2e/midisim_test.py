@@ -138,6 +138,34 @@ class Line(Case):
             self.assertIn("baud_code = 1\n", file.read())
 
 
+class Bench(Case):
+    def test_what_happens_to_a_module_is_said_while_a_client_talks_to_it(self):
+        """Query 27h: status; 003: the security input holds the module in reset, so nobody answers."""
+        client = self.client("--address", "1", "--control", "unix:" + self.path("bench"))
+        bench = self.kept(device_case.Socket(socket.AF_UNIX, self.path("bench")))
+        self.assertEqual(self.said(bench, "motor security on"), "ok")
+        client.send(request(1, 0x27))
+        self.assertIn("deaf", self.said(bench, "status"))
+        self.assertEqual(client.receive(0.05), b"")
+        self.assertEqual(self.said(bench, "motor security off"), "ok")
+        end = time.monotonic() + LONG
+        while "deaf" in self.said(bench, "status"):
+            self.assertLess(time.monotonic(), end)
+        self.value(client, 1, 0x27)
+        self.assertIn("motor analogue", self.said(bench, "motor flies"))
+        self.assertEqual(self.said(bench, "motor pulses 5 per s")[:30], "error: a MAC34-1 has no pulse ")
+
+    def test_a_load_turns_a_shaft_without_power(self):
+        """003: below the motor's torque a load only has to be overcome; above it, it drags the shaft."""
+        self.client("--control", "unix:" + self.path("bench"))
+        bench = self.kept(device_case.Socket(socket.AF_UNIX, self.path("bench")))
+        self.assertIn(" P 0 ", self.said(bench, "status"))
+        self.assertEqual(self.said(bench, "motor load 1100"), "ok")
+        end = time.monotonic() + LONG
+        while " P 0 " in self.said(bench, "status"):
+            self.assertLess(time.monotonic(), end)
+
+
 class Memory(Case):
     def test_parameters_and_position_are_kept(self):
         arguments = ("--model", "MAC34-2", "--eeprom", self.path("eeprom"), "--speed", "10")

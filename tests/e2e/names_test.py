@@ -13,7 +13,7 @@ import unittest
 
 import program_case
 
-LONG = 60  # seconds until something that must come is given up
+LONG = 60  # timeout in seconds of what must come
 MACSIM = MIDISIM = NANOPLC_SIM = NANOPLC = ""
 
 

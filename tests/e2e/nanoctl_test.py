@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """nanoctl on the simulated gateway, over real terminals and sockets.
 
-usage: nanoctl_test.py NANOCTL NANOPLC_SIM SEQC SHUTTLE.seq
+usage: nanoctl_test.py NANOCTL NANOPLC_SIM SEQC SHUTTLE.seq MACREG
 """
 
 import json
@@ -20,8 +20,8 @@ import zsh
 from noisy_proxy import NoisyProxy
 from program_case import ProgramCase
 
-NANOCTL = SIM = SEQC = SHUTTLE = ""
-LONG = 60  # seconds until something that must come is given up
+NANOCTL = SIM = SEQC = SHUTTLE = MACREG = ""
+LONG = 60  # timeout in seconds of what must come
 
 
 class Case(ProgramCase):
@@ -44,7 +44,7 @@ class Case(ProgramCase):
         process.stderr.close()
         self.running.remove(process)
 
-    def call(self, *arguments, port=None, patience=500):
+    def call(self, *arguments, port=None, patience=2000):
         return subprocess.run(
             [NANOCTL, "--port", port or self.endpoint, "--patience", str(patience), *arguments],
             capture_output=True, text=True, timeout=4 * LONG, check=False)
@@ -126,21 +126,66 @@ class Tables(Case):
         self.assertGreater(proxy.damaged, 0, "seed 7")
 
 
+class WhyNothingMoves(Case):
+    """The number and the name that every face tells; KVOUT, register 13, is the load factor."""
+
+    def first(self, *arguments):
+        status = self.ctl("status", *arguments)
+        return status["why"][0]["code"], status["why"][0]["number"], status["why_of_motor"]
+
+    def test_of_the_gateway_and_of_its_motor(self):
+        self.start()
+        self.ctl("upload", self.table, "--run")
+        self.until(lambda status: status["state"] == "running" and status["step"] == 1)
+        self.assertEqual(self.first(), ("gateway_runs", 14, False))
+        self.ctl("stop")
+        self.assertEqual(self.first(), ("gateway_safe", 11, False))
+        self.assertEqual(self.first("--why"), ("gateway_safe", 11, True))
+        said = self.call("status").stdout
+        self.assertIn("\nwhy: The gateway is in its safe state: stop command. (gateway_safe, 11)\n    -> ", said)
+
+    def test_they_are_those_of_macreg(self):
+        self.start()
+        self.ctl("stop")
+        for value in ("0", "1"):
+            changed = subprocess.run([MACREG, "--port", self.endpoint, "--address", "1", "set", "KVOUT", value],
+                                     capture_output=True, text=True, timeout=LONG, check=False)
+            self.assertEqual(changed.returncode, 0, changed.stdout + changed.stderr)
+            named = subprocess.run([MACREG, "--port", self.endpoint, "--address", "1", "--json", "why"], capture_output=True,
+                                   text=True, timeout=LONG, check=True)
+            theirs = [(one["code"], one["sentence"], one["remedy"]) for one in json.loads(named.stdout)["findings"]]
+            ours = [(one["code"], one["sentence"], one["remedy"]) for one in self.ctl("status", "--why")["why"]]
+            self.assertEqual(ours, theirs)
+            self.assertEqual(ours[0][0] == "load_factor_zero", value == "0")
+
+    def test_of_a_midi_drive(self):
+        self.start("--motor", "MAC34-1")
+        self.ctl("upload", self.table, "--run")
+        self.until(lambda status: status["state"] == "running" and status["step"] == 1)
+        self.assertEqual(self.first("--why"), ("gateway_runs", 14, True))  # in INIT, where it waits for I0
+        self.ctl("stop")
+        self.assertEqual(self.first("--why"), ("gateway_safe", 11, True))
+        named = subprocess.run([MACREG, "--port", self.endpoint, "--address", "1", "--model", "MAC140", "why"], capture_output=True,
+                               text=True, timeout=LONG, check=False)
+        self.assertEqual(named.returncode, 3, named.stdout)
+        self.assertIn("behind this gateway is a MIDI drive", named.stderr)
+
+
 class Running(Case):
     def test_forced_inputs_step_it_through(self):
         self.start()
         self.ctl("upload", self.table, "--run")
         self.until(lambda status: status["step"] == 1)
-        keeper = subprocess.Popen([NANOCTL, "--port", self.endpoint, "--patience", "500", *self.sym(), "force", "I0=1",
+        forcing = subprocess.Popen([NANOCTL, "--port", self.endpoint, "--patience", "2000", *self.sym(), "force", "I0=1",
                                    "--keep"], stdout=subprocess.PIPE, text=True)
-        self.running.append(keeper)
-        self.assertIn("I0 = 1", keeper.stdout.readline())
+        self.running.append(forcing)
+        self.assertIn("I0 = 1", forcing.stdout.readline())
         moving = self.until(lambda status: status["step"] == 2)
         self.assertTrue(moving["forced_inputs"])
         self.assertEqual(moving["outputs"], 1)
         self.until(lambda status: status["step"] == 4)
-        keeper.send_signal(signal.SIGINT)
-        self.assertEqual(keeper.wait(LONG), 0)
+        forcing.send_signal(signal.SIGINT)
+        self.assertEqual(forcing.wait(LONG), 0)
         self.assertFalse(self.ctl("status")["forced_inputs"])
         self.assertIn("forced", [entry["event"] for entry in self.ctl("log")["entries"]])
 
@@ -181,7 +226,7 @@ class Running(Case):
     def test_two_clients_at_once(self):
         self.start()
         self.ctl("upload", self.table, "--run")
-        watcher = subprocess.Popen([NANOCTL, "--port", self.endpoint, "--patience", "500", "--json", "watch", "--all",
+        watcher = subprocess.Popen([NANOCTL, "--port", self.endpoint, "--patience", "2000", "--json", "watch", "--all",
                                     "--interval", "0"], stdout=subprocess.PIPE, text=True)
         self.running.append(watcher)
         self.assertTrue(json.loads(watcher.stdout.readline())["ok"])
@@ -201,7 +246,7 @@ class Running(Case):
                 for term in range(300):
                     file.write(bytes([0xC0 | term % 60, term % 256, 0x3F, 0x3E, 0x80, number, 0, 0]))
                 file.write(bytes([0x3F, 0, 0, 0, 0, 0, 0, 0]))
-        uploads = [subprocess.Popen([NANOCTL, "--port", self.endpoint, "--patience", "500", "upload", name],
+        uploads = [subprocess.Popen([NANOCTL, "--port", self.endpoint, "--patience", "2000", "upload", name],
                                     stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for name in tables]
         self.running += uploads
         said = [upload.communicate(timeout=LONG)[1] for upload in uploads]
@@ -330,7 +375,7 @@ class Files(Case):
 class Patience(Case):
     def interrupt(self, *arguments, after):
         """Its answer to SIGTERM at the time when after() comes back."""
-        process = subprocess.Popen([NANOCTL, "--port", self.endpoint, "--patience", "500", "--json", *arguments],
+        process = subprocess.Popen([NANOCTL, "--port", self.endpoint, "--patience", "2000", "--json", *arguments],
                                    stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         self.running.append(process)
         after()
@@ -343,7 +388,7 @@ class Patience(Case):
         self.start()
         crc = self.ctl("upload", self.table)["crc32"]
         said = self.interrupt("upload", self.big_table(), after=lambda: self.until(lambda status: status["upload"]))
-        self.assertIn("the upload was given up", said)
+        self.assertIn("the upload was aborted", said)
         status = self.ctl("status")
         self.assertEqual((status["upload"], status["stored_crc32"]), (False, crc))
 
@@ -418,7 +463,7 @@ class Words(Case):
     def test_watch_and_kept_forces_end_with_who_reads_them(self):
         self.start()
         for arguments in (("watch", "--interval", "60000"), ("force", "IN0=1", "--keep")):
-            process = subprocess.Popen([NANOCTL, "--port", self.endpoint, "--patience", "500", *arguments],
+            process = subprocess.Popen([NANOCTL, "--port", self.endpoint, "--patience", "2000", *arguments],
                                        stdout=subprocess.PIPE, text=True)
             self.running.append(process)
             process.stdout.readline()
@@ -477,5 +522,5 @@ class Generated(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    NANOCTL, SIM, SEQC, SHUTTLE = sys.argv[1:5]
-    unittest.main(argv=[sys.argv[0], *sys.argv[5:]])
+    NANOCTL, SIM, SEQC, SHUTTLE, MACREG = sys.argv[1:6]
+    unittest.main(argv=[sys.argv[0], *sys.argv[6:]])

@@ -5,10 +5,13 @@ usage: nanoplc_sim_test.py PROGRAM
 """
 
 import csv
+import fcntl
 import os
 import pty
 import re
+import select
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -466,6 +469,23 @@ class Realtime(Case):
             self.assertTrue(block, shown)
             shown += block
         return shown
+
+    def test_every_line_fits_a_narrow_terminal(self):
+        scenario = self.write("fails.scn", b"expect at 100 ms IN0 and IN1 and IN2 and IN3 and IN4 and IN5 and OUT0 and OUT1\nend at 200 ms\n")
+        terminal, end = pty.openpty()
+        fcntl.ioctl(end, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
+        with subprocess.Popen([PROGRAM, "run", self.table, "--scenario", scenario, "--trace", self.path("t.csv")], stdin=end,
+                              stdout=end, stderr=end, close_fds=True) as process:
+            shown = self.read_until(terminal, b"seen: ")
+            self.assertEqual(process.wait(60), 1, shown)
+        while select.select([terminal], [], [], 0)[0]:
+            shown += os.read(terminal, 65536)
+        os.close(end)
+        os.close(terminal)
+        lines = re.sub(r"\x1b\[[0-9;]*[mK]", "", shown.decode()).replace("\r", "").split("\n")
+        self.assertGreater(len(lines), 8)
+        self.assertEqual([line for line in lines if len(line) > 80], [])
+        self.assertIn("watchdog resets", " ".join(" ".join(lines).split()))
 
     def test_a_quit_from_the_keyboard_puts_the_terminal_back(self):
         terminal, end = pty.openpty()

@@ -12,58 +12,11 @@ import sys
 import unittest
 import zlib
 
+import modbus_test
 import service_case
-from service_case import LONG, ServiceCase
+from stored_case import SETTINGS, TABLES, SmallDisk, Stored
 
-# firmware/store: two table slots of five blocks, two settings slots of one, a header of 24 bytes and a mark of 8.
-BLOCK = 2048
-TABLES, SETTINGS = (0, 5 * BLOCK), (10 * BLOCK, 11 * BLOCK)
-
-
-class Stored(ServiceCase):
-    def setUp(self):
-        super().setUp()
-        self.plug_in()
-        self.store, self.mark = self.path("state/x/store.bin"), self.path("state/x/running")
-
-    def change(self, path, offset, change):
-        with open(path, "r+b") as file:
-            file.seek(offset)
-            old = file.read(1)[0]
-            file.seek(offset)
-            file.write(bytes([change(old)]))
-
-    def flip(self, path, offset, bit=0):
-        self.change(path, offset, lambda byte: byte ^ 1 << bit)
-
-    def erase(self, offset, byte=0xFF):
-        with open(self.store, "r+b") as file:
-            file.seek(offset)
-            file.write(bytes([byte]) * BLOCK)
-
-    def expect_waits(self, config, reason, said):
-        """It does not start by itself, and says why everywhere."""
-        service = self.start(config)
-        self.until(lambda: said in service.said(), service)
-        status = self.ctl("status")
-        self.assertEqual((status["state"], status["safe_reason"]), ("stopped", reason), service.said())
-        return service, status
-
-    def expect_refuses(self):
-        """Neither run nor stop and run, step or reset get round it."""
-        for commands in (["run"], ["stop", "run"], ["step"]):
-            for command in commands[:-1]:
-                self.ctl(command)
-            self.ctl(commands[-1], exit_code=1)
-        self.assertEqual(self.ctl("status")["state"], "stopped")
-
-    def stored_run(self, more=""):
-        """A table that starts by itself is stored, and the service has ended."""
-        config = self.write(self.axis(more=more))
-        service = self.start(config)
-        self.ctl("upload", "--only-store", self.table)
-        self.assertEqual(self.end(service), 0)
-        return config
+STORAGE_FAILED = 15  # a result
 
 
 class Mark(Stored):
@@ -155,38 +108,7 @@ class Mark(Stored):
         self.moves()
 
 
-class FullDisk(Stored):
-    """The state directory is a disk of 64 KiB."""
-
-    def setUp(self):
-        super().setUp()
-        state = self.path("state")
-        os.mkdir(state)
-        # pylint: disable-next=consider-using-with
-        self.disk = subprocess.Popen(["unshare", "-rm", "sh", "-c", 'mount -t tmpfs -o size=64k none "$0" && echo ready && '
-                                      'exec sleep infinity', state], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        if self.disk.stdout.readline() != "ready\n":
-            self.let_go()
-            self.skipTest("this machine does not let a program mount a disk of its own")
-        self.addCleanup(self.let_go)
-        self.inside = ["nsenter", "-t", str(self.disk.pid), "-U", "-m", "--preserve-credentials"]
-        self.state = f"/proc/{self.disk.pid}/root{state}"
-        self.mark = self.state + "/x/running"
-
-    def let_go(self):
-        self.disk.kill()
-        self.disk.communicate()
-
-    def start_inside(self, config):
-        service = self.start(config, inside=self.inside)
-        self.assertIsNone(service.process.poll(), service.said())
-        return service
-
-    def fill(self):
-        with self.assertRaises(OSError), open(self.state + "/fill", "wb", buffering=0) as file:
-            while True:
-                file.write(bytes(4096))
-
+class FullDisk(SmallDisk):
     def stored_run_inside(self):
         config = self.write(self.axis())
         service = self.start_inside(config)
@@ -206,6 +128,34 @@ class FullDisk(Stored):
         self.start_inside(config)
         status = self.ctl("status")
         self.assertEqual((status["state"], status["safe_reason"]), ("stopped", "watchdog"))
+
+    def test_the_plant_reads_stops_and_is_told_what_was_not_kept(self):
+        example = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools", "seqc", "examples", "cut_to_length.seq")
+        cutter = self.path("cutter.bin")
+        subprocess.run([service_case.SEQC, "build", example, "-o", cutter], check=True, stdout=subprocess.DEVNULL)
+        config = self.write(self.axis(), service='[modbus]\nlisten = "tcp:127.0.0.1:0"\n')
+        service = self.start_inside(config)
+        self.until(lambda: "Modbus: listens" in service.said(), service)
+        self.ctl("upload", cutter, "--run")
+        master = modbus_test.Master(modbus_test.port_of(service.said().partition("Modbus: listens")[2]))
+        self.addCleanup(master.client.close)
+        self.until(lambda: not master.inputs(210, 2).isError())
+        self.fill()
+        self.assertFalse(master.write(0, 0, 0).isError())
+        for number in range(1, 21):  # whatever room its own file still has
+            changes = master.long(206)
+            self.assertFalse(master.write(0, 34, number, 0, 0, 0, 0, 0, 1000 + number).isError())
+            done, result = master.words(41, 2)
+            self.assertEqual((done, master.status(1)), (number, True))
+            self.assertIn(result, (0, STORAGE_FAILED))
+            self.assertEqual(master.long(206), changes + (result == 0), "what was not kept is not wanted")
+        self.assertFalse(master.coil(1).isError())
+        self.assertTrue(master.status(4))
+        self.assertEqual(self.ctl("status")["safe_reason"], "stop command")
+        os.remove(self.state + "/fill")
+        self.assertEqual(master.order(34, 30) if not master.write(6, 0, 900).isError() else None, 0)
+        self.assertEqual(master.long(210), 900)
+        self.assertEqual(self.end(service), 0, service.said())
 
     def test_an_orderly_end_is_known(self):
         config = self.stored_run_inside()
@@ -292,7 +242,7 @@ class Settings(Stored):
             self.assertTrue(self.ctl("status")["table_damaged"])
             self.end(service)
         service = self.expect_blocked(config, 2)
-        self.until_status(lambda status: status["link"] == "up")
+        self.until_status(lambda status: status["link"] in ("up", "not acknowledged"))
         self.ctl("upload", self.table)
         self.ctl("settings", "set", "safe_outputs=5", "--keep")
         self.ctl("run")

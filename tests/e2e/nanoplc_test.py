@@ -256,6 +256,56 @@ port = "tcp:0.0.0.0:2000"
         self.assertEqual((stat.S_IMODE(status.st_mode), status.st_gid), (0o600, group.gr_gid))
         self.assertEqual(self.ctl("status")["state"], "stopped")
 
+    def test_a_password_is_for_sockets(self):
+        axis = '[[axis]]\nname = "x"\n[axis.motor]\nport = "/dev/null"\n[axis.user]\nport = "{}"\npassword_file = "{}"\n'
+        code, lines = self.check(axis.format("pty:/tmp/x", "/tmp/secret"), "--no-devices")
+        self.assertEqual((code, len(lines)), (2, 1), lines)
+        self.assertIn("7: axis[x].user.password_file: is for a port unix:PATH or tcp:", lines[0])
+        short = self.secret("short")
+        for file, why in ((short, "its first line must be a secret of 12 to 128 characters"),
+                          ("/no/such/file", "No such file or directory")):
+            _, lines = self.check(axis.format("unix:/tmp/x", file))
+            self.assertIn(f"7: axis[x].user.password_file: {file}: {why}", lines)
+
+    def secret(self, text):
+        path = self.path("secret." + text.split()[0])
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text + "\n")
+        return path
+
+    def test_a_port_with_a_password(self):
+        """Without it one reads and stops; with it one changes, by nanoctl and by macreg; a wrong one is refused and told of."""
+        self.plug_in()
+        right, wrong = self.secret("correct horse battery"), self.secret("wrong horse battery")
+        service = self.start(self.write(self.axis(port=f'unix:{self.path("x")}"\npassword_file = "{right}')))
+        self.assertEqual(self.ctl("status")["state"], "stopped")
+        self.assertIn("--password-file", self.ctl("settings", "set", "debounce=5000", exit_code=1)["error"])
+        self.assertEqual(self.ctl("settings", "get", "debounce")["settings"]["debounce"], 3000)
+        self.ctl("stop")
+        refused = self.ctl("--password-file", wrong, "settings", "set", "debounce=5000", exit_code=1)
+        self.assertIn(f"the password of {wrong} is not this port's", refused["error"])
+        self.until(lambda: "a wrong password was given" in service.said())
+        self.ctl("--password-file", wrong, "stop")
+        self.ctl("--password-file", right, "settings", "set", "debounce=5000")
+        self.assertEqual(self.ctl("settings", "get", "debounce")["settings"]["debounce"], 5000)
+        macreg = [service_case.MACREG, "--port", "unix:" + self.path("x"), "--patience", "300", "--json", "set", "V_SOLL=100"]
+        told = subprocess.run(macreg, capture_output=True, text=True, check=False)
+        self.assertEqual(told.returncode, 1, told.stdout)
+        self.assertIn("this port takes changes only from who has given its password", told.stdout)
+        done = subprocess.run(macreg, capture_output=True, text=True, check=False,
+                              env={**os.environ, "MACREG_PASSWORD_FILE": right})
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_a_port_whose_password_cannot_be_read_is_not_opened(self):
+        self.plug_in()
+        missing = self.path("later")
+        service = self.start(self.write(self.axis(port=f'unix:{self.path("x")}"\npassword_file = "{missing}')))
+        self.assertIn(f"no user's port: {missing}: No such file or directory", service.said())
+        self.assertFalse(os.path.exists(self.path("x")))
+        os.rename(self.secret("correct horse battery"), missing)
+        self.until(lambda: os.path.exists(self.path("x")))
+        self.assertEqual(self.ctl("status")["state"], "stopped")
+
     def test_what_is_no_toml_has_a_line(self):
         code, lines = self.check('[service]\nlog_level = "info\n')
         self.assertEqual((code, len(lines)), (2, 1))
@@ -305,7 +355,8 @@ class Telling(ServiceCase):
         self.plug_in()
         read_end, write_end = os.pipe()
         status = os.fstat(write_end)
-        environment = {**os.environ, "JOURNAL_STREAM": f"{status.st_dev}:{status.st_ino}"}
+        environment = {**os.environ, "JOURNAL_STREAM": f"{status.st_dev}:{status.st_ino}",
+                       "NANOPLC_JOURNAL_SOCKET": self.path("nobody")}
         with subprocess.Popen([service_case.NANOPLC, "--config", self.write(self.axis())], stderr=write_end, env=environment) as process:
             os.close(write_end)
             with os.fdopen(read_end, encoding="utf-8") as lines:
@@ -319,6 +370,37 @@ class Telling(ServiceCase):
         self.assertIn("<5>started with 1 axis\n", seen)
         # SAFE_REASON 8, told to be, is a warning.
         self.assertTrue(any(line.startswith("<4>x: SAFE: told to be") for line in seen), seen)
+
+    def test_the_journal_can_be_searched_by_cause(self):
+        """Where standard error is the journal, messages go to its socket, in its own protocol."""
+        self.plug_in()
+        stream = self.path("journal")
+        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as journal, open(stream, "wb") as lines:
+            journal.bind(stream + ".socket")
+            journal.settimeout(LONG)
+            status = os.fstat(lines.fileno())
+            environment = {**os.environ, "JOURNAL_STREAM": f"{status.st_dev}:{status.st_ino}",
+                           "NANOPLC_JOURNAL_SOCKET": stream + ".socket"}
+            with subprocess.Popen([service_case.NANOPLC, "--config", self.write(self.axis(table=self.table))], stderr=lines,
+                                  env=environment) as process:
+
+                def next_with(field, value):
+                    while True:
+                        fields = dict(line.split("=", 1) for line in journal.recv(65536).decode().splitlines())
+                        if fields.get(field) == value:
+                            return fields
+
+                self.assertEqual(next_with("NANOPLC_EVENT", "motor_answers")["NANOPLC_AXIS"], "x")
+                self.moves()
+                self.pull_out()
+                lost = next_with("NANOPLC_CAUSE", "link_down")
+                self.assertEqual((lost["PRIORITY"], lost["SYSLOG_IDENTIFIER"], lost["NANOPLC_EVENT"], lost["NANOPLC_AXIS"]),
+                                 ("3", "nanoplc", "link_down", "x"))
+                self.assertIn("the motor does not answer (step " + lost["NANOPLC_STEP"] + ")", lost["MESSAGE"])
+                process.terminate()
+                self.assertEqual(next_with("MESSAGE", "ends: Terminated")["PRIORITY"], "5")
+                process.wait(LONG)
+        self.assertEqual(os.path.getsize(stream), 0)
 
     def test_systemd_is_told_and_its_watchdog_fed(self):
         self.plug_in()

@@ -12,7 +12,7 @@ import unittest
 
 import program_case
 
-LONG = 60  # seconds until something that must come is given up
+LONG = 60  # timeout in seconds of what must come
 BIN = SEQUENCE = ""
 DISK = 1 << 20  # bytes
 BLINK = """PROGRAM Blink

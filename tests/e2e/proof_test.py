@@ -23,6 +23,30 @@ PROPERTIES = """PROPERTY On: NEVER step = 1 AND NOT OUT0;
 PROPERTY There: step = 1 IS REACHABLE;
 """
 
+SET_POINT = b"""PROGRAM P
+MOTOR MAC140;
+SET_POINT Dwell := 200 ms RANGE 100 .. 500 ms;
+ON ERROR NEXT := Fault;
+STEP Idle: IF IN0 THEN TIMER := Dwell; NEXT := Lit; END_IF END_STEP
+STEP Lit: OUT OUT0; IF TIMER.Q THEN NEXT := Idle; END_IF END_STEP
+STEP Fault: OWN ERROR; IF ANY ERROR AND IN1 THEN RESET_ERROR; NEXT := Idle; END_IF END_STEP
+PROPERTY Short: NEVER step = Lit WHILE step = Lit FOR 300 ms;
+END_PROGRAM
+"""
+
+MOVES = """PROGRAM P
+MOTOR MAC140;
+{declared}
+VAR_MOTOR Home AT P1 := 0 counts; Away AT P2 := 4096 counts; END_VAR
+ON ERROR NEXT := Fault;
+POWER_UP INIT(Speed); NEXT := S; END_POWER_UP
+STEP S: IF IN0 THEN POSITION(Away); NEXT := T; END_IF END_STEP
+STEP T: IF INPOS THEN POSITION(Home); NEXT := U; END_IF END_STEP
+STEP U: IF INPOS AND NOT IN0 THEN NEXT := S; END_IF END_STEP
+STEP Fault: OWN ERROR; IF ANY ERROR AND IN1 THEN RESET_ERROR; INIT(Speed); NEXT := S; END_IF END_STEP
+END_PROGRAM
+"""
+
 
 class Certificates(nanoctl_test.Case):
     def setUp(self):
@@ -58,6 +82,57 @@ class Certificates(nanoctl_test.Case):
         self.assertTrue(proof["version"].startswith("seqc "))
         named = [(r["name"], r["verdict"]) for r in proof["results"] if "code" not in r]
         self.assertEqual(named, [("On", "proved"), ("There", "proved")])
+
+    def test_it_says_for_which_values_of_set_points_it_holds(self):
+        program = self.written("p.seq", SET_POINT)
+        verify = [SEQC, "verify", program, "--proof", self.proof]
+        broken = subprocess.run(verify, capture_output=True, text=True, check=False)  # 500 ms is in the range
+        self.assertEqual((broken.returncode, os.path.exists(self.proof)), (1, False), broken.stdout)
+        subprocess.run([*verify, "--set-points", "default"], capture_output=True, check=True)
+        self.assertIn("set-points have their defaults", json.loads(self.content())["assumptions"][0])
+        self.written("p.seq", SET_POINT.replace(b"500 ms", b"250 ms"))
+        subprocess.run(verify, capture_output=True, check=True)
+        self.assertIn("set-points have any value of their ranges", json.loads(self.content())["assumptions"][0])
+
+    def verdicts(self, program, *options):
+        """The exit code, and the codes of checks by their verdict."""
+        path = self.written("p.seq", program.encode())
+        done = subprocess.run([SEQC, "verify", path, "--json", *options], capture_output=True, text=True, check=False)
+        found = {}
+        for result in json.loads(done.stdout)["results"]:
+            found.setdefault(result["verdict"], set()).add(result.get("code", result["name"]))
+        return done.returncode, found
+
+    def test_a_velocity_that_is_0_or_may_be_moves_nothing(self):
+        stands = {"V010", "V011"}  # INPOS that never comes, a move without velocity
+        for declared, broken in (
+            ("VAR_MOTOR Speed AT V1 := 0 rpm; END_VAR", stands),
+            ("VAR_MOTOR Speed AT V1 := 500 rpm; END_VAR", set()),
+            ("SET_POINT Speed AT V1 := 500 rpm RANGE 0 .. 1000 rpm;", stands),
+            ("SET_POINT Speed AT V1 := 500 rpm RANGE 10 .. 1000 rpm;", set()),
+        ):
+            code, found = self.verdicts(MOVES.format(declared=declared))
+            self.assertEqual((code, found.get("broken", set()) & stands), (1 if broken else 0, broken), declared)
+        code, found = self.verdicts(MOVES.format(declared="SET_POINT Speed AT V1 := 500 rpm RANGE 0 .. 1000 rpm;"), "--set-points", "default")
+        self.assertEqual((code, found.get("broken", set())), (0, set()))
+
+    def test_a_range_that_is_not_explored_whole_proves_nothing(self):
+        program = """PROGRAM P
+MOTOR MAC140;
+SET_POINT Parts := 3 RANGE 1 .. 65535;
+ON ERROR NEXT := Fault;
+STEP S: IF IN0 THEN COUNTER := Parts; NEXT := Go; END_IF END_STEP
+STEP Go: IF COUNTER.Q THEN NEXT := S; ELSIF NOT IN0 THEN COUNT_DOWN; NEXT := Wait; END_IF END_STEP
+STEP Wait: IF IN0 THEN NEXT := Go; END_IF END_STEP
+STEP Fault: OWN ERROR; IF ANY ERROR AND IN1 THEN RESET_ERROR; NEXT := S; END_IF END_STEP
+PROPERTY Dark: NEVER OUT0;
+END_PROGRAM
+"""
+        code, found = self.verdicts(program)
+        self.assertEqual((code, set(found)), (4, {"undecided"}))
+        self.assertIn("Dark", found["undecided"])
+        self.assertEqual(self.verdicts(program, "--set-points", "default")[0], 0)
+        self.assertEqual(self.verdicts(program.replace("65535", "40"))[0], 0)
 
     def test_it_is_written_only_if_all_is_proved(self):
         self.written("bad.prop", b"PROPERTY No: NEVER step = 1;")

@@ -1,4 +1,4 @@
-"""A test case with nanoplc as a service, virtual motors that are plugged in and pulled out, and a person's programs.
+"""A test case with nanoplc as a service, virtual motors that are plugged in and pulled out, and client programs.
 
 Who uses it sets the programs' paths below first.
 """
@@ -15,7 +15,7 @@ import unittest
 import simulator
 
 NANOPLC = MACSIM = NANOCTL = MACREG = SEQC = MENDING = ""
-LONG = 60  # seconds until something that must come is given up
+LONG = 60  # timeout in seconds of what must come
 
 
 class Service:
@@ -42,7 +42,7 @@ class Service:
 
 
 class ServiceCase(unittest.TestCase):
-    PATIENCE = "motor_silence = 200\n"  # machines that test are busy
+    PATIENCE = "motor_silence = 200\npoll_limit = 1000000\n"  # machines that test are busy
 
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -107,7 +107,7 @@ class ServiceCase(unittest.TestCase):
 
     def ctl(self, *arguments, port="x", exit_code=0):
         endpoint = port if port.startswith("/") else "unix:" + self.path(port)
-        result = subprocess.run([NANOCTL, "--port", endpoint, "--patience", "500", "--json", *arguments],
+        result = subprocess.run([NANOCTL, "--port", endpoint, "--patience", "2000", "--json", *arguments],
                                 capture_output=True, text=True, timeout=4 * LONG, check=False)
         self.assertEqual(result.returncode, exit_code, f"{arguments}: {result.stdout} {result.stderr}")
         return json.loads(result.stdout.splitlines()[-1])

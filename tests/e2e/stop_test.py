@@ -125,14 +125,21 @@ class Gateway(ServiceCase):
                               timeout=LONG, check=False)
 
     def stops(self, *arguments, command="stop", state="stopped"):
-        """It is done within the time that it may take, its process's start and look at the result included."""
+        """It is done within the time that it may take; on a busy machine the start of a process and the look at the result take theirs."""
+        before = self.start_of_a_process()
         begun = time.monotonic()
         result = self.nanoctl(*arguments, command)
         taken = time.monotonic() - begun
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn(state, result.stdout)
-        self.assertLess(taken, WITHIN)
+        self.assertLess(taken, WITHIN + 20 * max(before, self.start_of_a_process()))
         return result
+
+    @staticmethod
+    def start_of_a_process():
+        begun = time.monotonic()
+        subprocess.run([service_case.NANOCTL, "--version"], capture_output=True, timeout=LONG, check=True)
+        return time.monotonic() - begun
 
 
 def free_port():
@@ -290,10 +297,11 @@ class Names:
                 said = self.stops("--sym", self.path(symbols), command=command, state=state)
                 self.assertIn(symbols, said.stderr)
                 self.assertEqual(said.stderr.count("\n"), 1)
-        for arguments in (("log",), ("verify", self.table), ("upload", self.table), ("run",), ("stop",), ("reset",)):
+        for arguments in (("log",), ("verify", self.table), ("run",), ("stop",), ("reset",)):
             result = self.nanoctl("--sym", self.path("other.sym"), *arguments)
             self.assertNotEqual(result.returncode, 2, f"{arguments} {result.stderr}")
-        self.assertEqual(self.nanoctl("--sym", self.path("other.sym"), "status").returncode, 2)
+        for arguments in (("status",), ("upload", self.table)):  # without its set-points a table would lose their values
+            self.assertEqual(self.nanoctl("--sym", self.path("other.sym"), *arguments).returncode, 2)
 
     def test_one_that_is_not_confirmed_says_so(self):
         self.halted()

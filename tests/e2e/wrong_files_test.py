@@ -67,10 +67,13 @@ class WrongFiles(program_case.ProgramCase):
         yield "nanoctl --sym", "sym", lambda file: [*nanoctl, "--sym", file, "status"]
         yield from ((f"macreg {name}", "txt", lambda file, name=name: [*macreg, name, file]) for name in ("load", "diff"))
         yield "macreg plot", "csv", lambda file: [*macreg, "plot", file, "-o", self.path("plotted.svg")]
+        yield "macreg fit", "", lambda file: [*macreg, "fit", file, "-o", self.path("fitted.toml")]
         yield "macreg monitor", "hex", lambda file: [*macreg, "monitor", "--replay", file]
         yield "macreg midi", "path", lambda file: [program("macreg"), "--port", self.module, "midi", "path", file]
         yield "macsim --flash", "flash none", lambda file: [program("macsim"), "--mactalk", endpoint, "--flash", file]
         yield "macsim --scenario", "scn empty", lambda file: [program("macsim"), "--mactalk", endpoint, "--scenario", file]
+        yield "macsim --plant", "", lambda file: [program("macsim"), "--mactalk", endpoint, "--plant", file]
+        yield "nanoplc-sim --plant", "", lambda file: [*sim, self.table, "--for", "20ms", "--plant", file]
         yield "midisim --eeprom", "none", lambda file: [program("midisim"), "--model", "MAC34-1", "--v24", endpoint,
                                                           "--eeprom", file]
         yield from ((f"nanoplc {name[0]}", "toml", lambda file, name=name: [program("nanoplc"), *name, file])

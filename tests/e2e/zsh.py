@@ -6,7 +6,7 @@ import select
 import signal
 import time
 
-LONG = 60  # seconds until something that must come is given up
+LONG = 60  # timeout in seconds of what must come
 
 
 class Zsh:

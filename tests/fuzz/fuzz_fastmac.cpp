@@ -1,17 +1,13 @@
+#include "fuzz.h"
 #include "protocol/fastmac.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <optional>
 
 namespace {
 
 using namespace nplc::protocol::fastmac;
-
-void require(bool holds) {
-    if (!holds) std::abort();
-}
 
 void check_round_trips(std::uint8_t byte) {
     const auto command = static_cast<std::uint8_t>(byte & kCommandBits);

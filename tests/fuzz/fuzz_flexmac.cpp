@@ -1,9 +1,9 @@
+#include "fuzz.h"
 #include "protocol/flexmac.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 
 namespace {
@@ -11,10 +11,6 @@ namespace {
 using namespace nplc::protocol::flexmac;
 using Bytes = std::span<const std::uint8_t>;
 using Kind = ReplyDecoder::Event::Kind;
-
-void require(bool holds) {
-    if (!holds) std::abort();
-}
 
 bool ends_with(Bytes bytes, Bytes tail) {
     if (bytes.size() < tail.size()) return false;

@@ -1,18 +1,14 @@
 // Any bytes from the motor's line, at any time, among any orders: the driver stays bounded, delivers nothing
 // while the link is not up, and settles once the line is steady.
 
-#include <cstdlib>
 #include <deque>
 
+#include "fuzz.h"
 #include "motor/jvl_motor.h"
 
 using namespace nplc;
 
 namespace {
-
-void require(bool holds) {
-    if (!holds) std::abort();
-}
 
 bool belongs_to_the_link(std::uint8_t byte) {
     switch (byte & 0x7F) {

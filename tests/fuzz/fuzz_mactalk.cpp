@@ -2,19 +2,15 @@
 // anything is understood.
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <optional>
 #include <span>
 
+#include "fuzz.h"
 #include "protocol/mactalk.h"
 
 namespace {
 
 using namespace nplc::protocol::mactalk;
-
-void require(bool holds) {
-    if (!holds) std::abort();
-}
 
 bool ends_with(std::span<const std::uint8_t> bytes, std::span<const std::uint8_t> tail) {
     return bytes.size() >= tail.size() && std::equal(tail.rbegin(), tail.rend(), bytes.rbegin());

@@ -2,17 +2,13 @@
 // both a request and an answer.
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 
+#include "fuzz.h"
 #include "protocol/midi_can.h"
 
 namespace {
 
 using namespace nplc::protocol::midi_can;
-
-void require(bool holds) {
-    if (!holds) std::abort();
-}
 
 }  // namespace
 

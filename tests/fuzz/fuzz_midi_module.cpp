@@ -1,10 +1,10 @@
 // Any bytes or frames to a virtual MIDI module at any time: it answers the next whole question once it is
 // awake.
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <vector>
 
+#include "fuzz.h"
 #include "sim/midi_ends.h"
 
 namespace {
@@ -14,10 +14,6 @@ namespace v24 = protocol::midi_v24;
 namespace can = protocol::midi_can;
 namespace midi = registers::midi;
 using Bytes = std::span<const std::uint8_t>;
-
-void require(bool holds) {
-    if (!holds) std::abort();
-}
 
 class Module {
   public:

@@ -15,13 +15,13 @@ class Bus final : public ports::CanPort {
 
     bool write(const ports::CanFrame& frame) override {
         if (!takes_ || state_ == ports::CanState::down || state_ == ports::CanState::bus_off) return false;
-        fuzz::require(!frame.extended && !frame.remote && frame.length == 8);
+        require(!frame.extended && !frame.remote && frame.length == 8);
         last_ = can::decode_request(frame);
-        fuzz::require(last_.address == kAddress);
+        require(last_.address == kAddress);
         const bool asks = last_.kind == can::Request::Kind::query;
-        fuzz::require(asks || last_.kind == can::Request::Kind::command);
+        require(asks || last_.kind == can::Request::Kind::command);
         const bool stops = last_.index == can::kIndices + registers::midi::EMERGENCY_STOP;
-        fuzz::require(asks || stops || motor::delivers(driver->link()));
+        require(asks || stops || motor::delivers(driver->link()));
         return true;
     }
     bool read(ports::CanFrame& frame) override { return arrivals.take(frame); }
@@ -29,7 +29,7 @@ class Bus final : public ports::CanPort {
     ports::CanState state() override { return state_; }
     ports::CanFaults faults() override { return {}; }
     bool restart() override {
-        fuzz::require(state_ == ports::CanState::bus_off);
+        require(state_ == ports::CanState::bus_off);
         if (restarts_) state_ = ports::CanState::active;
         return restarts_;
     }

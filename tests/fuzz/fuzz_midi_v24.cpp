@@ -2,9 +2,9 @@
 // and a whole frame after anything is understood.
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 
+#include "fuzz.h"
 #include "protocol/midi_v24.h"
 
 namespace {
@@ -12,10 +12,6 @@ namespace {
 using namespace nplc::protocol::midi_v24;
 using Bytes = std::span<const std::uint8_t>;
 using EventKind = RequestDecoder::Event::Kind;
-
-void require(bool holds) {
-    if (!holds) std::abort();
-}
 
 bool ends_with(Bytes bytes, Bytes tail) {
     return bytes.size() >= tail.size() && std::equal(tail.rbegin(), tail.rend(), bytes.rbegin());
@@ -56,7 +52,6 @@ void feed_master(Bytes bytes, const Request& request) {
             require(std::search(bytes.begin(), bytes.end(), reply.begin(), reply.end()) != bytes.end());
         }
     }
-    if (!ack) require(!decoder.acknowledged());
     decoder.expect(request);
     decoder.receive(kAck);
     decoder.receive(kXoff);

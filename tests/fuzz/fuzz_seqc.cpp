@@ -2,19 +2,15 @@
 // Any bytes are taken apart or refused, and what was taken apart compiles to the same bytes.
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <string_view>
 
+#include "fuzz.h"
 #include "seqc/seqc.h"
 
 namespace {
 
 using namespace nplc::seqc;
-
-void require(bool holds) {
-    if (!holds) std::abort();
-}
 
 void round_trip(std::span<const std::uint8_t> table) {
     const Disassembly text = disassemble(table, "Fuzz");

@@ -2,21 +2,17 @@
 // the motor is and whatever names are given.
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "fuzz.h"
 #include "seqc/decompile.h"
 
 namespace {
 
 using namespace nplc::seqc;
 using Bytes = std::span<const std::uint8_t>;
-
-void require(bool holds) {
-    if (!holds) std::abort();
-}
 
 void round_trip(Bytes table, const DecompileOptions& options) {
     const Decompilation result = decompile(table, options);

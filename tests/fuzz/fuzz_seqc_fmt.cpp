@@ -5,21 +5,17 @@
 #include <array>
 #include <cctype>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "fuzz.h"
 #include "seqc/format.h"
 #include "seqc/seqc.h"
 
 namespace {
 
 using namespace nplc::seqc;
-
-void require(bool holds) {
-    if (!holds) std::abort();
-}
 
 /// A gap stands at each '~'.
 constexpr std::array<std::string_view, 12> kPieces = {

@@ -1,12 +1,11 @@
-// Any bytes as a sequence table; the input's first 32 bytes are HW_INP and pauses. Engine, its halting form,
-// the prepared form and is_true() must agree, and the state must stay in its bounds.
+// Any bytes as a sequence table; the input's first 32 bytes are HW_INP and pauses. Engine, its halting form
+// and is_true() must agree, and the state must stay in its bounds.
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <vector>
 
+#include "fuzz.h"
 #include "sequencer/engine.h"
-#include "sequencer/prepared.h"
 
 namespace {
 
@@ -14,17 +13,6 @@ using namespace nplc::sequencer;
 using Orders = std::vector<MotorOrder>;
 
 constexpr std::size_t kStimulusBytes = 32;
-
-void require(bool holds) {
-    if (!holds) std::abort();
-}
-
-struct Room {
-    std::vector<std::uint16_t> cells = std::vector<std::uint16_t>(PreparedTable::kCells);
-    std::vector<PreparedTable::Action> actions =
-        std::vector<PreparedTable::Action>(PreparedTable::kMaxActions);
-    std::vector<MotorOrder> orders = std::vector<MotorOrder>(1U << 16);
-};
 
 void require_bounds(const State& state) {
     require(state.step <= kLastStep && state.outputs <= 0x0F);
@@ -46,7 +34,7 @@ class Run {
   public:
     explicit Run(const Table& table) : table_(table), whole_(table), halting_(table) {}
 
-    void step(InputImage image, std::uint8_t ms, PreparedEngine* prepared) {
+    void step(InputImage image, std::uint8_t ms) {
         const State before = whole_.state();
         const bool fires = any_fires(table_, before, image);
         Orders sent;
@@ -62,12 +50,6 @@ class Run {
         require(one_by_one == sent && halting_.state() == whole_.state());
         require(effect.sent == !sent.empty() && sent.size() <= table_.size());
 
-        if (prepared != nullptr) {
-            Orders again;
-            require(prepared->scan(image, keep(again)).any() == effect.any());
-            require(again == sent && prepared->state() == whole_.state());
-            prepared->elapse(ms);
-        }
         if (!effect.any()) require(whole_.state() == before);
         whole_.elapse(ms);
         halting_.elapse(ms);
@@ -91,15 +73,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         require_fault_in_range(loaded.fault, bytes.size());
         return 0;
     }
-    static Room room;
-    PreparedTable prepared;
-    // Not every input: filling 64,512 cells costs more than all the scans.
-    const bool prepares =
-        stimulus[0] % 8 == 0 && prepared.prepare(loaded.table, {room.cells, room.actions, room.orders}).ok();
-    PreparedEngine prepared_engine(prepared);
     Run run(loaded.table);
     for (std::size_t i = 0; i < stimulus.size(); ++i) {
-        run.step(stimulus[i], stimulus[(i + 1) % stimulus.size()], prepares ? &prepared_engine : nullptr);
+        run.step(stimulus[i], stimulus[(i + 1) % stimulus.size()]);
     }
     return 0;
 }

@@ -2,9 +2,9 @@
 // text is a symbol file or refused with a reason, and its names are words that can stand in any message.
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
+#include "fuzz.h"
 #include "intel_hex/intel_hex.h"
 #include "seqc/symbol_file.h"
 
@@ -12,10 +12,6 @@ namespace {
 
 using namespace nplc::seqc;
 namespace intel_hex = nplc::intel_hex;
-
-void require(bool holds) {
-    if (!holds) std::abort();
-}
 
 void hex(std::string_view text) {
     const intel_hex::Image image = intel_hex::read(text);

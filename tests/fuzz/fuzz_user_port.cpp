@@ -3,13 +3,13 @@
 // anything is answered.
 #include <array>
 #include <cstdint>
-#include <cstdlib>
 #include <deque>
 #include <functional>
 #include <optional>
 
 #include "base/bytes.h"
 #include "base/crc32.h"
+#include "fuzz.h"
 #include "gateway/controller.h"
 #include "sim/sim_storage.h"
 
@@ -18,10 +18,6 @@ namespace {
 using namespace nplc;
 namespace mactalk = protocol::mactalk;
 namespace reg = registers::gateway;
-
-void require(bool holds) {
-    if (!holds) std::abort();
-}
 
 struct Board final : ports::DigitalInputs,
                      ports::DigitalOutputs,
@@ -98,7 +94,7 @@ class Run {
     void poll(base::Microseconds step) {
         now_ += step;
         controller_.poll(now_);
-        const gateway::TableKeeper& tables = controller_.tables();
+        const gateway::TableManager& tables = controller_.tables();
         require(base::crc32(tables.active()) == tables.active_crc() || tables.active().empty());
         require(tables.active().size() <= memory_.size());
     }
@@ -126,7 +122,7 @@ class Run {
     }
 
   private:
-    static gateway::SettingsKeeper& started(gateway::SettingsKeeper& settings) {
+    static gateway::SettingsManager& started(gateway::SettingsManager& settings) {
         settings.start({});
         return settings;
     }
@@ -135,7 +131,7 @@ class Run {
     base::Instant now_{};
     sim::SimStorage flash_{{.size = 24 * 1024, .erase_block = 2048, .program_page = 256, .program_unit = 8}};
     std::array<std::uint8_t, (sequencer::kMaxTerms + 1) * sequencer::kTermBytes> memory_{};
-    gateway::SettingsKeeper settings_{flash_, {.begin = 10 * 2048, .slot_bytes = 2048}};
+    gateway::SettingsManager settings_{flash_, {.begin = 10 * 2048, .slot_bytes = 2048}};
     gateway::Controller controller_{{.inputs = board_,
                                      .outputs = board_,
                                      .watchdog = board_,

@@ -6,16 +6,12 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <deque>
 
+#include "fuzz.h"
 #include "motor/midi_motor.h"
 
 namespace nplc::fuzz {
-
-inline void require(bool holds) {
-    if (!holds) std::abort();
-}
 
 /// Bytes or frames on their way to the link, one after the other.
 template <class Item>

@@ -71,6 +71,36 @@ struct Hold : testing::Test {
     }
 };
 
+TEST_F(Hold, UntilTheMotorHasTakenTheStopItIsOnItsWay) {
+    const auto bytes = table(kPosition);
+    settings.status_output = std::uint8_t{3};
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    start(gateway, bytes);
+    ASSERT_TRUE(gateway.hold().ok());
+    board.is_settled = false;
+    board.run(gateway, 5ms);
+    EXPECT_EQ(gateway.run_state(), RunState::holding);
+    EXPECT_GT(board.stops, 0);
+    const base::Instant due = gateway.next_poll(board.now, base::kNever);
+    EXPECT_GT(due, board.now) << "the motor's driver is to be polled, not this";
+    board.is_settled = true;
+    EXPECT_EQ(gateway.next_poll(board.now, base::kNever), board.now);
+    board.run(gateway, 1ms);
+    EXPECT_EQ(gateway.run_state(), RunState::held);
+}
+
+TEST_F(Hold, ALostPartOfTheBoardIsTheSafeStateUntilTheNextStart) {
+    const auto bytes = table(kPosition);
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    start(gateway, bytes);
+    gateway.withdraw(SafeReason::no_lines, board.now);
+    board.run(gateway, 5ms);
+    EXPECT_EQ(gateway.run_state(), RunState::stopped);
+    EXPECT_EQ(gateway.safe_reason(), SafeReason::no_lines);
+    EXPECT_GT(board.stops, 0);
+    EXPECT_EQ(gateway.run().error(), base::Error::not_enabled);
+}
+
 TEST_F(Hold, AMoveIsTakenUpAgain) {
     const auto bytes = table(kPosition);
     Gateway gateway(board.ports(), settings, StartCause::power_up);

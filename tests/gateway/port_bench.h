@@ -38,21 +38,22 @@ struct InstantLine final : ports::SerialPort {
     std::deque<ports::ReceivedByte> received;
 };
 
-/// A gateway on BenchBoard with its user's port and store, and the person who asks it.
+/// A gateway on BenchBoard with its user's port and store, and the client that asks it.
 struct PortBench {
     static constexpr std::uint8_t kMotor = 7;
     static constexpr ports::StorageGeometry kFlash{
         .size = 32 * 1024, .erase_block = 2048, .program_page = 256, .program_unit = 8};
     static constexpr store::Area kTables{.begin = 0, .slot_bytes = 5 * 2048};
     static constexpr store::Area kSettings{.begin = 10 * 2048, .slot_bytes = 2048};
+    static constexpr store::Area kSetPoints{.begin = 12 * 2048, .slot_bytes = 2048};
 
     explicit PortBench(const Settings& settings = {.autostart = false}) { start(settings); }
 
     void start(const Settings& settings) {
         store::SettingValues initial = values_of(settings);
         static_cast<void>(initial.set(store::Setting::motor_address, kMotor));
-        keeper.emplace(flash, kSettings);
-        keeper->start(initial);
+        manager.emplace(flash, kSettings);
+        manager->start(initial);
         const Controller::Ports ports{.inputs = board,
                                       .outputs = board,
                                       .watchdog = board,
@@ -60,8 +61,9 @@ struct PortBench {
                                       .storage = flash,
                                       .user_line = &line,
                                       .motor_mactalk_line = wired ? &motor_line : nullptr,
-                                      .shown_lines = shown_lines};
-        controller.emplace(ports, kTables, memory, *keeper, StartCause::power_up);
+                                      .shown_lines = shown_lines,
+                                      .set_points = &kSetPoints};
+        controller.emplace(ports, kTables, memory, *manager, StartCause::power_up);
         gateway = &controller->sequence();
         tables = &controller->tables();
         gateway->observe(&board);
@@ -72,8 +74,20 @@ struct PortBench {
         board.now += base::Microseconds(250);
         controller->poll(board.now);
     }
+    /// With `only_when_due` not before Controller::next_poll, but at once where something has just happened;
+    /// a motor that is being asked has a deadline of its own.
+    void step(base::Instant end) {
+        if (!only_when_due) return poll();
+        const base::Instant motors =
+            motor::is_open(board.access) ? board.now + base::Milliseconds(1) : base::kNever;
+        const base::Instant due = controller->next_poll(board.now, motors);
+        board.now = std::min(end, std::max(due, board.now + base::Microseconds(1)));
+        controller->poll(board.now);
+    }
     void run(base::Microseconds duration) {
-        for (const auto end = board.now + duration; board.now < end;) poll();
+        const auto end = board.now + duration;
+        poll();
+        while (board.now < end) step(end);
     }
 
     void put(std::span<const std::uint8_t> bytes) {
@@ -84,7 +98,9 @@ struct PortBench {
     /// The bytes that come within `wait`.
     std::vector<std::uint8_t> heard(base::Microseconds wait = std::chrono::seconds(2)) {
         line.sent.clear();
-        for (const auto end = board.now + wait; board.now < end && line.sent.empty();) poll();
+        const auto end = board.now + wait;
+        poll();
+        while (board.now < end && line.sent.empty()) step(end);
         return std::exchange(line.sent, {});
     }
 
@@ -157,13 +173,14 @@ struct PortBench {
     sim::SimStorage flash{kFlash};
     std::array<std::uint8_t, kTableMemory> memory{};
     OwnRegisters::Lines shown_lines{};
-    std::optional<SettingsKeeper> keeper;
+    std::optional<SettingsManager> manager;
     std::optional<Controller> controller;
     Gateway* gateway = nullptr;
-    TableKeeper* tables = nullptr;
+    TableManager* tables = nullptr;
     InstantLine line;
     InstantLine motor_line;
     bool wired = false;
+    bool only_when_due = false;
 };
 
 }  // namespace nplc::gateway

@@ -1,4 +1,4 @@
-// Sentences 5 to 8 and 10 of what the gateway must never do, as far as a person's port goes.
+// Sentences 5 to 8 and 10 of what the gateway must never do, as far as the user port goes.
 #include <gtest/gtest.h>
 
 #include "base/bytes.h"
@@ -371,7 +371,7 @@ TEST_F(PortSafety, AnUploadThatIsGivenUpIsLogged) {
     EXPECT_EQ(read(reg::LOG + 1), 27U | (128U << 16));
     ASSERT_TRUE(command(Command::upload_abort));
     ASSERT_TRUE(command(Command::upload_abort));
-    EXPECT_EQ(read(reg::LOG_COUNT), 2U) << "nothing was left to be given up";
+    EXPECT_EQ(read(reg::LOG_COUNT), 2U) << "nothing was left to be aborted";
 }
 
 TEST_F(PortSafety, AddressesTakeHoldAtTheNextReset) {

@@ -90,6 +90,22 @@ TEST_F(Safety, InServiceNothingRunsAndOutputsStaySafe) {
     EXPECT_FALSE(gateway.enabled()) << "no setting ends it";
 }
 
+TEST_F(Safety, ServiceThatBeginsWhileStoppedLastsUntilTheNextStart) {
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
+    board.run(gateway, 10ms);
+    EXPECT_EQ(board.out, 0x0F);
+    gateway.stop(board.now);
+    gateway.begin_service();
+    EXPECT_TRUE(gateway.is_in_service());
+    EXPECT_FALSE(gateway.enabled());
+    EXPECT_EQ(gateway.run().error(), base::Error::not_enabled);
+    ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);
+    board.run(gateway, 1s);
+    EXPECT_EQ(gateway.run_state(), RunState::stopped);
+    EXPECT_EQ(board.out, 0x02);
+}
+
 TEST_F(Safety, ALostLinkIsTheSafeStateUntilTheSequenceHasAcknowledged) {
     Gateway gateway(board.ports(), settings, StartCause::power_up);
     ASSERT_TRUE(gateway.load(kOutputsOn, board.now).ok);

@@ -66,7 +66,7 @@ TEST_F(StoredState, WithoutAutostartNoDamageStartsAnything) {
         EXPECT_EQ(gateway->run_state(), RunState::stopped);
         EXPECT_TRUE(board.out == 5 || board.out == 2 || board.out == 0)
             << "the stored ones, those before, the configured ones";
-        EXPECT_TRUE(keeper->get(Setting::enable_input) == 3 || keeper->were_damaged());
+        EXPECT_TRUE(manager->get(Setting::enable_input) == 3 || manager->were_damaged());
     });
 }
 
@@ -85,7 +85,7 @@ TEST_F(StoredState, WhatStartsByItselfIsWhatWasStoredLast) {
         }
         ++ran;
         EXPECT_EQ(tables->active_crc(), base::crc32(kStoredTable));
-        EXPECT_EQ(keeper->get(Setting::longest_wait), 800U);
+        EXPECT_EQ(manager->get(Setting::longest_wait), 800U);
     });
     EXPECT_GT(ran, 100U);
     EXPECT_GT(stopped, 100U);
@@ -122,7 +122,7 @@ TEST_F(StoredState, TheOnlySettingsAndTheOnlyTable) {
             return;
         }
         EXPECT_EQ(tables->active_crc(), base::crc32(kStoredTable));
-        EXPECT_EQ(keeper->get(Setting::longest_wait), 800U);
+        EXPECT_EQ(manager->get(Setting::longest_wait), 800U);
     });
 }
 

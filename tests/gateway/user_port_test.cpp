@@ -1,8 +1,9 @@
-// The port as a person's program sees it: REGISTERS.md, sentence by sentence.
+// The port as a client program sees it: REGISTERS.md, sentence by sentence.
 #include <gtest/gtest.h>
 
 #include "base/bytes.h"
 #include "base/crc32.h"
+#include "gateway/set_points.h"
 #include "motor/jvl_driver.h"
 #include "port_bench.h"
 
@@ -17,7 +18,9 @@ const Bytes kPortTable{{0xC0, 0x01, 0x01, 0x01, 0x80, 0x05, 0, 0},
                        {0xC1, 0x02, 0x02, 0x02, 0x61, 0x02, 0, 0}};
 constexpr std::size_t kTableBytes = 3 * 8;
 
-struct UserPortTest : testing::Test, PortBench {
+/// Polled all the time, or only when it asks for it.
+struct UserPortTest : testing::TestWithParam<bool>, PortBench {
+    void SetUp() override { only_when_due = GetParam(); }
     void start_table() {
         ASSERT_TRUE(upload_and_activate(kPortTable));
         ASSERT_TRUE(command(Command::run));
@@ -29,7 +32,10 @@ struct UserPortTest : testing::Test, PortBench {
     }
 };
 
-TEST_F(UserPortTest, TellsWhoItIsByteForByte) {
+INSTANTIATE_TEST_SUITE_P(Polled, UserPortTest, testing::Bool(),
+                         [](const auto& due) { return due.param ? "WhenDue" : "AllTheTime"; });
+
+TEST_P(UserPortTest, TellsWhoItIsByteForByte) {
     // 50h x3, address 80h, register 01h, each with its inverse, AAh x2 (001 §5.1).
     const std::vector<std::uint8_t> request{0x50, 0x50, 0x50, 0x80, 0x7F, 0x01, 0xFE, 0xAA, 0xAA};
     put(request);
@@ -40,7 +46,7 @@ TEST_F(UserPortTest, TellsWhoItIsByteForByte) {
     EXPECT_EQ(read(reg::FW_VERSION), 0x100U) << "0.1.0";
 }
 
-TEST_F(UserPortTest, EveryRegisterOfTheMapIsReadAndNoOtherIsAnythingButZero) {
+TEST_P(UserPortTest, EveryRegisterOfTheMapIsReadAndNoOtherIsAnythingButZero) {
     for (unsigned number = 1; number <= 255; ++number) {
         const auto value = read(static_cast<std::uint8_t>(number));
         ASSERT_TRUE(value) << number;
@@ -50,17 +56,29 @@ TEST_F(UserPortTest, EveryRegisterOfTheMapIsReadAndNoOtherIsAnythingButZero) {
     }
 }
 
-TEST_F(UserPortTest, AWriteToWhatCanOnlyBeReadIsRefusedWithAReason) {
+bool is_of_set_points(std::uint8_t number) {
+    return (number > reg::FIRED_KEY && number <= reg::SET_POINT_DATA) ||
+           (number >= reg::SET_POINT && number < reg::SET_POINT_WANTED + reg::kSetPoints);
+}
+
+bool is_of_firmware(std::uint8_t number) {
+    return number >= reg::FIRMWARE_BOARD && number <= reg::FIRMWARE_DATA;
+}
+
+TEST_P(UserPortTest, AWriteToWhatCanOnlyBeReadIsRefusedWithAReason) {
     for (unsigned number = 1; number <= 255; ++number) {
         const auto n = static_cast<std::uint8_t>(number);
         const reg::Row* row = reg::find(n);
         if (row != nullptr && row->access != reg::Access::read) continue;
+        const bool is_left_out = (!SetPointsPart::kIsThere && is_of_set_points(n)) ||
+                                 (!FirmwarePart::kIsThere && is_of_firmware(n));
+        const bool is_there = row != nullptr && !is_left_out;
         EXPECT_FALSE(write(n, 0)) << number;
-        EXPECT_EQ(result(), result_of(row == nullptr ? Result::no_register : Result::read_only, n)) << number;
+        EXPECT_EQ(result(), result_of(is_there ? Result::read_only : Result::no_register, n)) << number;
     }
 }
 
-TEST_F(UserPortTest, ABlockIsSixteenRegistersAndZerosBeyondTheLast) {
+TEST_P(UserPortTest, ABlockIsSixteenRegistersAndZerosBeyondTheLast) {
     const auto block16 = block(reg::STATUS);
     ASSERT_TRUE(block16);
     EXPECT_EQ(in_block(*block16, 16, reg::SAFE_REASON), 1U) << "not started";
@@ -69,7 +87,7 @@ TEST_F(UserPortTest, ABlockIsSixteenRegistersAndZerosBeyondTheLast) {
     for (const std::uint8_t byte : last->view()) EXPECT_EQ(byte, 0);
 }
 
-TEST_F(UserPortTest, MessagesThatAreNotForTheGatewayGetNoAnswer) {
+TEST_P(UserPortTest, MessagesThatAreNotForTheGatewayGetNoAnswer) {
     for (const auto kind : {mactalk::Kind::read_samples, mactalk::Kind::safe_mode, mactalk::Kind::init_mode,
                             mactalk::Kind::write_flash, mactalk::Kind::reset}) {
         ask({.kind = kind, .address = reg::kDefaultAddress});
@@ -79,7 +97,7 @@ TEST_F(UserPortTest, MessagesThatAreNotForTheGatewayGetNoAnswer) {
     EXPECT_TRUE(heard().empty());
 }
 
-TEST_F(UserPortTest, UploadsActivatesReadsBackAndRuns) {
+TEST_P(UserPortTest, UploadsActivatesReadsBackAndRuns) {
     board.motor_registers[10] = 4711;  // P_IST
     const std::span<const std::uint8_t> table = kPortTable;
     ASSERT_TRUE(upload(table));
@@ -106,7 +124,7 @@ TEST_F(UserPortTest, UploadsActivatesReadsBackAndRuns) {
     EXPECT_EQ(read(reg::INPUTS), 0x01'01'01U) << "seen, terminals, HW_INP";
 }
 
-TEST_F(UserPortTest, AFullTableGoesInPiecesAndSurvivesARestart) {
+TEST_P(UserPortTest, AFullTableGoesInPiecesAndSurvivesARestart) {
     std::vector<std::uint8_t> table;
     for (std::size_t i = 0; i < sequencer::kMaxTerms; ++i) {
         const auto step = static_cast<std::uint8_t>(0xC0 | (i % 62));
@@ -121,7 +139,7 @@ TEST_F(UserPortTest, AFullTableGoesInPiecesAndSurvivesARestart) {
     EXPECT_EQ(state(), reg::RunState::running) << "with autostart after a power-up";
 }
 
-TEST_F(UserPortTest, ALostAnswerIsMendedByThePointer) {
+TEST_P(UserPortTest, ALostAnswerIsMendedByThePointer) {
     const std::span<const std::uint8_t> table = kPortTable;
     ASSERT_TRUE(command(Command::upload_begin));
     ASSERT_TRUE(send(table.first(8)));
@@ -133,7 +151,7 @@ TEST_F(UserPortTest, ALostAnswerIsMendedByThePointer) {
     EXPECT_EQ(result(), result_of(Result::bad_offset, reg::TABLE_DATA));
 }
 
-TEST_F(UserPortTest, AnUploadThatIsNotAsAnnouncedLeavesTheStoredOne) {
+TEST_P(UserPortTest, AnUploadThatIsNotAsAnnouncedLeavesTheStoredOne) {
     ASSERT_TRUE(upload_and_activate(kPortTable));
     ASSERT_TRUE(command(Command::upload_begin));
     ASSERT_TRUE(send(std::span<const std::uint8_t>(kPortTable)));
@@ -145,7 +163,7 @@ TEST_F(UserPortTest, AnUploadThatIsNotAsAnnouncedLeavesTheStoredOne) {
     EXPECT_EQ(read(reg::STORED_CRC), base::crc32(kPortTable));
 }
 
-TEST_F(UserPortTest, AFaultyTableIsNamedByItsTerm) {
+TEST_P(UserPortTest, AFaultyTableIsNamedByItsTerm) {
     const Bytes bad{{0xC0, 0, 0, 0x00, 0x80, 0, 0, 0}, {0xC0, 0, 0, 0x3F, 0x80, 0, 0, 0}};
     EXPECT_FALSE(upload(bad));
     EXPECT_EQ(read(reg::UPLOAD_STATE), 5U | (34U << 8) | (1U << 16)) << "bad_next_step in term 1";
@@ -155,7 +173,7 @@ TEST_F(UserPortTest, AFaultyTableIsNamedByItsTerm) {
     EXPECT_EQ(read(reg::UPLOAD_STATE), 5U | (36U << 8)) << "not_for_motor in term 0";
 }
 
-TEST_F(UserPortTest, PiecesWithoutABeginningAreRefused) {
+TEST_P(UserPortTest, PiecesWithoutABeginningAreRefused) {
     EXPECT_FALSE(send(std::span<const std::uint8_t>(kPortTable)));
     EXPECT_EQ(result(), result_of(Result::no_upload, reg::TABLE_DATA));
     EXPECT_FALSE(command(Command::upload_commit));
@@ -165,7 +183,7 @@ TEST_F(UserPortTest, PiecesWithoutABeginningAreRefused) {
     EXPECT_EQ(result(), result_of(Result::no_table, reg::COMMAND));
 }
 
-TEST_F(UserPortTest, CommandsAndValuesThatDoNotExistAreRefused) {
+TEST_P(UserPortTest, CommandsAndValuesThatDoNotExistAreRefused) {
     for (const std::uint32_t value : {0U, 10U, 15U, 20U, 255U, 256U, 0x0101U}) {
         EXPECT_FALSE(write(reg::COMMAND, value));
         EXPECT_EQ(result(), result_of(Result::bad_value, reg::COMMAND)) << value;
@@ -178,13 +196,33 @@ TEST_F(UserPortTest, CommandsAndValuesThatDoNotExistAreRefused) {
     EXPECT_EQ(result(), result_of(Result::not_running, reg::COMMAND));
 }
 
-TEST_F(UserPortTest, TwoBytesAreAValueToo) {
+TEST_P(UserPortTest, BreakpointsAreTwoWordsOfSteps) {
+    EXPECT_TRUE(write(reg::BREAK_LOW, 0x8000'0001));
+    EXPECT_TRUE(write(reg::BREAK_HIGH, 0x2000'0000)) << "61, the last step";
+    EXPECT_EQ(gateway->breakpoints(), 0x2000'0000'8000'0001U);
+    EXPECT_EQ(read(reg::BREAK_HIGH), 0x2000'0000U);
+    EXPECT_FALSE(write(reg::BREAK_HIGH, 0x8000'0000)) << "there is no step 63";
+    EXPECT_EQ(result(), result_of(Result::bad_value, reg::BREAK_HIGH));
+    EXPECT_EQ(gateway->breakpoints(), 0x2000'0000'8000'0001U);
+}
+
+TEST_P(UserPortTest, TheWorstScanIsForgottenWhenItIsWritten) {
+    start_table();
+    board.now += 50ms;
+    poll();
+    EXPECT_GE(read(reg::SCAN_WORST).value_or(0), 50'000U);
+    EXPECT_TRUE(write(reg::SCAN_WORST, 0));
+    run(10ms);
+    EXPECT_LT(read(reg::SCAN_WORST).value_or(50'000), 50'000U);
+}
+
+TEST_P(UserPortTest, TwoBytesAreAValueToo) {
     EXPECT_TRUE(write(reg::BREAK_LOW, 0xFFFF'0003, 4));
     EXPECT_TRUE(write(reg::BREAK_LOW, 0x0005, 2));
     EXPECT_EQ(read(reg::BREAK_LOW), 5U);
 }
 
-TEST_F(UserPortTest, TermsThatFired) {
+TEST_P(UserPortTest, TermsThatFired) {
     start_table();
     board.in = 0;
     run(10ms);
@@ -200,7 +238,7 @@ TEST_F(UserPortTest, TermsThatFired) {
     EXPECT_EQ(read(reg::FIRED_KEY).value_or(0) & 0xFFU, 1U);
 }
 
-TEST_F(UserPortTest, TheLogTellsReasonsWithTheirTimes) {
+TEST_P(UserPortTest, TheLogTellsReasonsWithTheirTimes) {
     start_table();
     const auto before = read(reg::UPTIME).value_or(0);
     const auto count = read(reg::LOG_COUNT).value_or(0);
@@ -214,7 +252,7 @@ TEST_F(UserPortTest, TheLogTellsReasonsWithTheirTimes) {
     EXPECT_EQ(read(reg::LOG_COUNT), 0U);
 }
 
-TEST_F(UserPortTest, FaultsOfLinesAreShownIfTheBoardNamesThem) {
+TEST_P(UserPortTest, FaultsOfLinesAreShownIfTheBoardNamesThem) {
     EXPECT_EQ(read(reg::LINE_FAULTS), 0U);
     shown_lines = {&line, nullptr, &motor_line};
     start({.autostart = false});
@@ -225,21 +263,52 @@ TEST_F(UserPortTest, FaultsOfLinesAreShownIfTheBoardNamesThem) {
     EXPECT_EQ(read(reg::LINE_FAULTS + 2), 0xFFFF'FFFFU) << "it stays there";
     EXPECT_FALSE(write(reg::LINE_FAULTS + 2, 0));
     EXPECT_EQ(result(), result_of(Result::read_only, reg::LINE_FAULTS + 2));
-    EXPECT_FALSE(write(reg::LINE_FAULTS + 3, 0));
-    EXPECT_EQ(result(), result_of(Result::no_register, reg::LINE_FAULTS + 3));
+    EXPECT_FALSE(write(reg::LATE_POLLS + 1, 0));
+    EXPECT_EQ(result(), result_of(Result::no_register, reg::LATE_POLLS + 1));
 }
 
-TEST(SettingsKeeper, WhatTheBoardDecidesGoesBeforeWhatWasStored) {
+TEST(CommandResult, EachErrorHasItsCode) {
+    using enum base::Error;
+    const std::pair<base::Error, Result> all[]{{no_space, Result::no_space},
+                                               {table_no_end, Result::table_no_end},
+                                               {table_ragged, Result::table_ragged},
+                                               {bad_next_step, Result::bad_next_step},
+                                               {bad_register, Result::bad_register},
+                                               {not_for_motor, Result::not_for_motor},
+                                               {not_stopped, Result::not_stopped},
+                                               {no_table, Result::no_table},
+                                               {not_enabled, Result::not_enabled},
+                                               {busy, Result::busy},
+                                               {bad_geometry, Result::storage_failed},
+                                               {bad_offset, Result::bad_offset},
+                                               {not_begun, Result::no_upload},
+                                               {wrong_check, Result::wrong_check},
+                                               {storage_failed, Result::storage_failed},
+                                               {damaged, Result::nothing_stored},
+                                               {bad_setting, Result::bad_value},
+                                               {cannot_go_on, Result::cannot_go_on},
+                                               {no_proof, Result::no_proof}};
+    ASSERT_EQ(std::size(all), static_cast<std::size_t>(base::Error::no_proof));
+    for (unsigned number = 1; number <= std::size(all); ++number) {
+        const auto error = static_cast<base::Error>(number);
+        const auto* row = std::find_if(std::begin(all), std::end(all),
+                                       [error](const auto& one) { return one.first == error; });
+        ASSERT_NE(row, std::end(all)) << number;
+        EXPECT_EQ(gateway::result_of(error), row->second) << number;
+    }
+}
+
+TEST(SettingsManager, WhatTheBoardDecidesGoesBeforeWhatWasStored) {
     sim::SimStorage flash(PortBench::kFlash);
-    SettingsKeeper keeper(flash, PortBench::kSettings);
-    keeper.start({});
-    keeper.impose(store::Setting::motor_kind, 2);
-    EXPECT_EQ(keeper.get(store::Setting::motor_kind), 2U);
-    EXPECT_EQ(keeper.at_start(store::Setting::motor_kind), 2U);
-    EXPECT_FALSE(keeper.differ());
+    SettingsManager manager(flash, PortBench::kSettings);
+    manager.start({});
+    manager.impose(store::Setting::motor_kind, 2);
+    EXPECT_EQ(manager.get(store::Setting::motor_kind), 2U);
+    EXPECT_EQ(manager.at_start(store::Setting::motor_kind), 2U);
+    EXPECT_FALSE(manager.differ());
 }
 
-TEST(SettingsKeeper, TheMotorsSilenceIsTheDrivers) {
+TEST(SettingsManager, TheMotorsSilenceIsTheDrivers) {
     store::SettingValues values;
     EXPECT_EQ(motor::jvl::settings_of(driver_settings_of(values)).link.silence, base::Milliseconds(20));
     ASSERT_TRUE(values.set(store::Setting::motor_silence, 150).ok());
@@ -247,10 +316,10 @@ TEST(SettingsKeeper, TheMotorsSilenceIsTheDrivers) {
     EXPECT_EQ(motor::jvl::settings_of(driver_settings_of(values)).link.proof_time, base::Milliseconds(150));
 }
 
-TEST_F(UserPortTest, SettingsAreWrittenWhileStoppedAndKept) {
+TEST_P(UserPortTest, SettingsAreWrittenWhileStoppedAndKept) {
     const auto number = [](store::Setting setting) { return reg::register_of(setting); };
     for (const registers::gateway::SettingInfo& info : registers::gateway::all_settings()) {
-        EXPECT_EQ(read(number(info.id)), keeper->get(info.id)) << info.name;
+        EXPECT_EQ(read(number(info.id)), manager->get(info.id)) << info.name;
         if (info.id == store::Setting::gateway_address) continue;
         EXPECT_TRUE(write(number(info.id), info.lowest)) << info.name;
         EXPECT_TRUE(write(number(info.id), info.highest)) << info.name;
@@ -276,7 +345,77 @@ TEST_F(UserPortTest, SettingsAreWrittenWhileStoppedAndKept) {
     EXPECT_FALSE(command(Command::keep_settings));
 }
 
-TEST_F(UserPortTest, AResetIsAskedForOnlyWhileStopped) {
+TEST_P(UserPortTest, WhatTheBoardSetsAtTheStartIsRead) {
+    start({.on_start = OnStart::keep, .autostart = false, .virtual_motor = true, .require_proof = true});
+    for (const auto setting :
+         {store::Setting::on_start, store::Setting::virtual_motor, store::Setting::require_proof})
+        EXPECT_EQ(read(reg::register_of(setting)), 1U) << static_cast<int>(setting);
+}
+
+TEST_P(UserPortTest, SettingsThatCannotBeStoredAreToldSo) {
+    ASSERT_TRUE(write(reg::register_of(store::Setting::safe_outputs), 9));
+    flash.fail_operation(0);
+    EXPECT_FALSE(command(Command::keep_settings));
+    EXPECT_EQ(result(), result_of(Result::storage_failed, reg::COMMAND));
+    EXPECT_NE(status() & reg::kSettingsDiffer, 0U);
+    EXPECT_TRUE(command(Command::keep_settings)) << "the next one goes well";
+}
+
+TEST_P(UserPortTest, OnASlowStorageSettingsAreKeptOnceHoweverOftenTheyAreAskedFor) {
+    std::uint64_t needed = 0;
+    for (int slot = 0; slot < 3; ++slot) {
+        const std::uint64_t before = flash.operations();
+        ASSERT_TRUE(command(Command::keep_settings));
+        needed = flash.operations() - before;
+    }
+
+    ASSERT_TRUE(write(reg::register_of(store::Setting::safe_outputs), 5));
+    const std::uint64_t before = flash.operations();
+    flash.work_for(10'000);  // 2.5 s for each operation
+    EXPECT_FALSE(command(Command::keep_settings)) << "no answer yet";
+    EXPECT_NE(status() & reg::kSettingsDiffer, 0U);
+    EXPECT_FALSE(command(Command::keep_settings));
+    ask({.kind = mactalk::Kind::write,
+         .address = reg::kDefaultAddress,
+         .reg = reg::COMMAND,
+         .length = 4,
+         .value = static_cast<std::uint32_t>(Command::keep_settings)});
+    EXPECT_EQ(heard(60s), accept());
+    EXPECT_EQ(status() & reg::kSettingsDiffer, 0U);
+    EXPECT_EQ(flash.operations() - before, needed);
+}
+
+TEST_P(UserPortTest, SettingsWhoseEndNobodyWaitedForAreKnownAsKept) {
+    ASSERT_TRUE(write(reg::register_of(store::Setting::safe_outputs), 5));
+    flash.work_for(10'000);
+    EXPECT_FALSE(command(Command::keep_settings));
+    EXPECT_NE(status() & reg::kSettingsDiffer, 0U) << "this question ends the wait";
+    run(60s);
+    EXPECT_EQ(status() & reg::kSettingsDiffer, 0U);
+}
+
+TEST_P(UserPortTest, AnInputsEdgeIsSeenBeforeTheMotorIsPolled) {
+    start_table();
+    const int polls = board.polls;
+    board.in = 1;
+    for (const auto end = board.now + 20ms; board.now < end && board.out != 5;) {
+        board.now += 250us;
+        controller->poll_after_edge(board.now);
+    }
+    EXPECT_EQ(board.out, 5);
+    EXPECT_GT(board.polls, polls);
+}
+
+TEST_P(UserPortTest, AMotorThatIsNotKnownToStandHoldsAnActivationUp) {
+    board.access_answers = motor::AccessState::failed;
+    ASSERT_TRUE(upload(kPortTable));
+    EXPECT_FALSE(command(Command::activate));
+    EXPECT_EQ(result() & 0xFFU, static_cast<std::uint32_t>(Result::link_down)) << "it cannot be asked";
+    board.access_answers = motor::AccessState::done;
+    EXPECT_TRUE(command(Command::activate));
+}
+
+TEST_P(UserPortTest, AResetIsAskedForOnlyWhileStopped) {
     start_table();
     EXPECT_FALSE(command(Command::reset));
     EXPECT_FALSE(controller->reset_asked());
@@ -285,7 +424,7 @@ TEST_F(UserPortTest, AResetIsAskedForOnlyWhileStopped) {
     EXPECT_TRUE(controller->reset_asked());
 }
 
-TEST_F(UserPortTest, ANewMessageEndsTheWaitForTheAnswerBefore) {
+TEST_P(UserPortTest, ANewMessageEndsTheWaitForTheAnswerBefore) {
     board.access_answers = motor::AccessState::under_way;
     ask({.kind = mactalk::Kind::read, .address = kMotor, .reg = 5});
     EXPECT_TRUE(heard(100ms).empty());
@@ -294,7 +433,7 @@ TEST_F(UserPortTest, ANewMessageEndsTheWaitForTheAnswerBefore) {
     EXPECT_TRUE(heard(100ms).empty()) << "nobody waits for it any more";
 }
 
-TEST_F(UserPortTest, TheMotorIsReadAndWrittenForItsAddressAndForEveryone) {
+TEST_P(UserPortTest, TheMotorIsReadAndWrittenForItsAddressAndForEveryone) {
     board.motor_registers[5] = 0x1234'5678;
     EXPECT_EQ(read(5, kMotor), 0x1234'5678U);
     EXPECT_EQ(read(5, mactalk::kEveryone), 0x1234'5678U);
@@ -313,7 +452,7 @@ TEST_F(UserPortTest, TheMotorIsReadAndWrittenForItsAddressAndForEveryone) {
     EXPECT_EQ(board.accesses.back().reg, 254);
 }
 
-TEST_F(UserPortTest, AMac800IsReadAndWrittenInLongwords) {
+TEST_P(UserPortTest, AMac800IsReadAndWrittenInLongwords) {
     board.is_mac800 = true;
     board.motor_registers[5] = 77;
     EXPECT_EQ(read(5, kMotor), 77U);
@@ -325,7 +464,7 @@ TEST_F(UserPortTest, AMac800IsReadAndWrittenInLongwords) {
     EXPECT_EQ(board.accesses.back().reg, 20);
 }
 
-TEST_F(UserPortTest, AMotorThatDoesNotAnswerIsNotAnsweredFor) {
+TEST_P(UserPortTest, AMotorThatDoesNotAnswerIsNotAnsweredFor) {
     board.access_answers = motor::AccessState::failed;
     EXPECT_FALSE(read(5, kMotor));
     EXPECT_EQ(board.accesses.size(), 2U) << "a read is tried twice";
@@ -336,7 +475,7 @@ TEST_F(UserPortTest, AMotorThatDoesNotAnswerIsNotAnsweredFor) {
     EXPECT_EQ(board.accesses.size(), 3U);
 }
 
-TEST_F(UserPortTest, WhatFlexMacCannotCarryNeedsTheMotorsOwnPort) {
+TEST_P(UserPortTest, WhatFlexMacCannotCarryNeedsTheMotorsOwnPort) {
     ask({.kind = mactalk::Kind::safe_mode, .address = kMotor});
     EXPECT_TRUE(heard().empty());
     wired = true;
@@ -350,7 +489,7 @@ TEST_F(UserPortTest, WhatFlexMacCannotCarryNeedsTheMotorsOwnPort) {
     EXPECT_EQ(heard(), accept());
 }
 
-TEST_F(UserPortTest, NoiseInFrontOfAMessageDoesNotHurt) {
+TEST_P(UserPortTest, NoiseInFrontOfAMessageDoesNotHurt) {
     const std::vector<std::uint8_t> noise{0x52, 0x52, 0x52, 0x80, 0x7F, 0x30, 0xCF, 0x80, 0x50, 0x50, 0xAA};
     put(noise);
     line.received.push_back({0x50, true});

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include "host/paths.h"
+
 namespace nplc::host {
 namespace {
 
@@ -28,11 +32,16 @@ TEST(Process, FailuresAreTold) {
     const Ran failed = run_program("ls", {"/nowhere at all"}, "");
     EXPECT_EQ(failed.problem, "");
     EXPECT_FALSE(failed.done);
+    EXPECT_GT(failed.status, 0);
     EXPECT_NE(failed.errors.find("nowhere at all"), std::string::npos);
     const Ran missing = run_program("no_such_program_here", {}, "");
     EXPECT_TRUE(missing.missing);
     EXPECT_FALSE(missing.done);
     EXPECT_NE(missing.problem, "");
+}
+
+TEST(Process, KnowsItsFolder) {
+    EXPECT_TRUE(std::filesystem::exists(path_of(own_folder()) / "test_host"));
 }
 
 TEST(Process, NumbersItself) {

@@ -3,6 +3,8 @@
 import re
 
 import grammar
+from expand import Expander
+from meaning import Program
 
 BLOCK = re.compile(r"(?m)((?:^    .*\n)+)")
 MARK = "// the example"
@@ -27,6 +29,11 @@ class Example:
                       for code in re.findall(r"// .*?\b([EW]\d{3})\b", line))
 
 
+    def verdicts(self):
+        """{property: verdict} of each comment with one."""
+        return dict(re.findall(r"(?m)^ *PROPERTY (\w+):.*// (proved|broken|undecided)$", self.text))
+
+
 class Document:
     def __init__(self, path):
         self.text = read(path)
@@ -37,8 +44,11 @@ class Document:
         self.grammar = grammar.Grammar(*rules)
         self.frame = next(block for block in self.blocks if MARK in block)
         self.examples = []
+        self.files = {}
         for block in (b for b in self.blocks if b not in rules):
-            if re.match(r"PROGRAM\b", block):
+            if name := re.match(r"\(\* (\S+\.seqi) \*\)\n", block):
+                self.files[name[1]] = block + "\n"
+            elif re.match(r"PROGRAM\b", block):
                 self.examples.append(Example(block, block + "\n", 1))
             elif re.match(r"(STEP|POWER_UP|ON|VAR_\w+|TERM)\b", block):
                 before = self.frame[:self.frame.index(MARK)].count("\n")
@@ -47,6 +57,24 @@ class Document:
                 self.examples[-1].scans = scans(block)
             else:
                 raise AssertionError(f"neither program, scans nor grammar:\n{block}")
+
+    def included(self, text):
+        """A program with its files in the place of INCLUDE, each once."""
+        seen = set()
+
+        def put(found):
+            is_new = found[1] not in seen
+            seen.add(found[1])
+            return self.files[found[1]] if is_new else ""
+
+        return re.sub(r"INCLUDE '([^']*)';", put, text)
+
+    def program(self, tree, register_map, command_bytes):
+        """What a program means; its sequences are put in the place of their calls first."""
+        expander = Expander(tree)
+        if expander.has_calls():
+            tree = self.grammar.parse(expander.program())
+        return Program(tree, register_map, command_bytes)
 
     def command_bytes(self):
         """Name -> byte of the commands that select nothing, from the table of section 8."""

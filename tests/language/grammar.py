@@ -12,7 +12,8 @@ SPECIAL = {
     "all up to the first": r"(?s:.*?)",
     "any characters but ' and the end of the line": r"[^'\n]*",
 }
-NO_NAMES_EXCEPT = {"BOOL", "Q", "AFTER", "BY", "FROM", "OFF"}
+NO_NAMES_EXCEPT = {"BOOL", "Q", "AFTER", "BY", "FROM", "OFF", "SET", "RESET", "R_TRIG", "F_TRIG", "BLINKING",
+                   "CALL", "RETURN"}
 
 
 class GrammarError(Exception):

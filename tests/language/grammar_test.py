@@ -15,8 +15,8 @@ import tempfile
 
 import document
 import programs
-from grammar import parts_of
-from meaning import based
+from grammar import NO_NAMES_EXCEPT, parts_of
+from values import based
 from tools import Tools, is_syntax
 
 NAMES = ["Fast", "Idle", "A1", "P2", "IN0", "OUT3", "STOP", "POSITION", "rpm", "mm", "s", "rev", "Bool", "q", "_x9"]
@@ -162,6 +162,9 @@ def changed(grammar, text, rng):
     return text[:here.start] + word + " " + text[here.start if rng.random() < 0.5 else after:]
 
 
+NO_COMMANDS = {f"there is no '{word}' in this language" for word in NO_NAMES_EXCEPT}
+
+
 class Trial:
     def __init__(self, tools, grammar, rng, known):
         self.tools, self.grammar, self.rng, self.known = tools, grammar, rng, known
@@ -174,7 +177,7 @@ class Trial:
         return self.syntax_errors(text)
 
     def syntax_errors(self, text):
-        said = [d for d in self.tools.build(text) if is_syntax(d)]
+        said = [d for d in self.tools.build(text) if is_syntax(d) and d["message"] not in NO_COMMANDS]
         return f"{said[0]['line']}:{said[0]['column']}: {said[0]['code']} {said[0]['message']}:\n{text}" if said else ""
 
     def mutated(self):
@@ -188,7 +191,7 @@ class Trial:
 
 def uses_all(grammar, rng):
     """Every rule and word of the grammar occurs in what Maker makes."""
-    seen = " ".join(Maker(grammar, rng).program().upper() for _ in range(300))
+    seen = " ".join(Maker(grammar, rng).program().upper() for _ in range(600))
     return [word for rule in grammar.rules.values() for part in parts_of(rule) if part[0] == "word"
             for word in [part[1]] if word not in seen]
 

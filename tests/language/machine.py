@@ -1,6 +1,7 @@
 """Executes a program, scan after scan, as LANGUAGE.md says."""
 
-from meaning import Action, Helper
+from action import Action
+from judge import Helper
 
 
 class Machine:
@@ -20,7 +21,8 @@ class Machine:
         step = next((s for s in self.program.steps if s.number == self.step), None)
         helper = next((h for h in self.program.helpers.values() if h.number == self.step), None)
         action = self.action_of_helper(helper, case) if helper else self.action_of(step, case)
-        if step and action.key() in step.helpers:
+        is_fault = self.program.on_error and case >> 7 & 1 and step and not step.owns_error
+        if step and action.key() in step.helpers and not is_fault:
             helper = step.helpers[action.key()]
             action = Action()
             action.next = helper
@@ -34,7 +36,7 @@ class Machine:
         self.finish(milliseconds)
         return sends
 
-    def action_of(self, step, case):
+    def action_of(self, step, case, state=-1):
         """The one action of the branches that hold; several do the same."""
         program, error = self.program, case >> 7 & 1
         if step is None:
@@ -43,7 +45,7 @@ class Machine:
             return program.fault(program.values) if program.on_error else Action()
         if program.on_error and error and not step.owns_error:
             return program.fault()
-        for choice in step.choices:
+        for choice in step.choices_in[state]:
             action = next((action for cases, action in choice if cases >> case & 1), Action())
             if not action.is_empty():
                 return action
@@ -68,7 +70,9 @@ class Machine:
     def write_outputs(self, step, case):
         if self.next != self.step:
             entered = next((s for s in [*self.program.steps, *self.program.helpers.values()] if s.number == self.next), None)
-            self.outputs = entered.outputs if entered else 0
+            self.outputs = entered.outputs if entered else self.program.power_up_outputs
+        elif step is None and self.program.power_up_outputs:
+            self.outputs = self.program.power_up_outputs
         elif step and (step.when or step.number == 0 and step.outputs):
             self.outputs = step.outputs
             for outputs, cases in step.when:

@@ -4,47 +4,21 @@ A case is one of the 1,024 values of the ten things that a condition can test; a
 """
 
 import math
+from fractions import Fraction
 
 import registers
-
-BITS = {**{f"IN{n}": n for n in range(6)}, "INPOS": 6, "ERROR": 7, "TIMER": 8, "COUNTER": 9}
-ALL = (1 << 1024) - 1
-TRUE_OF = [sum(1 << case for case in range(1024) if case >> bit & 1) for bit in range(10)]
-ERROR = TRUE_OF[7]
+from action import ALL, BITS, ERROR, TRUE_OF, Action
+from judge import Judge
+from memory import EDGES, Memory, is_edge, timer_value
+from values import Reckoner, Value, based
 
 
 class Refused(Exception):
     """The program uses something that this interpreter does not know."""
 
 
-class Action:
-    """What happens in one scan: section 3 and 4."""
-
-    def __init__(self):
-        self.next = None
-        self.sends = []     # bytes as int, register values as (number, value)
-        self.timer = None
-        self.count = None   # an int, "down" or "clear"
-        self.faults = set()
-        self.is_quiet = True  # nothing that EVERY_SCAN would have to announce
-
-    def key(self):
-        return self.next, tuple(self.sends), self.timer, self.count
-
-    def is_empty(self):
-        return self.key() == (None, (), None, None)
-
-    def once(self, is_free):
-        if not is_free:
-            self.faults.add("E061")
-
-    def then(self, entry):
-        """With the ENTRY of the step that is entered."""
-        self.sends = self.sends + entry.sends
-        self.once(self.timer is None or entry.timer is None)
-        self.once(self.count is None or entry.count is None)
-        self.timer = entry.timer if entry.timer is not None else self.timer
-        self.count = entry.count if entry.count is not None else self.count
+def is_switch(action):
+    return action.words()[:1] in (["SET"], ["RESET"])
 
 
 class Statement:
@@ -67,19 +41,29 @@ class Step:
     def __init__(self, name):
         self.name, self.number = name, None
         self.outputs, self.when, self.entry = 0, [], Action()
-        self.choices, self.terms, self.owns_error = [], [], False
+        self.choices_in, self.terms, self.owns_error = [], [], False  # choices by the state of the memory
         self.covers = []    # ON conditions, the first one first
+        self.memory, self.held, self.named_outputs = None, 0, 0
         self.no_helper, self.helpers = False, {}
 
+    @property
+    def choices(self):
+        """Where all that its memory can hold holds."""
+        return self.choices_in[-1]
 
-class Program:
+
+class Program(Judge):
     def __init__(self, tree, register_map, command_bytes):
         self.tree, self.map, self.bytes = tree, register_map, command_bytes
         self.inputs = {f"IN{n}": n for n in range(6)} | {f"%IX0.{n}": n for n in range(6)}
         self.outputs = {f"OUT{n}": n for n in range(4)} | {f"%QX0.{n}": n for n in range(4)}
+        self.set_points = {}
         self.names, self.values, self.faults, self.groups, self.helpers = {}, [], set(), {}, {}
+        self.constants, self.gets = {}, {}
         self.on_error = self.per_rev = None
-        self.power_up, self.steps = Action(), []
+        self.power_up, self.steps, self.power_up_outputs = Action(), [], 0
+        self.switched = {}
+        self.armed = None  # what R_TRIG and F_TRIG see: (bit, rising)
         self.read_declarations()
         self.read_steps()
         self.number_steps()
@@ -95,22 +79,40 @@ class Program:
 
     def read_declarations(self):
         for scale in self.items("scale"):
-            turns, length = (value.tokens() for value in scale.nodes("value"))
+            turns, length = (value.tokens() for value in scale.nodes("amount"))
             self.per_rev = float(length[0].text) / float(turns[0].text), length[1].text.upper()
         for block in self.items("signals"):
             known = self.inputs if "VAR_INPUT" in block.words() else self.outputs
             names = [t for t in block.words()[1:] if t not in ("AT", ":", "BOOL", ";", "END_VAR")]
             for name, address in zip(names, block.nodes("signal")):
                 known[name] = known[address.text().upper()]
+        for constant in self.items("constant"):
+            self.constants[constant.words()[1]] = Reckoner(self.constants).value(constant.node("value"))
         for block in self.items("registers"):
             names = [t for t in block.words()[1:] if t not in ("AT", ":=", ";", "END_VAR")]
             for name, target in zip(names, block.nodes("register")):
                 self.names[name] = self.register(target)
                 at = block.children.index(target)
                 if block.children[at + 1] is not None and getattr(block.children[at + 1], "text", "") == ":=":
-                    self.values.append(self.write(self.names[name], block.children[at + 2]))
+                    self.values.append(self.write(self.names[name], block.children[at + 2], self.gets))
+                    self.keep_what_it_gets(name, block.children[at + 2])
+        for item in self.items("set_point"):
+            self.declare_set_point(item)
         for item in self.items("on_error"):
             self.on_error = item.words()[4]
+
+    def declare_set_point(self, item):
+        """Its default is what the table has: a name for a value, and with AT for a register too."""
+        name, value = item.words()[1], item.node("value")
+        self.set_points[name] = value
+        if item.node("register"):
+            self.names[name] = self.register(item.node("register"))
+            self.values.append(self.write(self.names[name], value))
+
+    def value_of(self, node):
+        """Of a statement: what is written there, or the default of the set-point that is named."""
+        written = node.node("value")
+        return self.set_points.get(written.text().strip().upper(), written) if written else None
 
     # Values
 
@@ -121,28 +123,39 @@ class Program:
         name = node.words()[0]
         return self.names.get(name) or self.map[name]
 
-    def write(self, register, value):
-        return register.number, self.steps_of(register, value) % (1 << (32 if register.is_wide else 16))
+    def keep_what_it_gets(self, name, value):
+        """In the unit in which it was written, for the values of VAR_MOTOR below."""
+        register, known = self.names[name], self.constants | self.gets
+        written = Reckoner(known, register.bits_named, register.bits_of_part).value(value)
+        if not written.is_bits and written.number:
+            exact, steps = self.exact_steps(register, written), self.steps_of(register, value, self.gets)
+            self.gets[name] = Value(written.number * steps / Fraction(exact), written.unit)
 
-    def steps_of(self, register, value):
-        tokens = [t.text for t in value.tokens()]
-        sign = -1 if tokens[0] == "-" else 1
-        number, *unit = tokens[1:] if tokens[0] in "+-" else tokens
-        if "#" in number:
-            return based(number)
-        exact = sign * float(number.replace("_", ""))
-        if unit:
-            text = "".join(unit)
+    def write(self, register, value, more=()):
+        return register.number, self.steps_of(register, value, more) % (1 << (32 if register.is_wide else 16))
+
+    def steps_of(self, register, value, more=()):
+        known = self.constants | dict(more)
+        reckoned = Reckoner(known, register.bits_named, register.bits_of_part).value(value)
+        if reckoned.is_bits:
+            return int(reckoned.number)
+        exact = self.exact_steps(register, reckoned)
+        return int(math.copysign(math.floor(abs(exact) + 0.5), exact))
+
+    def exact_steps(self, register, reckoned):
+        exact, text = float(reckoned.number), reckoned.unit
+        if text:
             if self.per_rev and text.upper().startswith(self.per_rev[1]):
                 exact, text = exact / self.per_rev[0], "rev" + text[len(self.per_rev[1]):]
             exact *= register.steps_in(text)
-        return int(math.copysign(math.floor(abs(exact) + 0.5), exact))
+        return exact
 
     # Steps
 
     def read_steps(self):
         for node in self.items("power_up"):
             self.power_up = self.action([a for s in node.nodes("statement") for a in s.nodes()])
+            self.power_up_outputs = sum(self.bits(outputs) for outputs in node.nodes("outputs"))
         for node in self.items("step"):
             step = Step(node.words()[1])
             step.number = whole(node.node("whole")) if node.node("whole") else None
@@ -152,34 +165,69 @@ class Program:
             next(s for s in self.steps if s.name == node.words()[1]).terms.append(node.node("term_if"))
 
     def read_parts(self, step, parts):
-        bare = None
         entry = []
+        step.memory = Memory(parts, self)
+        self.faults |= step.memory.faults
         for part in parts:
+            if part.kind == "out":
+                step.named_outputs |= self.bits(part.node("outputs"))
             if part.kind == "out" and part.node("expression"):
                 step.when.append((self.bits(part.node("outputs")), self.condition(part.node("expression"))))
-            elif part.kind == "out":
+            elif part.kind == "out" and not part.node("value"):
                 step.outputs |= self.bits(part.node("outputs"))
             elif part.kind == "own_error":
                 step.owns_error = True
             elif part.kind == "no_helper":
                 step.no_helper = True
+            elif part.kind == "takes":
+                pass    # what a gateway does between scans changes no table
             elif part.kind == "entry":
                 entry.append(part.node("action"))
-            elif part.kind == "statement":
+            elif part.kind in ("term", "named_term"):
+                step.terms.append(part.node("term_if"))
+        step.entry = self.action(entry)
+        if step.memory.limit or step.memory.blinking:
+            step.entry.timer = step.memory.time_of(0) if step.memory.blinking else step.memory.limit
+            step.entry.times_itself = True
+        if any(step.memory.blinking & bits for bits in [step.outputs, *(bits for bits, _ in step.when)]):
+            self.faults.add("E065")
+        for state in range(step.memory.states()):
+            self.armed = step.memory.armed(state)
+            step.choices_in.append(self.read_choices(parts, step.memory.runs(state), step.memory.cases_of_else(state)))
+            if step.memory.holds:
+                step.held = self.condition(step.memory.holds[0])
+        self.armed = None
+
+    def read_choices(self, parts, runs, cases_of_else):
+        bare, choices = None, []
+        for part in parts:
+            if part.kind == "statement":
                 if bare is None:
                     bare = []
-                    step.choices.append([(ALL & ~ERROR, bare)])
+                    choices.append([(ALL & ~ERROR, bare)])
                 bare.append(part)
             elif part.kind == "if":
                 bare = None
-                step.choices.append(self.branches(part))
-            else:
-                step.terms.append(part.node("term_if"))
-        step.entry = self.action(entry)
+                choices.append(self.branches(part, runs, cases_of_else))
+        return choices
 
-    def branches(self, node):
-        conditions = [self.condition(e) for e in node.nodes("expression")] + [ALL & ~ERROR]
+    def branches(self, node, runs, cases_of_else):
+        """`runs`: the time of FOR, so that its condition holds when the timer is at 0; `cases_of_else`: of WITHIN."""
+        words = node.words()
+        conditions = [self.condition(e) for e in node.nodes("expression")]
+        at = [n for n, child in enumerate(node.children) if getattr(child, "kind", "") == "expression"]
+        for n, place in enumerate(at):
+            follows = node.children[place + 1]
+            if getattr(follows, "text", None) and not hasattr(follows, "children") and follows.text.upper() == "FOR":
+                conditions[n] &= TRUE_OF[8] if runs else 0
+        conditions.append(ALL & ~ERROR & (cases_of_else if "WITHIN" in words else ALL))
         return [(c, body.nodes("statement")) for c, body in zip(conditions, node.nodes("body"))]
+
+    def time(self, node):
+        return timer_value(Reckoner(self.constants).value(node))
+
+    def remembers(self):
+        return bool(self.switched or not all(step.memory.is_plain() for step in self.steps))
 
     def cover_steps(self):
         """ON conditions: the first branches of each choice, and a choice of their own."""
@@ -196,7 +244,8 @@ class Program:
         for step in self.steps:
             conditions = [(cases, [Statement(target)]) for cases, target in step.covers]
             without = [(cases, []) for cases, target in step.covers]
-            step.choices = ([conditions] if conditions else []) + [without + choice for choice in step.choices]
+            step.choices_in = [([conditions] if conditions else []) + [without + choice for choice in choices]
+                               for choices in step.choices_in]
 
     def steps_in(self, names):
         return set().union(*(self.groups.get(name, {name}) for name in names.words() if name != ","))
@@ -227,6 +276,8 @@ class Program:
                 total = {"expression": total | part, "exclusive": total ^ part}.get(node.kind, total & part)
             return total
         words = node.words()
+        if is_edge(node):
+            return self.edge(self.inputs[node.node("signal").text().upper()], EDGES[words[0]])
         if words[:1] == ["NOT"]:
             return ALL & ~parts[0]
         if parts:
@@ -236,6 +287,13 @@ class Program:
         if words[0] in ("TRUE", "ANY", "FALSE"):
             return 0 if words[0] == "FALSE" else ALL
         return TRUE_OF[BITS[words[0]]]
+
+    def edge(self, bit, rising):
+        if self.armed is None:
+            self.faults.add("E066")
+        if (bit, rising) not in (self.armed or ()):
+            return 0
+        return TRUE_OF[bit] if rising else ALL & ~TRUE_OF[bit]
 
     # Actions
 
@@ -251,17 +309,23 @@ class Program:
 
     def act(self, node, done):
         words = node.words()
+        if words[-2:-1] == [":="] and words[-1] in self.set_points:
+            done.points.append((words[0], words[-1]))
         if node.node("register"):
-            done.sends.append(self.write(self.register(node.node("register")), node.node("value")))
+            done.sends.append(self.write(self.register(node.node("register")), self.value_of(node)))
         elif node.node("command"):
             done.sends += self.command(node.node("command"))
         elif words[0] == "TIMER":
             done.once(done.timer is None)
-            done.timer = max(1, milliseconds(node.node("value")))
+            done.timer = self.time(self.value_of(node))
+        elif words[0] in ("SET", "RESET"):
+            bits = self.bits(node.node("outputs"))
+            self.switched[words[0]] = self.switched.get(words[0], 0) | bits
+            done.switch(*((bits, 0) if words[0] == "SET" else (0, bits)))
         else:
             done.once(done.count is None)
             done.count = {"COUNT_DOWN": "down", "CLEAR_COUNTER": "clear"}.get(words[0])
-            done.count = done.count or whole(node.node("whole")) or "clear"
+            done.count = done.count or int(Reckoner(self.constants).value(self.value_of(node)).number) or "clear"
 
     def command(self, node):
         name = node.words()[0]
@@ -280,11 +344,13 @@ class Program:
     def finish_branches(self):
         """Statements to actions, with the ENTRY of the step that they enter."""
         for step in self.steps:
-            step.choices = [[self.branch(step, *branch) for branch in choice] for choice in step.choices]
+            step.choices_in = [[[self.branch(step, *branch) for branch in choice] for choice in choices]
+                               for choices in step.choices_in]
 
     def branch(self, step, cases, statements):
         action = self.action([node for s in statements for node in s.nodes()])
-        unmarked = any(s.node("action") and "EVERY_SCAN" not in s.words() for s in statements)
+        unmarked = any(s.node("action") and "EVERY_SCAN" not in s.words() and not is_switch(s.node("action"))
+                       for s in statements)
         stays = action.next in (None, step.name)
         if stays and (unmarked or (action.next and not step.entry.is_empty())):
             action.faults.add("E060")
@@ -303,109 +369,12 @@ class Program:
         self.enter(action)
         return action
 
-    # What the compiler must refuse
-
-    def find_faults(self):
-        fault = self.step(self.on_error) if self.on_error else None
-        if fault and not fault.owns_error:
-            self.faults.add("E081")
-        first = self.power_up.next or self.steps[0].name
-        if first == "POWER_UP" or (self.items("power_up") and not self.power_up.next):
-            self.faults.add("E085")
-        elif not self.start:
-            start = Action()
-            start.__dict__.update(self.power_up.__dict__, sends=self.values + self.power_up.sends, next=first)
-            self.enter(start)
-            self.power_up = start
-            self.faults |= start.faults
-        for step in self.steps:
-            self.faults |= step.entry.faults
-            if not self.on_error and not step.owns_error:
-                self.faults.add("E080")
-            self.find_faults_in(step)
-
-    def find_faults_in(self, step):
-        acting = []
-        for choice in step.choices:
-            taken, own = 0, []
-            for cases, action in choice:
-                self.faults |= action.faults
-                if cases & ~taken and not action.is_empty():
-                    own.append((cases & ~taken, action))
-                taken |= cases
-            for cases, action in own:
-                if self.on_error and not step.owns_error and cases & ERROR:
-                    self.faults.add("E082")
-                if any(cases & other and action.key() != before.key() for other, before in acting):
-                    self.faults.add("E070")
-            acting += own
-
-    # What a table can do (section 9)
-
-    def helper_called(self, name):
-        return next((h for step in self.steps for h in step.helpers.values()
-                     if f"{step.name}_TO_{h.action.next}" == name), None)
-
-    def is_possible(self):
-        """Makes the helper steps; false if there are branches that can have none."""
-        return all([self.make_helpers(step) for step in self.steps])
-
-    def make_helpers(self, step):
-        together = {}
-        for choice in step.choices:
-            taken = 0
-            for cases, action in choice:
-                together.setdefault(action.key(), [action, 0])[1] |= cases & ~taken
-                taken |= cases
-        trouble = [(action, cases) for action, cases in together.values()
-                   if (action.sends or action.timer or isinstance(action.count, int))
-                   and not acts_alike(cases, bool(action.sends))]
-        for action, cases in trouble:
-            if action.next in (None, step.name) or step.no_helper:
-                return False
-            on_error = "act" if cases & ERROR else step.name if step.owns_error else "fault"
-            helper = self.helpers.setdefault((action.key(), on_error), Helper(action, on_error))
-            if helper.number is None:
-                numbers = {s.number for s in [*self.steps, *self.helpers.values()]}
-                helper.number = next(n for n in range(1, 62) if n not in numbers)
-                target = self.step(action.next)
-                helper.outputs = target.outputs if target else 0
-            step.helpers[action.key()] = helper
-        return True
-
-
-class Helper:
-    """A step of the compiler's: does what a branch says in the scan after."""
-
-    def __init__(self, action, on_error):
-        self.action, self.on_error, self.number, self.outputs = action, on_error, None, 0
-
-
-def acts_alike(cases, once):
-    """For all inputs: always, when timer = 0, when counter = 0, when both; for presets also when one of them."""
-    running, timer, counter, both = (cases >> 256 * n & (1 << 256) - 1 for n in range(4))
-    taken_back = running & ~(timer & counter) | (timer | counter) & ~both
-    twice = timer & counter & ~running if once else 0
-    return not taken_back | twice
-
 
 def whole(node):
     text = node.text().replace(" ", "")
     return based(text.lstrip("+")) if "#" in text else int(float(text.replace("_", "")))
 
 
-def based(text):
-    base, digits = text.split("#")
-    return int(digits.replace("_", ""), int(base))
-
-
-def milliseconds(value):
-    text = value.text().replace(" ", "").replace("_", "").lower()
-    total, number = 0.0, ""
-    for part in text.split("#")[-1].replace("ms", "i"):
-        if part.isalpha():
-            total += float(number) * {"i": 1, "s": 1000, "m": 60000, "h": 3600000, "d": 86400000}[part]
-            number = ""
-        else:
-            number += part
-    return int(math.floor(total + 0.5))
+def whole(node):
+    text = node.text().replace(" ", "")
+    return based(text.lstrip("+")) if "#" in text else int(float(text.replace("_", "")))

@@ -21,15 +21,28 @@ class Tools:
     def build(self, program):
         """Diagnostics; the table is in p.bin if none of them is an error."""
         done = subprocess.run([self.seqc, "build", self.path("p.seq", program), "-o", self.path("p.bin"),
-                               "--no-symbols", "--json"], capture_output=True, text=True, timeout=60, check=False)
+                               "--json"], capture_output=True, text=True, timeout=60, check=False)
         said = json.loads(done.stdout)
         if (done.returncode == 0) != said["ok"] or done.returncode not in (0, 1):
             raise AssertionError(f"exit code {done.returncode}: {done.stdout}{done.stderr}")
         return said["diagnostics"]
 
+    def verify(self, program):
+        """Results of seqc verify."""
+        done = subprocess.run([self.seqc, "verify", self.path("p.seq", program), "--json"], capture_output=True, text=True,
+                              timeout=120, check=False)
+        if done.returncode not in (0, 1, 4):
+            raise AssertionError(f"exit code {done.returncode}: {done.stderr}")
+        return json.loads(done.stdout)["results"]
+
     def table(self):
         with open(self.path("p.bin"), "rb") as file:
             return file.read()
+
+    def steps(self):
+        """Number -> what F.sym says of the step."""
+        with open(self.path("p.sym"), encoding="utf-8") as file:
+            return {step["number"]: step for step in json.load(file)["steps"]}
 
     def scan(self, course):
         """Rows of nanoplc-sim scan for [(image, milliseconds)]: step, timer, counter, outputs, commands, values."""
@@ -39,6 +52,18 @@ class Tools:
                               capture_output=True, text=True, timeout=60, check=True)
         rows = [line.split(",") for line in done.stdout.split("\n")[1:-1]]
         return [[*map(int, row[1:5]), row[5], row[6]] for row in rows]
+
+
+HELPER = -1
+
+
+def step_of_program(step, program):
+    """Of a step of the table: the program's number; a copy is the step that it is one of."""
+    why = step.get("made_for", "")
+    if why.startswith("helper step"):
+        return HELPER
+    name = why.split("'")[1] if why.startswith("copy of") else step["name"]
+    return 0 if name == "POWER_UP" else program.step(name.upper()).number
 
 
 def is_syntax(diagnostic):

@@ -95,16 +95,19 @@ TEST(Parameters, AnIncompleteFileSaysSo) {
 
 TEST(Parameters, AFileThatLacksALineIsIncomplete) {
     const std::string head = "model = MAC140\n";
-    const auto lack = [&](const std::string& text) { return parse_parameters(head + text).set.incomplete; };
-    EXPECT_EQ(lack("A_SOLL = 397\nV_SOLL = 5\n" + end_text(2)), "");
-    EXPECT_NE(lack("A_SOLL = 397\n" + end_text(2)).find("says 2 registers, and it has 1"), std::string::npos);
-    EXPECT_NE(lack("A_SOLL = 397\nV_SOLL = 5\n" + end_text(1)), "");
-    EXPECT_EQ(lack("A_SOLL = 397\nend = 1\n"), "");
+    const auto incomplete = [&](const std::string& text) {
+        return parse_parameters(head + text).set.incomplete;
+    };
+    EXPECT_EQ(incomplete("A_SOLL = 397\nV_SOLL = 5\n" + end_text(2)), "");
+    EXPECT_NE(incomplete("A_SOLL = 397\n" + end_text(2)).find("says 2 registers, and it has 1"),
+              std::string::npos);
+    EXPECT_NE(incomplete("A_SOLL = 397\nV_SOLL = 5\n" + end_text(1)), "");
+    EXPECT_EQ(incomplete("A_SOLL = 397\nend = 1\n"), "");
     EXPECT_NE(problem_of(head + "A_SOLL = 397\nend = all\n"), "");
     // What `dump --all` shows beside the parameters is counted with them.
-    EXPECT_EQ(lack("A_SOLL = 397\n# P_IST = 0 counts  # 10, raw 0\n" + end_text(2)), "");
-    EXPECT_NE(lack("A_SOLL = 397\n# P_IST = 0 counts  # 10, raw 0\n" + end_text(3)), "");
-    EXPECT_NE(lack("A_SOLL = 397\n# a remark\n" + end_text(2)), "");
+    EXPECT_EQ(incomplete("A_SOLL = 397\n# P_IST = 0 counts  # 10, raw 0\n" + end_text(2)), "");
+    EXPECT_NE(incomplete("A_SOLL = 397\n# P_IST = 0 counts  # 10, raw 0\n" + end_text(3)), "");
+    EXPECT_NE(incomplete("A_SOLL = 397\n# a remark\n" + end_text(2)), "");
 }
 
 /// Cut off at any byte it is refused, or has every value of the whole one.

@@ -208,6 +208,63 @@ TEST_F(RecorderTest, WhatWasReadIsKeptWhenItBreaksOff) {
     EXPECT_EQ(broken.model, "MAC50-141") << "which of them is not known by its answers";
 }
 
+// 001 §4.4.9: SAMPLE1 = 145, UA_VAL; SAMPLE2 = 139, IC_IST; 7812 Hz; 11 sampling periods; then INIT_MODE.
+// UA_VAL = UMEAS.
+TEST_F(RecorderTest, FetchesWhatTheVoltageTestLeft) {
+    motor.write(*motor.find("UMEAS"), 50);
+    motor.write(*motor.find("MODE_REG"), 8);
+    while (motor.read("MODE_REG") != 0) {
+    }
+    const auto before = settings();
+    const auto recording = fetch_buffer(motor, {.samples = 0});
+    ASSERT_EQ(recording.size(), 11U);
+    EXPECT_DOUBLE_EQ(recording.rate_hz, 7812.5);
+    EXPECT_EQ(recording.columns[0].name, "UA_VAL");
+    EXPECT_EQ(recording.columns[1].name, "IC_IST");
+    for (std::size_t i = 1; i < 11; ++i)
+        EXPECT_GT(recording.columns[0].values[i], 0) << "the step is there, " << i;
+    EXPECT_EQ(settings(), before);
+    EXPECT_EQ(to_csv(fetch_buffer(motor, {.samples = 0})), to_csv(recording)) << "it is still there";
+}
+
+// 001 §4.4.10: SAMPLE1 = 7, T_SOLL; SAMPLE2 = 12, V_IST; 520.8 Hz; 11 sampling periods; BREAK_MODE,
+// INIT_MODE.
+TEST_F(RecorderTest, FetchesWhatTheAccelerationTestLeft) {
+    motor.write(*motor.find("T_SOLL"), 200);
+    motor.write(*motor.find("MODE_REG"), 9);
+    while (motor.read("MODE_REG") != 0) {
+    }
+    const auto recording = fetch_buffer(motor, {.samples = 11});
+    ASSERT_EQ(recording.size(), 11U);
+    EXPECT_NEAR(recording.rate_hz, 520.83, 0.01);
+    ASSERT_EQ(recording.columns.size(), 2U) << "SAMPLE3 and SAMPLE4 are 0";
+    EXPECT_EQ(recording.columns[0].name, "T_SOLL");
+    EXPECT_EQ(recording.columns[1].name, "V_IST");
+    EXPECT_GT(recording.columns[1].values[10], recording.columns[1].values[1]) << "it speeds up";
+}
+
+/// P_IST is 10 and 11, so SAMPLE1 and 2 are one value; half of P_SOLL, 3, is a plain word.
+TEST_F(RecorderTest, FetchesNumbersThatBelongTogetherAsOneValue) {
+    make_ready();
+    for (const auto& [name, number] :
+         {std::pair{"SAMPLE1", 10}, {"SAMPLE2", 11}, {"SAMPLE3", 3}, {"SAMPLE4", 12}})
+        motor.write(*motor.find(name), number);
+    motor.write(*motor.find("CNTRL_BITS"), motor.read("CNTRL_BITS") | 1 << 6);
+    EXPECT_THROW(fetch_buffer(motor, {.samples = 0}), CannotRecord) << "it is recording";
+    while ((motor.read("CNTRL_BITS") & 1 << 6) != 0) {
+    }
+    const auto recording = fetch_buffer(motor, {.samples = 20});
+    ASSERT_EQ(recording.columns.size(), 3U);
+    EXPECT_EQ(recording.columns[0].name, "P_IST");
+    EXPECT_EQ(recording.columns[1].name, "P_SOLL low word");
+    EXPECT_EQ(recording.columns[2].name, "V_IST");
+    EXPECT_EQ(recording.size(), 20U);
+}
+
+TEST_F(RecorderTest, AnEmptyBufferIsSaid) {
+    EXPECT_THROW(fetch_buffer(motor, {.samples = 0}), CannotRecord);
+}
+
 TEST_F(RecorderTest, WhatDoesNotFitIsRefusedAndNothingIsSent) {
     const std::size_t sent = wire.sent().size();
     try {

@@ -54,22 +54,33 @@ class Debugger:
         self.command("?", "T")
         self.command("qXfer:features:read:target.xml:0,400", ("l", "m"))  # without it no single register is written
 
+    def send(self, text):
+        self.socket.sendall(f"${text}#{sum(text.encode()) % 256:02x}".encode())
+
+    def receive(self):
+        while (packet := re.search(rb"\$([^#]*)#..", self.received)) is None:
+            more = self.socket.recv(4096)
+            assert more, "the debugger's line was closed"
+            self.received += more
+        self.received = self.received[packet.end():]
+        self.socket.sendall(b"+")
+        return packet.group(1).decode()
+
     def command(self, text, begins):
         """The answer that begins so; what the stopped core says by itself is passed over."""
-        self.socket.sendall(f"${text}#{sum(text.encode()) % 256:02x}".encode())
+        self.send(text)
         while True:
-            packet = re.search(rb"\$([^#]*)#..", self.received)
-            if packet is None:
-                more = self.socket.recv(4096)
-                assert more, "the debugger's line was closed"
-                self.received += more
-                continue
-            self.received = self.received[packet.end():]
-            self.socket.sendall(b"+")
-            answer = packet.group(1).decode()
+            answer = self.receive()
             if answer.startswith(begins):
                 return answer
             assert answer.startswith("T"), f"{text}: {answer!r}"
+
+    def go_on(self):
+        """Until the core stops by itself."""
+        self.send("c")
+        self.socket.settimeout(None)
+        assert self.receive().startswith("T05")
+        self.socket.settimeout(LONG)
 
     def in_interrupt(self):
         """Bits 8 to 0 of XPSR."""
@@ -154,7 +165,7 @@ class Machine(Emulated):
 
     def start(self):
         motor = f"socket,id=motor,path={self.motor}" if self.motor else "null,id=motor"
-        memory = ["-drive", f"if=none,id=memory,format=raw,file={self.memory}",
+        memory = ["-drive", f"if=none,id=memory,format=raw,cache=unsafe,file={self.memory}",
                   "-device", f"at24c-eeprom,bus=i2c,address=0x50,rom-size={MEMORY},drive=memory"]
         self.spawn("-M", "lm3s6965evb", *(["-icount", "shift=5,sleep=off"] if self.fast else []),
                    *(memory if self.has_memory else []),

@@ -4,33 +4,39 @@ import os
 
 import machine
 import user_line
+import wire
 
 INPUT_PINS = (18, 20, 23, 22, 21, 16)
 OUTPUT_PINS = (4, 5, 12, 11)
 BUTTON_A = 17
 OUT, DIR = 0x5000_0504, 0x5000_0514
 LOOP_TIME = 0x4000_8540  # TIMER0, CC[0]
-STORAGE, STORAGE_BYTES, PAGE = 0x3B000, 20 * 1024, 1024
+STORAGE, FLASH_END, PAGE = 0x3B000, 0x40000, 1024
 NVMC_CONFIG, NVMC_ERASEPAGE = 0x4001_E504, 0x4001_E508
 READS, WRITES, ERASES = 0, 1, 2
 SCRATCH = 0x2000_3F00  # RAM that the firmware does not use
 
 
 class Microbit(machine.Emulated):
-    """Started with button A held its line serves a person: this program connects to "user". Otherwise the motor's."""
+    """Started with button A held its line serves the user: this program connects to "user", in real time over a line with a
+    speed (wire.py). Otherwise the motor's.
 
-    def __init__(self, image, folder, fast=False):
+    Flash from `kept_from` on outlives power cuts; a reset writes the image anew, so it must lie before that."""
+
+    def __init__(self, image, folder, fast=False, kept_from=STORAGE):
         super().__init__(image, folder)
-        self.fast, self.flash = fast, b"\xFF" * STORAGE_BYTES
+        self.fast, self.kept_from, self.flash, self.wire = fast, kept_from, b"\xFF" * (FLASH_END - kept_from), None
 
     def start(self, motor=None):
-        line = f"socket,id=line,path={motor}" if motor else f"socket,id=line,{self.server('user')}"
+        user = "user" if self.fast else "chip"
+        line = f"socket,id=line,path={motor}" if motor else f"socket,id=line,{self.server(user)}"
         self.spawn("-M", "microbit", "-S", *(["-icount", "shift=5,sleep=off"] if self.fast else []),
                    "-chardev", line, "-serial", "chardev:line")
         self.pins = machine.Lines(self.path("pins"))
         self.fill_flash()
         self.go(held=motor is None)
         if motor is None:
+            self.wire = wire.Wire(self.path("user"), self.path("chip")) if not self.fast else None
             line = user_line.UserLine(self.path("user"))
             line.read(user_line.FW_VERSION)
             line.close()
@@ -44,10 +50,10 @@ class Microbit(machine.Emulated):
     def fill_flash(self):
         """As a chip: erased by pages, then written."""
         self.ask_pins(f"writel {NVMC_CONFIG:#x} {ERASES}")
-        for page in range(STORAGE, STORAGE + STORAGE_BYTES, PAGE):
+        for page in range(self.kept_from, FLASH_END, PAGE):
             self.ask_pins(f"writel {NVMC_ERASEPAGE:#x} {page:#x}")
         self.ask_pins(f"writel {NVMC_CONFIG:#x} {WRITES}")
-        self.ask_pins(f"write {STORAGE:#x} {STORAGE_BYTES:#x} 0x{self.flash.hex()}")
+        self.ask_pins(f"write {self.kept_from:#x} {len(self.flash):#x} 0x{self.flash.hex()}")
         self.ask_pins(f"writel {NVMC_CONFIG:#x} {READS}")
 
     def go(self, held):
@@ -63,12 +69,31 @@ class Microbit(machine.Emulated):
         self.monitor.wait_for("RESET")
         self.go(held=True)
 
+    def stop_at_resets(self, on):
+        """The board stands at its own resets until go_on_after_reset(), which presses the button anew."""
+        self.monitor.do("set-action", reboot="shutdown" if on else "reset", shutdown="pause" if on else "poweroff")
+
+    def go_on_after_reset(self):
+        if self.monitor.do("query-status")["running"]:
+            return
+        self.stop_at_resets(False)
+        self.monitor.do("system_reset")
+        self.monitor.wait_for("RESET")
+        self.stop_at_resets(True)
+        self.go(held=True)
+
     def cut_power(self):
         if self.process is None:
             return
         self.monitor.do("stop")
-        self.flash = bytes.fromhex(self.ask_pins(f"read {STORAGE:#x} {STORAGE_BYTES:#x}").split()[1][2:])
+        self.flash = self.read_flash()
         super().cut_power()
+        if self.wire:
+            self.wire.close()
+            self.wire = None
+
+    def read_flash(self):
+        return bytes.fromhex(self.ask_pins(f"read {self.kept_from:#x} {len(self.flash):#x}").split()[1][2:])
 
     def debugger(self):
         return super().debugger(SCRATCH)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The micro:bit's real image on an emulated board: a person uploads while button A is held, then the table runs a motor.
+"""The micro:bit's real image on an emulated board: the user uploads while button A is held, then the table runs a motor.
 
 usage: microbit_test.py IMAGE.bin MACSIM NANOCTL SEQC [SEED]
 """

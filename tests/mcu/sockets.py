@@ -4,7 +4,7 @@ import os
 import socket
 import time
 
-LONG = int(os.environ.get("LONG", 60))  # seconds until something that must come is given up
+LONG = int(os.environ.get("LONG", 60))  # timeout in seconds of what must come
 
 
 class Lines:

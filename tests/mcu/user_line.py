@@ -1,5 +1,6 @@
 """MacTalk to the gateway's own registers (firmware/gateway/REGISTERS.md), a message at a time, as bytes on a socket."""
 
+import re
 import socket
 import time
 
@@ -48,33 +49,39 @@ class UserLine:
         except BlockingIOError:
             pass
 
-    def ask(self, message, answer_bytes, seconds=2.0):
-        """The answer; empty if none came."""
+    def exchange(self, message, found, seconds):
+        """What `found` finds in all that comes; empty if it finds nothing. So a late answer to an earlier message is passed over."""
         self.drain()
         self.socket.setblocking(True)
         self.socket.sendall(message)
-        answer, end = b"", time.monotonic() + seconds
-        while len(answer) < answer_bytes:
+        came, end = b"", time.monotonic() + seconds
+        while not (answer := found(came)):
             self.socket.settimeout(max(0.01, end - time.monotonic()))
             try:
-                answer += self.socket.recv(answer_bytes - len(answer))
+                more = self.socket.recv(4096)
             except socket.timeout:
                 return b""
+            if not more:
+                return b""
+            came += more
         return answer
+
+    def ask(self, message, answer_bytes, seconds=2.0):
+        """The first bytes that come; empty if there are fewer."""
+        return self.exchange(message, lambda came: came[:answer_bytes] if len(came) >= answer_bytes else b"", seconds)
 
     def read(self, register):
         """Asked again when no answer comes: a reset may have eaten the message."""
+        answer = re.compile(re.escape(b"\x52\x52\x52" + protected([0, register, 4])) + b"(.{8})\xAA\xAA", re.DOTALL)
         for _ in range(200):
-            answer = self.ask(read_message(register), 19, 0.3)
-            if answer:
-                expected = b"\x52\x52\x52" + protected([0, register, 4])
-                if answer.startswith(expected) and answer.endswith(b"\xAA\xAA"):
-                    return int.from_bytes(answer[9:17:2], "little")
+            found = self.exchange(read_message(register), answer.search, 0.3)
+            if found:
+                return int.from_bytes(found.group(1)[::2], "little")
         raise AssertionError(f"register {register} never answered")
 
     def write(self, register, data):
-        """True if it was accepted."""
-        return self.ask(write_message(register, data), len(ACCEPT)) == ACCEPT
+        """True if it was accepted. No data have three equal bytes in a row."""
+        return self.exchange(write_message(register, data), lambda came: ACCEPT in came, 2.0) is True
 
     def must_write(self, register, value):
         if not self.write(register, number(value)):

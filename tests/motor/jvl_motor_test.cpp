@@ -316,7 +316,7 @@ TEST_F(MotorTest, StopOfAMac800IsALongword) {
 TEST_F(MotorTest, TheMotorsOwnErrorShows) {
     start();
     motor.hear(0x81);
-    EXPECT_FALSE(driver.error()) << "one byte is not believed";
+    EXPECT_FALSE(driver.error()) << "one byte is not valid";
     motor.hear(0x81);
     EXPECT_TRUE(driver.error());
     motor.hear_times(2, 0x80);

@@ -86,7 +86,8 @@ class MidiBench {
     /// How often the module carried out a command.
     std::size_t count(std::uint8_t number) const {
         std::size_t times = 0;
-        for (const sim::MidiDeed& deed : drive.module().deeds()) times += deed.number == number ? 1 : 0;
+        for (const sim::MidiAction& action : drive.module().actions())
+            times += action.number == number ? 1 : 0;
         return times;
     }
 

@@ -412,5 +412,69 @@ TEST_F(MidiCanScriptTest, AnythingOnTheBus) {
     }
 }
 
+/// "P_IST = 0" (03h) sets the module's origin, 0Bh. Nothing says whether it was taken but the position.
+struct UnansweredOrigin : MidiCanScriptTest {
+    const std::string kZero = "605 23 0B 20 00 00 00 00 00";
+
+    /// The frames that follow, answered but for a command, until one has passed.
+    void lose_the_answer() {
+        start();
+        position = "00 00 27 10";
+        driver.send(fast(0x63));
+        ASSERT_EQ(until_command(), kZero);
+    }
+};
+
+TEST_F(UnansweredOrigin, IsNotSetAgainIfThePositionIs0) {
+    lose_the_answer();
+    position = "00 00 00 00";
+    EXPECT_EQ(until_command(60), "");
+    EXPECT_FALSE(driver.error());
+    EXPECT_TRUE(driver.settled());
+    EXPECT_EQ(count(kZero), 1U);
+}
+
+TEST_F(UnansweredOrigin, IsSetAgainIfThePositionIsNot0) {
+    lose_the_answer();
+    EXPECT_EQ(until_command(60), kZero);
+    accept(kZero);
+    position = "00 00 00 00";
+    EXPECT_EQ(until_command(60), "");
+    EXPECT_FALSE(driver.error());
+    EXPECT_TRUE(driver.settled());
+    EXPECT_EQ(count(kZero), 2U);
+}
+
+TEST_F(MidiCanScriptTest, AReleaseThatDoesNotKnowImaxIsUsedWithoutIt) {
+    for (int i = 0; i < 20 && driver.link() != Link::up; ++i) {
+        const std::string frame = next();
+        frame.substr(7, 2) == "08" ? refuse(frame) : answer_query(frame);
+    }
+    EXPECT_EQ(driver.link(), Link::up);
+    EXPECT_FALSE(driver.error());
+    // T_SOLL 511 of 1023 is half of the 80h = 128 that full torque has then.
+    driver.send(word(registers::T_SOLL, 512));
+    EXPECT_EQ(until_command(), "605 23 0C 20 00 00 00 00 40");
+}
+
+TEST_F(MidiCanScriptTest, ARefusedToleranceIsOneErrorAndNotTriedForEver) {
+    start();
+    driver.send(word(registers::INPOSWIN, 41));  // of 4096 a turn: 100 of 10000
+    const std::string tolerance = until_command();
+    EXPECT_EQ(tolerance.substr(0, 9), "605 23 1C");
+    refuse(tolerance);
+    EXPECT_EQ(until_command(60), "");
+    expect_one_error(MidiFault::refused);
+    EXPECT_EQ(commands.size(), 1U);
+}
+
+TEST_F(MidiCanScriptTest, ARegisterThatWasNeverWrittenReadsWhatTheModuleHas) {
+    start();
+    ASSERT_TRUE(driver.begin_access({.reg = registers::V_SOLL}));
+    for (int i = 0; i < 20 && is_open(driver.access_state()); ++i) answer_query(next());
+    EXPECT_EQ(driver.access_state(), AccessState::done);
+    EXPECT_EQ(driver.access_value(), 629U) << "A0h, 300 rpm: 100663.296 / 160";
+}
+
 }  // namespace
 }  // namespace nplc::motor

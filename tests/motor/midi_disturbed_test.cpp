@@ -38,15 +38,15 @@ class DisturbedRun {
 
     void check() const {
         int last = 0;
-        for (const sim::MidiDeed& deed : bench_.drive.module().deeds()) {
-            if (deed.number != midi::GO_TO && deed.number != midi::RUN) continue;
-            const auto ordered = ordered_.find(deed.data);
-            ASSERT_NE(ordered, ordered_.end()) << "never ordered: " << deed.data;
-            EXPECT_GT(ordered->second, last) << "twice, or out of turn: " << deed.data;
+        for (const sim::MidiAction& action : bench_.drive.module().actions()) {
+            if (action.number != midi::GO_TO && action.number != midi::RUN) continue;
+            const auto ordered = ordered_.find(action.data);
+            ASSERT_NE(ordered, ordered_.end()) << "never ordered: " << action.data;
+            EXPECT_GT(ordered->second, last) << "twice, or out of turn: " << action.data;
             last = ordered->second;
-            const auto ended = ended_.find(deed.data);
+            const auto ended = ended_.find(action.data);
             if (ended == ended_.end()) continue;
-            EXPECT_LE(deed.at, ended->second + 30ms) << "late: " << deed.data;
+            EXPECT_LE(action.at, ended->second + 30ms) << "late: " << action.data;
         }
     }
     std::size_t motions() const { return bench_.count(midi::GO_TO) + bench_.count(midi::RUN); }

@@ -386,7 +386,7 @@ TEST_F(MidiScriptTest, AModuleWithoutASpeedIsAnErrorAtTheMove) {
     driver.send(word(registers::MODE_REG, 2));
     EXPECT_EQ(until_command(), "");
     EXPECT_EQ(driver.fault(), MidiFault::bad_value);
-    EXPECT_EQ(driver.lack(), registers::midi::Lack::no_speed);
+    EXPECT_EQ(driver.limitation(), registers::midi::Limitation::no_speed);
     driver.send(fast(kResetError));
     driver.send(word(registers::V_SOLL, 629));
     driver.send(word(registers::MODE_REG, 2));

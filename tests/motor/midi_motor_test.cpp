@@ -1,5 +1,7 @@
 // The driver on virtual modules, over both lines: what a sequence orders is what the shaft does.
 
+#include <set>
+
 #include "midi_bench.h"
 
 namespace nplc::motor {
@@ -303,7 +305,7 @@ TEST_P(MidiMotorTest, ARampThatDoesNotExistIsAnErrorWhenItShows) {
     go(4'096);
     EXPECT_TRUE(driver.error());
     EXPECT_EQ(driver.fault(), MidiFault::bad_value);
-    EXPECT_EQ(driver.lack(), registers::midi::Lack::too_soft);
+    EXPECT_EQ(driver.limitation(), registers::midi::Limitation::too_soft);
     EXPECT_EQ(bench.count(midi::GO_TO), 0U);
     bench.order(fast(kResetError));
     bench.order(word(registers::A_SOLL, 81));
@@ -347,7 +349,7 @@ TEST_P(MidiMotorTest, LostInMidMove) {
     bench.drive.cut(false);
     ASSERT_TRUE(bench.until([&] { return driver.link() == Link::unacknowledged; }, 1s));
     ASSERT_TRUE(bench.until([&] { return driver.settled(); }, 1s));
-    EXPECT_EQ(bench.drive.module().deeds().back().number, midi::STOP);
+    EXPECT_EQ(bench.drive.module().actions().back().number, midi::STOP);
     EXPECT_TRUE(driver.error());
     bench.pass(1s);
     EXPECT_TRUE(driver.error());
@@ -444,6 +446,17 @@ TEST(MidiMotorModels, Mac23) {
     EXPECT_EQ(bench.drive.module().position(), 20'000);
     EXPECT_EQ(bench.drive.module().memory().period, 160);
     EXPECT_EQ(bench.drive.module().memory().ramp, 16);  // 32212254.7 / (81 x 160^2) = 15.5
+}
+
+TEST(MidiFaults, EachHasItsOwnWordsWithoutAFullStop) {
+    std::set<std::string_view> texts;
+    for (unsigned number = 0; number <= static_cast<unsigned>(MidiFault::jumped); ++number) {
+        const std::string_view text = text_of(static_cast<MidiFault>(number));
+        ASSERT_FALSE(text.empty()) << number;
+        EXPECT_FALSE(text.ends_with('.')) << text;
+        EXPECT_TRUE(texts.insert(text).second) << text;
+    }
+    EXPECT_EQ(text_of(static_cast<MidiFault>(200)), "");
 }
 
 }  // namespace

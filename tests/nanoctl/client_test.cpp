@@ -240,7 +240,7 @@ TEST(Client, WhatTakesLongEndsWhenTheUserHasHadEnough) {
     EXPECT_THROW(
         upload(bench.gateway, table(200, 2), [&](std::size_t done, std::size_t) { goes_on = done < 500; }),
         Interrupted);
-    EXPECT_FALSE(bench.status().has(gw::kUpload)) << "given up";
+    EXPECT_FALSE(bench.status().has(gw::kUpload)) << "aborted";
     EXPECT_EQ(bench.gateway.read(gw::STORED_CRC), base::crc32(old));
     bench.unit.board.motor_registers[12] = 100;
     EXPECT_THROW(bench.gateway.activate(), Interrupted);

@@ -26,7 +26,9 @@ class GatewayUnit final : public mactalk_client::Unit {
         if (port_.waiting.empty()) return std::nullopt;
         const std::uint8_t byte = port_.waiting.front();
         port_.waiting.pop_front();
-        return byte;
+        if (loses == 0) return byte;
+        --loses;
+        return std::nullopt;
     }
     void poll(base::Instant now) override {
         board.now = now;
@@ -39,12 +41,14 @@ class GatewayUnit final : public mactalk_client::Unit {
         port_ = {};
         settings_.emplace(storage, store::Area{.begin = 18 * 1024, .slot_bytes = 1024});
         settings_->start({});
+        static constexpr store::Area kSetPoints{.begin = 20 * 1024, .slot_bytes = 2 * 1024};
         controller_.emplace(gateway::Controller::Ports{.inputs = board,
                                                        .outputs = board,
                                                        .watchdog = board,
                                                        .motor = board,
                                                        .storage = storage,
-                                                       .user_line = &port_},
+                                                       .user_line = &port_,
+                                                       .set_points = &kSetPoints},
                             store::Area{.begin = 0, .slot_bytes = 9 * 1024}, memory_, *settings_,
                             gateway::StartCause::power_up);
         controller_->tables().start(board.now);
@@ -52,6 +56,7 @@ class GatewayUnit final : public mactalk_client::Unit {
 
     gateway::BenchBoard board;
     sim::SimStorage storage;
+    std::size_t loses = 0;  ///< bytes that it sends next
 
   private:
     struct Port final : ports::SerialPort {
@@ -71,9 +76,9 @@ class GatewayUnit final : public mactalk_client::Unit {
         std::deque<ports::ReceivedByte> received;
     };
 
-    std::array<std::uint8_t, 8200> memory_{};
+    std::array<std::uint8_t, gateway::kTableMemory> memory_{};
     Port port_;
-    std::optional<gateway::SettingsKeeper> settings_;
+    std::optional<gateway::SettingsManager> settings_;
     std::optional<gateway::Controller> controller_;
 };
 

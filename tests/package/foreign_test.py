@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """The Debian packages for other processors: what they say of themselves, and their programs under qemu-user.
 
-usage: foreign_test.py [ARCHITECTURE=BUILD_FOLDER...]
+usage: foreign_test.py ARCHITECTURE[=BUILD_FOLDER]...
 
-ARCHITECTURE is arm64, armhf or riscv64. Without arguments arm64 and armhf are built with the presets of the tests. 77: the
+ARCHITECTURE is arm64, armhf or riscv64; arm64 and armhf without a folder are built with the presets of the tests. 77: the
 compiler, the emulator or the libraries for one of them are not to be had; the reason is printed.
 """
 
+import contextlib
 import glob
 import os
 import re
@@ -14,6 +15,11 @@ import shutil
 import subprocess
 import sys
 import tempfile
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "e2e"))
+import bill  # noqa: E402
+import certificates  # noqa: E402
+from sparkplug_host import Broker, Host  # noqa: E402
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 PRESETS = {"arm64": "board", "armhf": "board-armhf"}
@@ -24,6 +30,23 @@ ARCHITECTURES = {
     "riscv64": ("riscv64-linux-gnu-g++", "qemu-riscv64-static", (2, 243)),
 }
 EXAMPLE = "etc/nanoplc/nanoplc.toml"
+NO_MQTT = ("riscv64",)  # Debian 12 has no OpenSSL for it
+CONFIG = """[service]
+state_directory = "{folder}/state"
+[mqtt]
+broker = "localhost:{port}"
+node = "cell"
+user = "cell"
+password_file = "{folder}/password"
+ca_file = "{folder}/{ca}"
+[[axis]]
+name = "x"
+table = "none"
+[axis.motor]
+port = "{folder}/no_motor"
+[axis.user]
+port = "unix:{folder}/user"
+"""
 
 
 def run(*command):
@@ -49,6 +72,66 @@ def build(architecture, folder):
     return glob.glob(os.path.join(folder, "package", "nanoplc_*.deb"))[0]
 
 
+@contextlib.contextmanager
+def service(emulator, program, folder, port, ca):
+    """nanoplc under way, its axis without a motor: what it says."""
+    config = os.path.join(folder, "nanoplc.toml")
+    with open(config, "w", encoding="utf-8") as file:
+        file.write(CONFIG.format(folder=folder, port=port, ca=ca))
+    with subprocess.Popen([emulator, program, "--config", config], stderr=subprocess.PIPE, text=True) as process:
+        try:
+            yield process.stderr
+        finally:
+            process.kill()
+
+
+def speaks_mqtt(emulator, program):
+    """What is wrong: births over TLS to a broker that goes by its name, and none to one of another's certificate."""
+    with tempfile.TemporaryDirectory() as folder:
+        broker = Broker(folder, certificates.make(folder))
+        host = Host(broker.port, user=("cell", "right"), ca=os.path.join(folder, "ca.pem"))
+        try:
+            with open(os.path.join(folder, "password"), "w", encoding="utf-8") as file:
+                file.write("right\n")
+            with service(emulator, program, folder, broker.port, "ca.pem"):
+                host.wait(lambda m: m.kind == "NBIRTH")
+                born, _ = host.wait(lambda m: m.kind == "DBIRTH")
+            if born.device != "x" or not born.named("position").null:
+                return [f"its birth is {born.device}'s"]
+            with service(emulator, program, folder, broker.port, "other.pem") as said:
+                line = next((line for line in said if "no connection" in line), "")
+            return [] if "certificate verify failed" in line else [f"a wrong certificate: {line}"]
+        finally:
+            host.end()
+            broker.stop()
+
+
+def materials(architecture, package):
+    """What is wrong with its bill of materials, and what lintian says."""
+    path = package.removesuffix(".deb") + ".spdx.json"
+    wrong = bill.problems(path, package)
+    document = bill.read(path)
+    static = {"libgpiod-dev", "libsodium-dev", "mosquitto", "libssl-dev"} if architecture not in NO_MQTT else {"libgpiod"}
+    wrong += [f"{name} is linked and not in its bill" for name in static - bill.related(document, "STATIC_LINK")]
+    wrong += [f"it needs {name}" for name in bill.related(document, "DYNAMIC_LINK")]
+    if shutil.which("lintian"):
+        said = run("lintian", "--allow-root", package)
+        wrong += (said.stdout + said.stderr).splitlines()
+    return wrong
+
+
+def openssl(architecture, package):
+    """Whether the bill has the version that the library's own header names."""
+    if architecture in NO_MQTT:
+        return []
+    header, = glob.glob(os.path.join(ROOT, "build/sysroot", architecture, "usr/include/openssl/opensslv.h")) or glob.glob(
+        os.path.join(ROOT, "build/sysroot", architecture, "usr/include/*/openssl/opensslv.h"))
+    with open(header, encoding="utf-8") as file:
+        said = re.search(r'OPENSSL_VERSION_STR "([0-9.]+)"', file.read())[1]
+    billed = [one["versionInfo"] for one in bill.read(package.removesuffix(".deb") + ".spdx.json")["packages"] if one["name"] == "libssl-dev"]
+    return [] if len(billed) == 1 and billed[0].startswith(said + "-") else [f"OpenSSL {said} is in it, and {billed} in its bill"]
+
+
 def check(architecture, package):
     """What is wrong."""
     _, emulator, header = ARCHITECTURES[architecture]
@@ -61,6 +144,7 @@ def check(architecture, package):
     # The programs are static: the scripts' adduser is all they need.
     if fields.get("Depends") != "adduser":
         wrong.append(f"it depends on {fields.get('Depends')}")
+    wrong += materials(architecture, package) + openssl(architecture, package)
     with tempfile.TemporaryDirectory() as root:
         subprocess.run(["dpkg-deb", "-x", package, root], check=True)
         for program in ("usr/sbin/nanoplc", "usr/bin/nanoctl"):
@@ -76,13 +160,17 @@ def check(architecture, package):
                       os.path.join(root, EXAMPLE))
         if (checked.returncode, checked.stderr) != (0, ""):
             wrong.append(f"check-config: {checked.stderr}")
+        if architecture not in NO_MQTT:
+            wrong += speaks_mqtt(emulator, os.path.join(root, "usr/sbin/nanoplc"))
     print(f"{architecture}: {os.path.getsize(package) // 1024} kB, {'; '.join(wrong) if wrong else 'in order'}")
     return wrong
 
 
 def main():
-    named = dict(argument.split("=", 1) for argument in sys.argv[1:])
-    folders = named or {name: os.path.join(ROOT, "build", preset) for name, preset in PRESETS.items()}
+    if not sys.argv[1:]:
+        sys.exit(__doc__)
+    named = [argument.partition("=") for argument in sys.argv[1:]]
+    folders = {name: folder or os.path.join(ROOT, "build", PRESETS[name]) for name, _, folder in named}
     packages = {name: build(name, folder) for name, folder in folders.items()}
     wrong = [check(name, package) for name, package in packages.items() if package]
     if any(wrong):

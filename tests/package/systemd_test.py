@@ -163,6 +163,9 @@ class Systemd(unittest.TestCase):
         self.assertEqual(levels["started with 1 axis"], "5", said)
         self.assertEqual(levels["x: has no table; upload one with `nanoctl upload`"], "6", said)
 
+    def test_3_the_journal_can_be_searched(self):
+        self.assertIn("the motor answers", self.run_there("journalctl NANOPLC_AXIS=x NANOPLC_EVENT=motor_answers -o cat --no-pager"))
+
     def test_4_hardened_as_declared(self):
         rated = self.run_there("systemd-analyze security nanoplc --no-pager")
         exposure = re.search(r"Overall exposure level for nanoplc.service: ([0-9.]+)", rated).group(1)

@@ -15,6 +15,7 @@ import sys
 import tempfile
 import termios
 import unittest
+import zipfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "tests", "e2e"))
@@ -257,8 +258,8 @@ class Macreg(Case):
             self.assertIn("there is no such port", self.macreg("get", "P_IST", code=3, port="/dev/nothing")[1])
 
     def look_at_the_screen(self):
-        person, terminal = pty.openpty()
-        self.addCleanup(os.close, person)
+        keyboard, terminal = pty.openpty()
+        self.addCleanup(os.close, keyboard)
         self.addCleanup(os.close, terminal)
         before = termios.tcgetattr(terminal)
         screen = subprocess.Popen([*self.target.command("macreg"), "--port", self.port, "--patience", "2000", "ui"],
@@ -267,12 +268,12 @@ class Macreg(Case):
         self.addCleanup(screen.kill)
         shown = b""
         while b"INIT_MODE" not in shown:
-            self.assertTrue(select.select([person], [], [], 60)[0], shown)
-            shown += os.read(person, 65536)
-        os.write(person, b"q")
+            self.assertTrue(select.select([keyboard], [], [], 60)[0], shown)
+            shown += os.read(keyboard, 65536)
+        os.write(keyboard, b"q")
         while screen.poll() is None:
-            if select.select([person], [], [], 0.1)[0]:
-                os.read(person, 65536)
+            if select.select([keyboard], [], [], 0.1)[0]:
+                os.read(keyboard, 65536)
         self.assertEqual(screen.returncode, 0)
         self.assertEqual(termios.tcgetattr(terminal), before)
 
@@ -303,9 +304,49 @@ class Macreg(Case):
             self.read_and_write(port)
 
 
+class Fmu(Case):
+    """The library for Windows in an FMU, driven by a program of its own there and by the same one here."""
+
+    @classmethod
+    def setUpClass(cls):
+        if cls.target.fmu_library is None:
+            raise unittest.SkipTest("of this system's own nanoplc-sim, in tests/fmu")
+        super().setUpClass()
+
+    def course(self, runner, driver, library):
+        with open(self.path("modelDescription.xml"), encoding="utf-8") as file:
+            token = re.search('instantiationToken="([^"]+)"', file.read())[1]
+        done = subprocess.run([*runner, self.path(driver), library, token, "resources"], cwd=self.folder, capture_output=True,
+                              stdin=subprocess.DEVNULL, env=self.target.environment, timeout=300, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout[-500:] + done.stderr)
+        return done.stdout.replace(b"\r\n", b"\n")
+
+    def test_its_library_for_windows_computes_the_same(self):
+        program = os.path.join(ROOT, "tools", "seqc", "examples", "pick_and_place.seq")
+        self.reference("nanoplc-sim", "fmu", "-o", "axis.fmu", "--with-gateway", program, "--windows", self.target.fmu_library)
+        with zipfile.ZipFile(self.path("axis.fmu")) as archive:
+            archive.extractall(self.folder)
+        source = os.path.join(ROOT, "tests", "portable", "fmu_driver.c")
+        subprocess.run(["gcc", "-O1", "-o", "driver", source, "-ldl"], cwd=self.folder, check=True)
+        subprocess.run(["x86_64-w64-mingw32-gcc-posix", "-O1", "-o", "driver.exe", source], cwd=self.folder, check=True)
+        here = self.course((), "driver", "binaries/x86_64-linux/nanoplc.so")
+        there = self.course(self.target.runner, "driver.exe", r"binaries\x86_64-windows\nanoplc.dll")
+        self.assertEqual(len(here.splitlines()), 1501)
+        self.assertNotEqual(here.splitlines()[-1].split()[0], b"0000000000000000")
+        self.assertEqual(there, here)
+
+    def test_the_library_needs_windows_only(self):
+        done = subprocess.run(["x86_64-w64-mingw32-objdump", "-p", self.target.fmu_library], capture_output=True, text=True, check=True)
+        needed = {name.lower() for name in re.findall(r"DLL Name: (\S+)", done.stdout)}
+        self.assertLessEqual(needed, OWN_OF_WINDOWS)
+        exported = re.findall(r"(?m)^\s+\[ *\d+\] (?:\+base\[ *\d+\] +[0-9a-f]+ )?(\w+)$", done.stdout)
+        self.assertGreater(len(exported), 100)
+        self.assertEqual([name for name in exported if not re.match(r"fmi[23][A-Z]", name)], [])
+
+
 def suite_of(target):
     cases = unittest.TestSuite()
-    for case in (Programs, Seqc, Macreg):
+    for case in (Programs, Seqc, Macreg, Fmu):
         named = type(f"{case.__name__}_{target.name}".replace("-", "_"), (case,), {"target": target})
         cases.addTests(unittest.defaultTestLoader.loadTestsFromTestCase(named))
     return cases

@@ -13,6 +13,7 @@ class Target:
     runner = ()
     has_ui = True
     environment = None
+    fmu_library = None
     programs = ("macreg", "nanoctl", "seqc")
 
     def __init__(self, folder):
@@ -61,6 +62,7 @@ class Windows(Target):
 
     def __init__(self, folder, scratch):
         super().__init__(folder)
+        self.fmu_library = os.path.join(self.folder, "nanoplc-fmu-windows-x86-64.dll")
         self.prefix = os.path.join(scratch, "wine")
         path = os.environ["PATH"] + os.pathsep + self.WINE
         self.wine = shutil.which("wine64", path=path) or shutil.which("wine", path=path)

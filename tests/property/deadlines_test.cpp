@@ -11,6 +11,7 @@
 #include "program.h"
 #include "random_tables.h"
 #include "sim/scenario_runner.h"
+#include "sim/sim_storage.h"
 #include "sim/world.h"
 
 namespace nplc::property {
@@ -80,7 +81,11 @@ Played play(const sim::Program& program, const sim::Scenario& scenario, sim::Wor
     Diary diary;
     options.motor = program.names.motor;
     options.observer = &diary;
-    sim::World world(program.table, options);
+    // A storage at work is looked at every millisecond, so when an operation ends is a matter of polls: here
+    // each has ended at once.
+    sim::SimStorage storage(sim::World::kFlash, 0);
+    options.storage = &storage;
+    sim::World world(program.content(), options);
     sim::ScenarioRunner runner(scenario, program.names, world);
     const auto show = [&] {
         while (runner.observe(world.take_snapshot())) {
@@ -88,7 +93,7 @@ Played play(const sim::Program& program, const sim::Scenario& scenario, sim::Wor
         diary.look(world);
     };
     show();
-    constexpr Time kEnd = 90s;
+    constexpr Time kEnd = 120s;
     while (!runner.ended() && world.now() < kEnd) {
         world.step(std::min(runner.next_due().value_or(kEnd), kEnd));
         show();

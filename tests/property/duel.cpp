@@ -1,12 +1,10 @@
 #include "duel.h"
 
 #include <algorithm>
-#include <optional>
 #include <vector>
 
 #include "naive_sequencer.h"
 #include "sequencer/engine.h"
-#include "sequencer/prepared.h"
 #include "sequencer/state.h"
 
 namespace nplc::property {
@@ -15,8 +13,6 @@ namespace {
 using sequencer::Engine;
 using sequencer::InputImage;
 using sequencer::MotorOrder;
-using sequencer::PreparedEngine;
-using sequencer::PreparedTable;
 using sequencer::ScanEffect;
 using sequencer::State;
 using sequencer::Table;
@@ -66,21 +62,12 @@ std::string text(const State& s) {
            std::to_string(s.timer) + " counter " + std::to_string(s.counter);
 }
 
-/// Storage that any table of `terms` terms fits into.
-struct Prepared {
-    std::vector<std::uint16_t> cells = std::vector<std::uint16_t>(PreparedTable::kCells);
-    std::vector<PreparedTable::Action> actions = std::vector<PreparedTable::Action>(PreparedTable::kCells);
-    std::vector<MotorOrder> orders = std::vector<MotorOrder>(40 * 1024);
-    PreparedTable table;
-};
-
 class Duel {
   public:
     Duel(const Table& table, naive::Sequencer naive, Dice& dice, Seen& seen)
         : table_(table), naive_(std::move(naive)), engine_(table), dice_(dice), seen_(seen) {}
 
-    std::string run(int scans, const PreparedTable* prepared) {
-        if (prepared != nullptr) prepared_.emplace(*prepared);
+    std::string run(int scans) {
         for (int i = 0; i < scans; ++i) {
             if (dice_.one_in(8)) restore();
             if (!dice_.one_in(3)) image_ = random_image();
@@ -113,7 +100,6 @@ class Duel {
         state.timer = small_or_any();
         state.counter = small_or_any();
         engine_.restore(state);
-        if (prepared_) prepared_->restore(state);
         naive_.step = state.step;
         naive_.outputs = state.outputs;
         naive_.timer = state.timer;
@@ -138,11 +124,9 @@ class Duel {
         if (!same(orders, expected)) return "orders of Engine";
         if (!same(engine_.state(), naive_)) return "state of Engine after the scan";
         if (std::string d = check_effect(effect, expected.size(), halted_ms); !d.empty()) return d;
-        if (std::string d = check_prepared(expected, effect, halted_ms); !d.empty()) return d;
 
         const std::uint32_t ms = dice_.one_in(4) ? dice_.below(70'000) : dice_.below(3);
         engine_.elapse(ms);
-        if (prepared_) prepared_->elapse(ms);
         naive_.adjust_timer(ms);
         return same(engine_.state(), naive_) ? "" : "state after the time that passed";
     }
@@ -202,24 +186,9 @@ class Duel {
         return idle ? "" : "a repeat of a scan without effect";
     }
 
-    std::string check_prepared(const std::vector<naive::Order>& expected, const ScanEffect& effect,
-                               std::uint32_t halted_ms) {
-        if (!prepared_) return {};
-        Orders orders;
-        const ScanEffect own = prepared_->scan(image_, [&](const MotorOrder& o) { orders.push_back(o); });
-        if (!same(orders, expected)) return "orders of PreparedEngine";
-        if (own.changed != effect.changed || own.sent != effect.sent ||
-            own.timer_preset != effect.timer_preset) {
-            return "effect of PreparedEngine";
-        }
-        if (!own.timer_preset) prepared_->elapse(halted_ms);
-        return same(prepared_->state(), naive_) ? "" : "state of PreparedEngine";
-    }
-
     const Table& table_;
     naive::Sequencer naive_;
     Engine engine_;
-    std::optional<PreparedEngine> prepared_;
     Dice& dice_;
     Seen& seen_;
     InputImage image_ = 0;
@@ -239,7 +208,7 @@ std::string hex(const std::vector<std::uint8_t>& bytes) {
 
 }  // namespace
 
-std::string duel(Shape shape, std::uint64_t seed, int scans, bool with_prepared, Seen& seen) {
+std::string duel(Shape shape, std::uint64_t seed, int scans, Seen& seen) {
     Dice dice(seed);
     const std::vector<std::uint8_t> bytes = random_table(shape, dice);
     const auto loaded = Table::load(bytes);
@@ -249,15 +218,8 @@ std::string duel(Shape shape, std::uint64_t seed, int scans, bool with_prepared,
         return {};
     }
     if (difference.empty()) {
-        static Prepared prepared;
-        if (with_prepared) {
-            const bool fits =
-                prepared.table.prepare(loaded.table, {prepared.cells, prepared.actions, prepared.orders})
-                    .ok();
-            if (!fits) return "seed " + std::to_string(seed) + ": prepare() found no space";
-        }
         Duel one(loaded.table, naive::Sequencer(bytes), dice, seen);
-        difference = one.run(scans, with_prepared ? &prepared.table : nullptr);
+        difference = one.run(scans);
     }
     if (difference.empty()) return {};
     return "seed " + std::to_string(seed) + ": " + difference + "\n  table:" + hex(bytes);

@@ -18,7 +18,7 @@ struct Seen {
 };
 
 /// One random table of `shape`, `scans` scans with random images, pauses and restored states: the naive
-/// sequencer against Engine, is_true() and, if asked for, PreparedEngine. Returns what differs first, or "".
-std::string duel(Shape shape, std::uint64_t seed, int scans, bool with_prepared, Seen& seen);
+/// sequencer against Engine and is_true(). Returns what differs first, or "".
+std::string duel(Shape shape, std::uint64_t seed, int scans, Seen& seen);
 
 }  // namespace nplc::property

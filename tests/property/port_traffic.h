@@ -8,7 +8,7 @@
 
 namespace nplc::property {
 
-/// A sequence whose every step waits for IN0 to change and then sends some orders, run beside a person's
+/// A sequence whose every step waits for IN0 to change and then sends some orders, run beside a client
 /// program that never pauses. The input changes at fixed times, so that what is ordered does not depend on
 /// how long the motor's line is taken.
 class PortTraffic {

@@ -15,7 +15,7 @@ namespace nplc::sim {
 namespace {
 
 constexpr int kRuns = NPLC_MOTOR_RUNS;
-constexpr int kDeeds = 120;
+constexpr int kActions = 120;
 
 /// From any state the profile is at rest after 65,535 samples of STOP at A_SOLL = 1 (1/16 counts/sample^2,
 /// the highest velocity being 65,535 / 16), and the shaft behind it, or coasting out of AT, soon after.
@@ -43,7 +43,7 @@ class Tormentor {
         : random_(seed), coefficients_too_(coefficients_too), motor_(model) {}
 
     void run() {
-        for (int deed = 0; deed < kDeeds; ++deed) {
+        for (int action = 0; action < kActions; ++action) {
             act();
             for (auto n = below(40); n > 0; --n) sample();
         }
@@ -243,8 +243,8 @@ TEST_P(RandomMotor, IsAlwaysPassiveAfterARequestOfInit) {
         longest = std::max(longest, samples);
     }
     const auto modes = std::count_if(asked.begin(), asked.end(), [](int times) { return times > 0; });
-    std::printf("%d runs of %d deeds, seeds 1 to %d, from %d modes: passive after %d samples at the most\n",
-                kRuns, kDeeds, kRuns, static_cast<int>(modes), longest);
+    std::printf("%d runs of %d actions, seeds 1 to %d, from %d modes: passive after %d samples at the most\n",
+                kRuns, kActions, kRuns, static_cast<int>(modes), longest);
 }
 
 // With every register written, coefficients too: no shaft can be promised, but no crash, no undefined mode,
@@ -257,7 +257,7 @@ TEST_P(RandomMotor, SurvivesEveryRegister) {
         if (HasFatalFailure()) return;
         ASSERT_LT(tormentor.until_profile_rests(), kPassiveWithin) << "mode " << tormentor.motor().mode();
     }
-    std::printf("%d runs of %d deeds, seeds 1000001 to %d\n", kRuns, kDeeds, 1'000'000 + kRuns);
+    std::printf("%d runs of %d actions, seeds 1000001 to %d\n", kRuns, kActions, 1'000'000 + kRuns);
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, RandomMotor,

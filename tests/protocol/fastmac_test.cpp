@@ -132,6 +132,10 @@ TEST(FastMac, OlderCodeReadsTheExampleAsPrinted) {
     EXPECT_EQ(encode_command(select(Mode::init, Group::a, 4), RegisterCode::older_example), 0x03);
 }
 
+TEST(FastMac, AGroupThatThereIsNotLeavesTheModeAlone) {
+    EXPECT_EQ(encode_command(select(Mode::position, static_cast<Group>(6), 8)), 0x40);
+}
+
 // 001 §5.2.1.6, one bit at a time.
 TEST(FastMac, StatusBits) {
     EXPECT_EQ(decode_status(0x80), Status{.toggle = true});

@@ -89,7 +89,7 @@ TEST(FlexMacDamage, RegisterFormHasNoHole) {
     }
 }
 
-struct Outcome {
+struct WriteResult {
     int second = 0;   // the second message arrives as it was sent
     int first = 0;    // so does the first, for all its lost byte
     int nothing = 0;  // nothing arrives
@@ -99,13 +99,13 @@ struct Outcome {
 enum class Fault { lost, damaged };
 
 /// Two word writes in index form with no pause between them, one byte of the first lost or damaged.
-Outcome two_writes_without_pause(Fault fault, std::uint32_t values) {
+WriteResult two_writes_without_pause(Fault fault, std::uint32_t values) {
     std::mt19937 random(11);
     const auto write = [&] {
         const auto index = static_cast<std::uint16_t>(1 + random() % 15);
         return Message{.target = index, .value = static_cast<std::uint32_t>(random() % values)};
     };
-    Outcome outcome;
+    WriteResult outcome;
     for (int i = 0; i < 40'000; ++i) {
         const Message first = write();
         const Message second = write();
@@ -129,7 +129,7 @@ Outcome two_writes_without_pause(Fault fault, std::uint32_t values) {
 // it, one more that of the byte before, which makes the value wrong: 40000 / 7 / 256 = 22 each. Either
 // swallows a header byte, so the second message goes too.
 TEST(FlexMacDamage, LostByteWithoutPause) {
-    const Outcome outcome = two_writes_without_pause(Fault::lost, 0x10000);
+    const WriteResult outcome = two_writes_without_pause(Fault::lost, 0x10000);
     EXPECT_GT(outcome.wrong, 22 / 2);
     EXPECT_LT(outcome.wrong, 22 * 2);
     EXPECT_GT(outcome.first, 22 / 2);
@@ -139,7 +139,7 @@ TEST(FlexMacDamage, LostByteWithoutPause) {
 
 // Values below 256 end in 00 FF, which no header byte completes.
 TEST(FlexMacDamage, LostByteWithoutPauseIsHarmlessForSmallValues) {
-    const Outcome outcome = two_writes_without_pause(Fault::lost, 0x100);
+    const WriteResult outcome = two_writes_without_pause(Fault::lost, 0x100);
     EXPECT_EQ(outcome.wrong, 0);
     EXPECT_EQ(outcome.first, 0);
     EXPECT_EQ(outcome.second, 40'000);
@@ -148,7 +148,7 @@ TEST(FlexMacDamage, LostByteWithoutPauseIsHarmlessForSmallValues) {
 // A damaged byte keeps the count, so nothing of the first message is ever taken; the second is lost where the
 // first ends in a byte equal to its header.
 TEST(FlexMacDamage, DamagedByteWithoutPause) {
-    const Outcome outcome = two_writes_without_pause(Fault::damaged, 0x10000);
+    const WriteResult outcome = two_writes_without_pause(Fault::damaged, 0x10000);
     EXPECT_EQ(outcome.wrong, 0);
     EXPECT_EQ(outcome.first, 0);
     EXPECT_GT(outcome.second, 40'000 - 400);

@@ -80,7 +80,7 @@ TEST(FlexMacReply, BrokenReplyIsDropped) {
 }
 
 // Every value whose low byte's inverse equals its high byte, as F5 0A 0A F5: were the reply's rest taken for
-// status bytes, two equal ones in a row would be believed.
+// status bytes, two equal ones in a row would be valid.
 TEST(FlexMacReply, BrokenReplyNeverShowsTwoEqualStatusBytes) {
     const ByteList status{0x90, 0x90, 0x90, 0x90};
     for (int low = 0; low < 256; ++low) {
@@ -133,6 +133,15 @@ TEST(FlexMacReply, FramingErrorInAReplyRaisesDoubt) {
     EXPECT_EQ(feed(decoder, {0x10, 0x10, 0x10}).status, ByteList{0x10});
     decoder.abandon();  // between status bytes: nothing to lose
     EXPECT_EQ(feed(decoder, {0x11}).status, ByteList{0x11});
+}
+
+/// Three equal ones end the doubt, with nothing between them.
+TEST(FlexMacReply, WhatComesBetweenBeginsTheRunAnew) {
+    for (const std::uint8_t between : ByteList{0xFF, 0x74, 0x11}) {
+        ReplyDecoder decoder;
+        EXPECT_TRUE(feed(decoder, {0xFF, 0x10, 0x10, between, 0x10, 0x10}).status.empty()) << int{between};
+        EXPECT_EQ(feed(decoder, {0x10}).status, ByteList{0x10}) << int{between};
+    }
 }
 
 TEST(FlexMacReply, WholeReplyEndsDoubt) {

@@ -126,6 +126,15 @@ TEST(MacTalk, BlocksHaveSixtyFourBytes) {
     EXPECT_TRUE(std::equal(data.begin(), data.end(), got[0].view().begin(), got[0].view().end()));
 }
 
+TEST(MacTalk, AReplyHoldsSoMuchDataAndNoMore) {
+    const ByteList most(kMaxReplyData, 0x51);
+    const ByteList more(kMaxReplyData + 1, 0x51);
+    EXPECT_EQ(list(encode_samples(most)).size(), 3 + 2 * (2 + kMaxReplyData) + 2);
+    EXPECT_TRUE(list(encode_samples(more)).empty());
+    EXPECT_FALSE(list(encode_registers(1, most)).empty());
+    EXPECT_TRUE(list(encode_registers(1, more)).empty());
+}
+
 TEST(MacTalk, WhatIsAnsweredToWhat) {
     EXPECT_EQ(answer_to(Kind::read), Answer::registers);
     EXPECT_EQ(answer_to(Kind::read_block), Answer::registers);
@@ -157,6 +166,19 @@ TEST(MacTalk, TheMisprintIsRefused) {
     EXPECT_TRUE(replies_in(bytes("52 52 52 00 FF 05 F6 04 FB 58 A7 02 FD 00 FF 00 FF AA AA"),
                            Answer::registers, kReadBytes)
                     .empty());
+}
+
+TEST(MacTalk, OnlyTheKindsFrom50hTo57hAreRequests) {
+    for (unsigned number = 0; number < 256; ++number) {
+        const auto kind = static_cast<std::uint8_t>(number);
+        const bool names_register = kind == 0x50 || kind == 0x51;
+        const bool is_short = kind >= 0x53 && kind <= 0x57;
+        EXPECT_EQ(requests_in({kind, kind, kind, 0x08, 0xF7, 0x05, 0xFA, 0xAA, 0xAA}).size(),
+                  names_register ? 1U : 0U)
+            << number;
+        EXPECT_EQ(requests_in({kind, kind, kind, 0x08, 0xF7, 0xAA, 0xAA}).size(), is_short ? 1U : 0U)
+            << number;
+    }
 }
 
 TEST(MacTalk, RegisterNoughtIsNone) {
@@ -247,6 +269,10 @@ TEST(MacTalk, OnlyTheExpectedAnswerIsReported) {
     EXPECT_TRUE(replies_in(bytes("11 11 11"), Answer::registers, kReadBytes).empty());
     // A write to unit 8 heard on the same line is no reply.
     EXPECT_TRUE(replies_in(bytes("52 52 52 08 F7 05 FA 04 FB 58 A7 02 FD 00 FF 00 FF AA AA"),
+                           Answer::registers, kReadBytes)
+                    .empty());
+    // A reply begins as a write does, and with nothing else.
+    EXPECT_TRUE(replies_in(bytes("50 50 50 00 FF 05 FA 04 FB 58 A7 02 FD 00 FF 00 FF AA AA"),
                            Answer::registers, kReadBytes)
                     .empty());
     const auto after_noise = replies_in(bytes("52 52 00 11 AA") + value, Answer::registers, kReadBytes);

@@ -133,6 +133,14 @@ TEST(MidiCan, WhatAMasterAlsoTakes) {
     EXPECT_EQ(decode_answer(frame("601 23 18 20 00 00 00 00 00")).kind, Say::none);
 }
 
+/// 003 §V.5 and §V.6 use the first two bytes only.
+TEST(MidiCan, ServicesOfTwoBytes) {
+    EXPECT_EQ(decode_request(frame("7E5 04 01")).kind, Ask::configure);
+    EXPECT_EQ(decode_request(frame("7E5 11 05")), (Request{.kind = Ask::set_address, .data = 5}));
+    EXPECT_EQ(decode_answer(frame("7E4 11 00")).kind, Say::address_taken);
+    EXPECT_EQ(encode_answer({.kind = Say::address_refused}), frame("7E4 11 01 00 00 00 00 00 00"));
+}
+
 TEST(MidiCan, OtherSdoFormsAreForTheModuleToRefuse) {
     EXPECT_EQ(decode_request(frame("601 2F 0F 20 00 10 00 00 00")).kind, Ask::other);
     EXPECT_EQ(decode_request(frame("601 21 0F 20 00 10 00 00 00")).kind, Ask::other);
@@ -167,6 +175,9 @@ TEST(MidiCan, AnAnswerFitsItsRequest) {
     EXPECT_TRUE(answers({Say::accepted, 1, 0x2018, 0, 0}, {Ask::command, kGeneral, 0x2018, 0, 0}));
     EXPECT_FALSE(answers({Say::accepted, 2, 0x2018, 0, 0}, {Ask::command, kGeneral, 0x2018, 0, 0}));
     EXPECT_TRUE(answers({Say::value, 1, 0x2008, 0, 0}, {Ask::query, 1, 0x2008, 0xAF, 0}));
+    EXPECT_FALSE(answers({Say::value, 1, 0x2000, 1, 0}, position));
+    EXPECT_FALSE(answers({Say::accepted, 1, 0x2008, 1, 0}, {Ask::command, 1, 0x2008, 0, 0}));
+    EXPECT_FALSE(answers({.kind = Say::accepted}, {.kind = Ask::configure}));
     EXPECT_FALSE(answers({}, {}));
 }
 

@@ -97,13 +97,17 @@ TEST(MidiMotorSpeed, Limits) {
     EXPECT_EQ(v_soll_of_period(Model::mac34_1, 0xFFFF), 2);  // 1.54
 }
 
+// A unit is 3125 / 6 samples a second x 60 / (16 x 4096) = 15625 / 32768 rpm, so VVVV = k x 32768 / (15625
+// v), to the nearest; nothing where the quotient itself is not in 1..65535.
 TEST(MidiMotorSpeed, EveryValueIsTheNearest) {
-    // A unit: 3125 / 6 samples a second x 60 / (16 x 4096) rpm.
-    const Ratio unit = Ratio{3'125, 6} * Ratio{60, 65'536};
     for (const Model model : kModels) {
+        const std::int64_t dividend = std::int64_t{rpm_times_period(model)} * 32'768;
         for (int v = 1; v <= 32'767; ++v) {
-            const Ratio rpm = unit * Ratio{v, 1};
-            ASSERT_EQ(period_of_v_soll(model, static_cast<std::int16_t>(v)), period_of_rpm(model, rpm)) << v;
+            const std::int64_t divisor = std::int64_t{15'625} * v;
+            const auto period = period_of_v_soll(model, static_cast<std::int16_t>(v));
+            ASSERT_EQ(period.has_value(), divisor <= dividend && dividend <= 65'535 * divisor) << v;
+            if (!period) continue;
+            ASSERT_EQ(*period, (2 * dividend + divisor) / (2 * divisor)) << v;
         }
     }
 }
@@ -144,11 +148,11 @@ TEST(MidiMotorRamp, Limits) {
     // 6442450.944 / 255 = 25264.5: the least A x period^2.
     EXPECT_EQ(ramp_of_a_soll(Model::mac34_1, 25'265, 1), 255);
     EXPECT_FALSE(ramp_of_a_soll(Model::mac34_1, 25'264, 1));
-    EXPECT_EQ(lack_of_profile(Model::mac34_1, 3'146, 160), Lack::none);
-    EXPECT_EQ(lack_of_profile(Model::mac34_1, 3'146, 24), Lack::too_soft);  // 24 x 32^2 = 24576
-    EXPECT_EQ(lack_of_profile(Model::mac34_1, 3'146, 0), Lack::no_acceleration);
-    EXPECT_EQ(lack_of_profile(Model::mac34_1, 1, 160), Lack::too_slow);
-    EXPECT_EQ(lack_of_profile(Model::mac34_1, 0, 0), Lack::none);
+    EXPECT_EQ(limitation_of_profile(Model::mac34_1, 3'146, 160), Limitation::none);
+    EXPECT_EQ(limitation_of_profile(Model::mac34_1, 3'146, 24), Limitation::too_soft);  // 24 x 32^2 = 24576
+    EXPECT_EQ(limitation_of_profile(Model::mac34_1, 3'146, 0), Limitation::no_acceleration);
+    EXPECT_EQ(limitation_of_profile(Model::mac34_1, 1, 160), Limitation::too_slow);
+    EXPECT_EQ(limitation_of_profile(Model::mac34_1, 0, 0), Limitation::none);
 }
 
 TEST(MidiMotorTorque, RoundedDown) {
@@ -179,72 +183,72 @@ TEST(MidiMotorWindow, TheMostIncrementsInside) {
 TEST(MidiMotorOrders, EveryCommandIsDecided) {
     int lacking = 0;
     for (int command = 0; command < 128; ++command) {
-        const Lack lack = lack_of_command(static_cast<std::uint8_t>(command));
-        EXPECT_EQ(lack, lack_of_command(static_cast<std::uint8_t>(command | 0x80)))
+        const Limitation limitation = limitation_of_command(static_cast<std::uint8_t>(command));
+        EXPECT_EQ(limitation, limitation_of_command(static_cast<std::uint8_t>(command | 0x80)))
             << "the toggle is no matter";
-        if (lack == Lack::none) continue;
+        if (limitation == Limitation::none) continue;
         ++lacking;
         const int low = command & 0x1F;
         if (command >= 0x60) {
             EXPECT_TRUE(low == 0x04 || low == 0x08 || low == 0x09 || low == 0x10 || low == 0x16) << low;
         } else {
             EXPECT_TRUE(low >= 0x18 && low <= 0x1B) << "L";
-            EXPECT_EQ(lack, Lack::load_factor);
+            EXPECT_EQ(limitation, Limitation::load_factor);
         }
     }
     EXPECT_EQ(lacking, 5 + 3 * 4);
-    EXPECT_EQ(lack_of_command(0x70), Lack::homing);
-    EXPECT_EQ(lack_of_command(0x64), Lack::function_error);
+    EXPECT_EQ(limitation_of_command(0x70), Limitation::homing);
+    EXPECT_EQ(limitation_of_command(0x64), Limitation::function_error);
 }
 
-Lack word(std::uint8_t reg, std::uint16_t value) {
-    return lack_of_write(Model::mac34_1, reg, false, value);
+Limitation word(std::uint8_t reg, std::uint16_t value) {
+    return limitation_of_write(Model::mac34_1, reg, false, value);
 }
-Lack longword(std::uint8_t reg, std::uint32_t value) {
-    return lack_of_write(Model::mac34_1, reg, true, value);
+Limitation longword(std::uint8_t reg, std::uint32_t value) {
+    return limitation_of_write(Model::mac34_1, reg, true, value);
 }
 
 TEST(MidiMotorOrders, Registers) {
-    EXPECT_EQ(word(MODE_REG, 2), Lack::none);
-    EXPECT_EQ(word(MODE_REG, 3), Lack::mode);
-    EXPECT_EQ(longword(P_SOLL, 439'804'650), Lack::none);
-    EXPECT_EQ(longword(P_SOLL, 439'804'651), Lack::too_far);
-    EXPECT_EQ(longword(P1 + 14, 0x8000'0000), Lack::too_far);
-    EXPECT_EQ(longword(P1 + 1, 0x8000'0000), Lack::none) << "halves of two registers";
-    EXPECT_EQ(word(V_SOLL, 1), Lack::too_slow);
-    EXPECT_EQ(word(V1 + 7, 0xFFFF), Lack::too_slow);
-    EXPECT_EQ(word(V1, 0xFFFE), Lack::none);
-    EXPECT_EQ(word(V1, 0), Lack::none);
-    EXPECT_EQ(word(A_SOLL, 0), Lack::no_acceleration);
-    EXPECT_EQ(word(T1 + 3, 1'024), Lack::too_much_torque);
-    EXPECT_EQ(word(INPOSWIN, 105), Lack::window);
-    EXPECT_EQ(word(Z1, 104), Lack::none);
-    EXPECT_EQ(word(L1, 256), Lack::load_factor);
-    EXPECT_EQ(word(P_REG_P, 3), Lack::none);
-    EXPECT_EQ(word(L_REG_P, 1), Lack::load_factor);
-    EXPECT_EQ(longword(P_IST, 0), Lack::none);
-    EXPECT_EQ(longword(P_IST, 1), Lack::actual_position);
-    EXPECT_EQ(word(P_IST, 0), Lack::actual_position);
-    EXPECT_EQ(longword(P_FNC, 0), Lack::function_error);
-    EXPECT_EQ(word(HOME_MODE, 13), Lack::homing);
-    EXPECT_EQ(word(GEARF1, 1), Lack::gear);
-    EXPECT_EQ(word(ANINP, 0), Lack::analogue);
-    EXPECT_EQ(word(ERR_STAT, 0), Lack::no_register);
-    EXPECT_EQ(word(127, 0), Lack::no_register);
+    EXPECT_EQ(word(MODE_REG, 2), Limitation::none);
+    EXPECT_EQ(word(MODE_REG, 3), Limitation::mode);
+    EXPECT_EQ(longword(P_SOLL, 439'804'650), Limitation::none);
+    EXPECT_EQ(longword(P_SOLL, 439'804'651), Limitation::too_far);
+    EXPECT_EQ(longword(P1 + 14, 0x8000'0000), Limitation::too_far);
+    EXPECT_EQ(longword(P1 + 1, 0x8000'0000), Limitation::none) << "halves of two registers";
+    EXPECT_EQ(word(V_SOLL, 1), Limitation::too_slow);
+    EXPECT_EQ(word(V1 + 7, 0xFFFF), Limitation::too_slow);
+    EXPECT_EQ(word(V1, 0xFFFE), Limitation::none);
+    EXPECT_EQ(word(V1, 0), Limitation::none);
+    EXPECT_EQ(word(A_SOLL, 0), Limitation::no_acceleration);
+    EXPECT_EQ(word(T1 + 3, 1'024), Limitation::too_much_torque);
+    EXPECT_EQ(word(INPOSWIN, 105), Limitation::window);
+    EXPECT_EQ(word(Z1, 104), Limitation::none);
+    EXPECT_EQ(word(L1, 256), Limitation::load_factor);
+    EXPECT_EQ(word(P_REG_P, 3), Limitation::none);
+    EXPECT_EQ(word(L_REG_P, 1), Limitation::load_factor);
+    EXPECT_EQ(longword(P_IST, 0), Limitation::none);
+    EXPECT_EQ(longword(P_IST, 1), Limitation::actual_position);
+    EXPECT_EQ(word(P_IST, 0), Limitation::actual_position);
+    EXPECT_EQ(longword(P_FNC, 0), Limitation::function_error);
+    EXPECT_EQ(word(HOME_MODE, 13), Limitation::homing);
+    EXPECT_EQ(word(GEARF1, 1), Limitation::gear);
+    EXPECT_EQ(word(ANINP, 0), Limitation::analogue);
+    EXPECT_EQ(word(ERR_STAT, 0), Limitation::no_register);
+    EXPECT_EQ(word(127, 0), Limitation::no_register);
 }
 
 // 001 §3.2: a longword takes the next number too.
 TEST(MidiMotorOrders, BothWordsOfALongwordCount) {
-    EXPECT_EQ(longword(V_SOLL, 0x0001'0640), Lack::none);
-    EXPECT_EQ(longword(V_SOLL, 0x0000'0640), Lack::no_acceleration);
-    EXPECT_EQ(longword(T1 + 3, 1), Lack::load_factor);
-    EXPECT_EQ(longword(Z1 + 3, 32), Lack::no_register);
-    EXPECT_EQ(longword(INPOSWIN, 32), Lack::no_register) << "INPOSCNT";
+    EXPECT_EQ(longword(V_SOLL, 0x0001'0640), Limitation::none);
+    EXPECT_EQ(longword(V_SOLL, 0x0000'0640), Limitation::no_acceleration);
+    EXPECT_EQ(longword(T1 + 3, 1), Limitation::load_factor);
+    EXPECT_EQ(longword(Z1 + 3, 32), Limitation::no_register);
+    EXPECT_EQ(longword(INPOSWIN, 32), Limitation::no_register) << "INPOSCNT";
 }
 
 TEST(MidiMotorOrders, EveryLackHasWords) {
-    for (int lack = 0; lack <= static_cast<int>(Lack::window); ++lack) {
-        EXPECT_GT(text_of(static_cast<Lack>(lack)).size(), 20U) << lack;
+    for (int limitation = 0; limitation <= static_cast<int>(Limitation::window); ++limitation) {
+        EXPECT_GT(text_of(static_cast<Limitation>(limitation)).size(), 20U) << limitation;
     }
 }
 

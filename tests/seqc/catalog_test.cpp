@@ -33,6 +33,18 @@ std::set<std::string> codes_in_sources() {
     return found;
 }
 
+/// The files that programs of explanations include.
+Compilation compile_with_files(const std::string& source) {
+    const TextReader reader = {[](const std::string& name) -> SourceText {
+                                   if (name == "wiring.seqi")
+                                       return {name, "VAR_INPUT Start AT IN0; END_VAR"};
+                                   if (name == "itself.seqi") return {name, "INCLUDE 'itself.seqi';"};
+                                   return {name, {}, "cannot read '" + name + "'"};
+                               },
+                               [](const std::string& name) { return name; }};
+    return compile(Sources({"p.seq", source}, reader));
+}
+
 TEST(Catalog, HoldsWhatTheSourcesCanSayAndNothingElse) {
     std::set<std::string> explained;
     for (const Explanation& info : explanations())
@@ -65,7 +77,7 @@ TEST(Catalog, WrongProgramsGiveTheirCodeAndNoOther) {
     for (const Explanation& info : explanations()) {
         if (info.code == "E099" || info.code.starts_with("V")) continue;
         const std::string source = whole_program(info.wrong);
-        const Compilation result = compile(source);
+        const Compilation result = compile_with_files(source);
         EXPECT_EQ(test::codes(result), info.code) << test::shown(result, source);
         EXPECT_EQ(result.ok, info.code[0] == 'W');
     }
@@ -75,7 +87,7 @@ TEST(Catalog, RightProgramsGiveNothing) {
     for (const Explanation& info : explanations()) {
         if (info.code == "E099" || info.code.starts_with("V")) continue;
         const std::string source = whole_program(info.right);
-        const Compilation result = compile(source);
+        const Compilation result = compile_with_files(source);
         EXPECT_TRUE(result.ok) << info.code;
         EXPECT_EQ(test::codes(result), "") << info.code << "\n" << test::shown(result, source);
     }

@@ -111,6 +111,54 @@ TEST_F(Courses, JUnitHasATestForEachPropertyAndCheck) {
         << xml;
 }
 
+TEST_F(Courses, WhatIsReadIsNeverWrittenOver) {
+    write("p.seq", kProgram);
+    write("w.prop", "PROPERTY Also: NEVER step = S;");
+    for (const char* options :
+         {"--scenario p.seq", "--stimulus ./p.seq", "--trace w.prop", "--junit p.seq", "--proof w.prop",
+          "--scenario x --stimulus ./x", "--scenario w --trace w-Also.prop --stimulus w.prop"}) {
+        EXPECT_EQ(run(std::string("verify p.seq --property w.prop ") + options), 2) << options;
+        EXPECT_EQ(read("p.seq"), kProgram) << options;
+        EXPECT_EQ(read("w.prop"), "PROPERTY Also: NEVER step = S;") << options;
+    }
+    // Of further properties the file's name is made.
+    write("w-Also.prop", "PROPERTY Also: NEVER step = S;");
+    EXPECT_EQ(run("verify p.seq --property w-Also.prop --trace w.prop"), 2);
+    EXPECT_EQ(read("w-Also.prop"), "PROPERTY Also: NEVER step = S;");
+    EXPECT_NE(read("err").find("'w-Also.prop' was read"), std::string::npos) << read("err");
+}
+
+TEST_F(Courses, ACourseIsWrittenAsATrace) {
+    write("p.seq", kProgram);
+    EXPECT_EQ(run("verify p.seq --trace t.csv"), 1);
+    const std::string trace = read("t.csv");
+    EXPECT_TRUE(
+        trace.starts_with("time_ms,step,timer,counter,inputs,outputs,inpos,error,command,p_ist,v_ist\n0,"))
+        << trace;
+}
+
+TEST_F(Courses, TheLongestTimeOfMovesIsToldWithTheVerdicts) {
+    write("p.seq", kProgram);
+    write("m.prop", "ASSUME moving ENDS WITHIN 2 s;");
+    run("verify p.seq --property m.prop");
+    EXPECT_NE(read("out").find("; ASSUME NEVER IN0 AND IN5; ASSUME moving ENDS WITHIN 2 s\n"),
+              std::string::npos)
+        << read("out");
+    run("verify p.seq --property m.prop --json");
+    EXPECT_EQ(Json::parse(read("out"))["assumptions"],
+              Json::array({"ASSUME NEVER IN0 AND IN5", "ASSUME moving ENDS WITHIN 2 s"}));
+}
+
+TEST_F(Courses, AMistakeInAPropertyIsOneMistake) {
+    write("p.seq",
+          "PROGRAM P\nMOTOR MAC140;\nSTEP S: OWN ERROR; IF IN0 THEN NEXT := T; END_IF END_STEP\n"
+          "STEP T: OWN ERROR; IF IN1 THEN NEXT := S; END_IF END_STEP\n"
+          "PROPERTY Ends: WHENEVER STEP = S THEN STEP = T WITHIN 20 ms;\n"
+          "PROPERTY Fine: STEP = T IS REACHABLE;\nEND_PROGRAM\n");
+    EXPECT_EQ(run("check p.seq"), 1);
+    EXPECT_NE(read("err").find("p.seq: 1 error"), std::string::npos) << read("err");
+}
+
 TEST_F(Courses, WhatIsNoTableIsRefused) {
     std::string table(8, '\0');
     table[0] = 0x3F;

@@ -1,4 +1,4 @@
-// A step takes no more terms than a careful person finds by hand: economy.txt holds steps with such tables.
+// A step takes no more terms than a careful engineer finds by hand: economy.txt holds steps with such tables.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -19,7 +19,7 @@ std::string text_of(const std::string& name) {
 Compilation example(const std::string& name) {
     const std::string source = text_of(name);
     EXPECT_FALSE(source.empty()) << name;
-    Compilation result = compile(source);
+    Compilation result = compile(read_sources(std::string(SEQC_EXAMPLES) + "/" + name + ".seq", source));
     EXPECT_TRUE(result.ok && result.diagnostics.empty()) << test::shown(result, source);
     return result;
 }

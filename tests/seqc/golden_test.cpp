@@ -10,6 +10,8 @@
 #include "cli_support.h"
 #include "diagnostics/explanations.h"
 
+namespace fs = std::filesystem;
+
 namespace nplc::seqc {
 namespace {
 
@@ -32,6 +34,22 @@ std::string code_of(const test::Case& one) {
     return one.name.substr(0, 4);
 }
 
+/// The program, and behind lines `--- file NAME` the files that it includes.
+std::map<std::string, std::string> files_of(const test::Case& one) {
+    constexpr std::string_view kFileLine = "--- file ";
+    std::map<std::string, std::string> files;
+    std::string* text = &files[one.name + ".seq"];
+    std::istringstream lines(one.input);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with(kFileLine)) {
+            text = &files[line.substr(kFileLine.size())];
+        } else {
+            *text += line + "\n";
+        }
+    }
+    return files;
+}
+
 bool is_course(const test::Case& one) {
     return one.name.starts_with("V");
 }
@@ -41,7 +59,7 @@ TEST_F(Golden, EachProgramIsAnsweredAsWritten) {
     for (auto& [path, cases] : golden_files()) {
         std::vector<test::Case> answered = cases;
         for (test::Case& one : answered) {
-            write(one.name + ".seq", one.input);
+            for (const auto& [name, text] : files_of(one)) write(name, text);
             shell("'" SEQC_PROGRAM "' " + std::string(is_course(one) ? "verify" : "check") + " '" + one.name +
                   ".seq' >out 2>&1");
             const std::string expected = std::exchange(one.expected, read("out"));
@@ -59,7 +77,8 @@ TEST_F(Golden, EachProgramHasTheMistakeItIsNamedAfterAndNoOther) {
             const bool is_error = line.find(is_course(one) ? ": fault " : ": error ") != std::string::npos;
             const bool is_warning =
                 line.find(is_course(one) ? ": advice " : ": warning ") != std::string::npos;
-            if (!line.starts_with(one.name + ".seq:") || !(is_error || is_warning)) continue;
+            const std::string file = line.substr(0, line.find(':'));
+            if (!files_of(one).contains(file) || !(is_error || is_warning)) continue;
             const bool expected = line.find(" " + code_of(one) + ": ") != std::string::npos;
             with_the_code += expected ? 1 : 0;
             EXPECT_TRUE(expected || is_warning) << line;

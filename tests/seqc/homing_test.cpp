@@ -98,5 +98,43 @@ TEST(Limits, AreNoMatterWhereEachWaitHasATimeLimit) {
     EXPECT_EQ(codes(limited("IF INPOS AND TIMER.Q THEN NEXT := S; END_IF", "MIN_P_IST := -5")), "W013");
 }
 
+/// What the compiler says of orders in one branch, and of those that the ENTRY of its target adds.
+std::string moves(const std::string& branch, const std::string& entry = {}) {
+    return codes(
+        "PROGRAM P MOTOR MAC140;\nVAR_MOTOR near AT P1 := 9; far AT P2 := 8; fast AT V1 := 100; slow AT V2 "
+        ":= 50; "
+        "END_VAR\n"
+        "POWER_UP INIT(V1); NEXT := S; END_POWER_UP\nSTEP S: OWN ERROR; IF IN0 THEN " +
+        branch + " NEXT := T; END_IF END_STEP\nSTEP T: OWN ERROR; " + entry +
+        " IF IN1 AND NOT IN0 THEN NEXT := S; END_IF END_STEP\nEND_PROGRAM\n");
+}
+
+// 001 §5.2.1.4: each selection of a position sets P_SOLL, and INIT and 65h stop the motor.
+TEST(ReplacedMoves, AMoveBehindAMoveIsTold) {
+    EXPECT_EQ(moves("POSITION(near); POSITION(far);"), "W031");
+    EXPECT_EQ(moves("POSITION(near);", "ENTRY POSITION(far);"), "W031");
+    EXPECT_EQ(moves("", "ENTRY POSITION(near); ENTRY POSITION(far);"), "W031");
+    EXPECT_EQ(moves("VELOCITY(fast); POSITION(near);"), "W031");
+    EXPECT_EQ(moves("POSITION(near); VELOCITY(slow);"), "W031");
+    EXPECT_EQ(moves("POSITION(near); HOME;"), "W031");
+}
+
+TEST(ReplacedMoves, AnEndBehindAMoveIsTold) {
+    EXPECT_EQ(moves("VELOCITY(fast);", "ENTRY STOP;"), "W031");
+    EXPECT_EQ(moves("POSITION(near); INIT(slow);"), "W031");
+}
+
+TEST(ReplacedMoves, WhatIsOneMoveIsNot) {
+    EXPECT_EQ(moves("POSITION(near);"), "");
+    EXPECT_EQ(moves("INIT(slow); POSITION(near);"), "");
+    EXPECT_EQ(moves("VELOCITY(fast); VELOCITY(slow);"), "");
+    EXPECT_EQ(moves("STOP; INIT(fast); POSITION(near);"), "");
+}
+
+// With relative positions the motor makes both moves (001 §5.2.1.4, 75h).
+TEST(ReplacedMoves, RelativeMovesAddUp) {
+    EXPECT_EQ(moves("POSITIONS_RELATIVE_P_SOLL; POSITION(near); POSITION(far);"), "");
+}
+
 }  // namespace
 }  // namespace nplc::seqc

@@ -131,7 +131,7 @@ TEST(Language, NumbersAsInTheGrammar) {
     }
     for (const char* number : {"10.0_0", "10.0_", "16#", "3#1", "16#G"})
         EXPECT_EQ(test::codes(written(number)), "E003") << number;
-    EXPECT_EQ(test::codes(written("_10")), "E010");
+    EXPECT_EQ(test::codes(written("_10")), "E021");
     EXPECT_EQ(test::codes(written("10.")), "E010");
     for (const char* time : {"T#1s_500ms", "T#_1s", "T#1_m_s", "T#1.5_0s", "T#1.s", "T#s", "T#"}) {
         const std::string source = test::program("STEP S: IF A THEN TIMER := " + std::string(time) +

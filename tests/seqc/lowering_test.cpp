@@ -1,4 +1,4 @@
-// How many terms a careful person needs, counted by hand.
+// How many terms a careful engineer needs, counted by hand.
 #include <gtest/gtest.h>
 
 #include "support.h"

@@ -60,14 +60,14 @@ Condition condition(test::Random& random, unsigned depth = 2) {
     }
 }
 
-struct Deed {
+struct ActionChoice {
     const char* text;
     test::Scan scan;
 };
 
 // S has OUT0 (1), T has OUT1 (2), U has none and enters with STOP (65h).
-const std::vector<Deed>& deeds() {
-    static const std::vector<Deed> list = {
+const std::vector<ActionChoice>& actions() {
+    static const std::vector<ActionChoice> list = {
         {"NEXT := T;", {.next = 2, .outputs = 2}},
         {"NEXT := U;", {.next = 3, .outputs = 0, .sends = {"65"}}},
         {"CLEAR_IN_POS; NEXT := T;", {.next = 2, .outputs = 2, .sends = {"67"}}},
@@ -93,7 +93,7 @@ class Program {
         const unsigned branches = 1 + random() % 3;
         for (unsigned i = 0; i < branches; ++i) {
             branches_.push_back(condition(random));
-            deeds_.push_back(&deeds()[random() % deeds().size()]);
+            actions_.push_back(&actions()[random() % actions().size()]);
         }
     }
 
@@ -102,7 +102,7 @@ class Program {
         for (std::size_t i = 0; i < shown_.size(); ++i)
             body += "OUT OUT" + std::to_string(i + 2) + " WHEN " + shown_[i].text + "; ";
         for (std::size_t i = 0; i < branches_.size(); ++i)
-            body += (i == 0 ? "\nIF " : "\nELSIF ") + branches_[i].text + " THEN " + deeds_[i]->text;
+            body += (i == 0 ? "\nIF " : "\nELSIF ") + branches_[i].text + " THEN " + actions_[i]->text;
         return "PROGRAM P MOTOR MAC140; VAR_INPUT A AT IN0; B AT IN1; C AT IN2; D AT IN3; E AT IN4; END_VAR\n"
                "STEP S: OWN ERROR; NO_HELPER; OUT OUT0; " +
                body +
@@ -112,7 +112,7 @@ class Program {
 
     test::Scan wanted(unsigned c) const {
         const int branch = branch_at(c);
-        test::Scan scan = branch < 0 ? test::Scan{} : deeds_[static_cast<std::size_t>(branch)]->scan;
+        test::Scan scan = branch < 0 ? test::Scan{} : actions_[static_cast<std::size_t>(branch)]->scan;
         if (scan.next) return scan;
         scan.next = 1;
         scan.outputs = 1;
@@ -137,7 +137,7 @@ class Program {
         for (unsigned c = 0; c < kInputCases; ++c) {
             const int branch = branch_at(c);
             if (branch < 0) continue;
-            const test::Scan& scan = deeds_[static_cast<std::size_t>(branch)]->scan;
+            const test::Scan& scan = actions_[static_cast<std::size_t>(branch)]->scan;
             if (scan.sends.empty() && !scan.timer && !scan.counter) continue;
             for (const unsigned zeros : {kTimerEnded, kCounterEnded}) {
                 if (!acts_alike(c, c | zeros)) return false;
@@ -163,12 +163,12 @@ class Program {
         const int a = branch_at(c);
         const int b = branch_at(other);
         return a == b || (a >= 0 && b >= 0 &&
-                          deeds_[static_cast<std::size_t>(a)] == deeds_[static_cast<std::size_t>(b)]);
+                          actions_[static_cast<std::size_t>(a)] == actions_[static_cast<std::size_t>(b)]);
     }
 
     std::vector<Condition> shown_;
     std::vector<Condition> branches_;
-    std::vector<const Deed*> deeds_;
+    std::vector<const ActionChoice*> actions_;
 };
 
 TEST(RandomProgram, DoesWhatItSaysOrCannotBe) {

@@ -105,9 +105,9 @@ TEST(SymbolFileReading, GivesBackTheExamples) {
         if (entry.path().extension() != ".seq") continue;
         std::stringstream source;
         source << std::ifstream(entry.path()).rdbuf();
-        const Compilation compilation = compile(source.str());
-        const SymbolReading reading =
-            read_symbols(write_symbols(compilation, source.str(), "x"), compilation.table);
+        const Sources sources = read_sources(entry.path().string(), source.str());
+        const Compilation compilation = compile(sources);
+        const SymbolReading reading = read_symbols(write_symbols(compilation, sources), compilation.table);
         EXPECT_EQ(reading.error, "") << entry.path();
         EXPECT_EQ(reading.file.symbols, compilation.symbols) << entry.path();
         ++examples;

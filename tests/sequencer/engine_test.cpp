@@ -28,6 +28,13 @@ TEST(Engine, PowerUpMeetsTimer0AndCounter0) {
     EXPECT_EQ(bench.state().step, 5);
 }
 
+TEST(Engine, StatesAreTheSameIfAllOfThemIs) {
+    const State state{1, 2, 3, 4};
+    for (const State& other : {State{0, 2, 3, 4}, State{1, 0, 3, 4}, State{1, 2, 0, 4}, State{1, 2, 3, 0}})
+        EXPECT_FALSE(state == other);
+    EXPECT_TRUE(state == (State{1, 2, 3, 4}));
+}
+
 TEST(Engine, EmptyTableDoesNothing) {
     Bench bench({});
     const ScanEffect effect = bench.scan(0xFF);
@@ -400,6 +407,60 @@ TEST(Engine, KeyIsImageAndTheTwoZeros) {
     EXPECT_EQ(bench.engine.key(0xA5), 0x2A5);
     bench.engine.restore({.counter = 1});
     EXPECT_EQ(bench.engine.key(0xA5), 0x1A5);
+}
+
+// 001 §6.1.9: what the scan before left half done is no part of the state that the sequence goes on from.
+TEST(Engine, RestoreDropsAScanUnderWay) {
+    Bench bench({{0x00, 0x00, 0x00, 0x05, 0x0C, 0x00, 0x00, 0x00}});
+    bench.engine.begin(0);
+    ASSERT_EQ(bench.engine.next(), fast(0x0C));
+    bench.engine.restore({.step = 7});
+    EXPECT_EQ(bench.engine.next(), std::nullopt);
+    const ScanEffect effect = bench.engine.finish();
+    EXPECT_FALSE(effect.sent);
+    EXPECT_FALSE(effect.changed);
+    EXPECT_EQ(bench.state(), (State{.step = 7}));
+}
+
+TEST(Engine, AScanInPartsTellsTheSameEffect) {
+    Bench bench({{0x00, 0x00, 0x00, 0x05, 0x0C, 0x00, 0x00, 0x00}});
+    bench.engine.begin(0);
+    while (bench.engine.next()) {
+    }
+    const ScanEffect effect = bench.engine.finish();
+    EXPECT_TRUE(effect.sent);
+    EXPECT_TRUE(effect.changed);
+    EXPECT_FALSE(effect.timer_preset);
+}
+
+// 001 §6.1.7: a command is one byte, and the shortest preset 1 ms.
+TEST(Engine, ACommandIsNoRegisterWriteAndOneMillisecondIsAPreset) {
+    Bench bench({{0xC0, 0x00, 0x00, 0x3E, 0x0C, 0x00, 0x01, 0x00}});
+    EXPECT_TRUE(bench.scan().timer_preset);
+    ASSERT_EQ(bench.orders.size(), 1U);
+    EXPECT_FALSE(bench.orders[0].is_register_write);
+    EXPECT_FALSE(bench.orders[0].longword);
+    EXPECT_EQ(bench.orders[0].reg, 0);
+    EXPECT_EQ(bench.orders[0].value, 0U);
+    bench.engine.begin(0);
+    while (bench.engine.next()) {
+    }
+    EXPECT_TRUE(bench.engine.finish().timer_preset);
+}
+
+TEST(Engine, WithoutAScanNothingHasAnEffect) {
+    const Bytes bytes = table_of({});
+    const Table table = Table::load(bytes).table;
+    Engine engine(table);
+    const ScanEffect effect = engine.finish();
+    EXPECT_FALSE(effect.any());
+    EXPECT_FALSE(effect.timer_preset);
+}
+
+TEST(Engine, AnyEffectIsAChangeOrAnOrder) {
+    EXPECT_FALSE((ScanEffect{}.any()));
+    EXPECT_TRUE((ScanEffect{.changed = true}.any()));
+    EXPECT_TRUE((ScanEffect{.sent = true}.any()));
 }
 
 // Fill three boxes: IN0 starts; each IN_POS counts one down and waits 20 ms; at 0 output 3 says done.

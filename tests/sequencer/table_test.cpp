@@ -170,9 +170,21 @@ TEST(Table, IsUsedWhereItLies) {
     EXPECT_EQ(table.term(1).data(), bytes.data() + 8);
 }
 
+TEST(Table, AssignForgetsTheTableBefore) {
+    const Bytes before = table_of({in_step(4), in_step(9)});
+    const Bytes after = table_of({in_step(1)});
+    Table table = Table::load(before).table;
+    ASSERT_EQ(table.assign(after), std::nullopt);
+    EXPECT_EQ(table.terms_of(1).end, 1);
+    for (const std::uint8_t step : std::array<std::uint8_t, 2>{4, 9})
+        EXPECT_EQ(table.terms_of(step).begin, table.terms_of(step).end);
+    EXPECT_EQ(table.size(), 1);
+}
+
 TEST(Table, EveryFaultHasItsOwnWords) {
-    const std::array faults{base::Error::table_ragged, base::Error::table_no_end, base::Error::no_space,
-                            base::Error::bad_next_step, base::Error::bad_register};
+    const std::array faults{base::Error::table_ragged, base::Error::table_no_end,
+                            base::Error::no_space,     base::Error::bad_next_step,
+                            base::Error::bad_register, base::Error::not_for_motor};
     for (const auto a : faults) {
         EXPECT_NE(describe(a), describe(base::Error::not_stopped));
         for (const auto b : faults) EXPECT_EQ(describe(a) == describe(b), a == b);

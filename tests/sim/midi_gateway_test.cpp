@@ -78,7 +78,7 @@ Ran run_scenario(const std::string& name, const std::string& text,
         show();
     }
     runner.finish(last);
-    for (const Outcome& outcome : runner.outcomes()) {
+    for (const ExpectationResult& outcome : runner.outcomes()) {
         if (!outcome.passed) ran.failures.push_back(outcome.expectation + ": " + outcome.seen);
     }
     ran.end = last.p_ist;
@@ -224,7 +224,7 @@ TEST(MidiGateway, ATableThatTheDriveCannotDoIsRefusedWithAReason) {
     const World world(table, options);
     EXPECT_FALSE(world.load_result().ok);
     EXPECT_EQ(world.load_result().fault.error, base::Error::not_for_motor);
-    EXPECT_EQ(world.why_not(), registers::midi::text_of(registers::midi::Lack::homing));
+    EXPECT_EQ(world.why_not(), registers::midi::text_of(registers::midi::Limitation::homing));
 }
 
 }  // namespace

@@ -12,22 +12,22 @@ using std::chrono::seconds;
 constexpr std::int32_t kWhole = 0x80;  ///< Imax
 constexpr std::int32_t kSwing = 5;     ///< increments, 003 §VII 02h
 
-MidiBench at_rest(std::int32_t torque, bool standby) {
-    MidiBench bench;
-    EXPECT_TRUE(bench.order(midi::STOP_TORQUE, standby ? 1 : 0));
-    EXPECT_TRUE(bench.order(midi::TORQUE, torque));
-    EXPECT_TRUE(bench.order(midi::GO_TO, 100));
-    bench.run_out();
-    bench.pass(seconds{1});
-    EXPECT_EQ(bench->position(), 100);
-    return bench;
-}
+struct BenchAtRest : MidiBench {
+    BenchAtRest(std::int32_t torque, bool standby) {
+        EXPECT_TRUE(order(midi::STOP_TORQUE, standby ? 1 : 0));
+        EXPECT_TRUE(order(midi::TORQUE, torque));
+        EXPECT_TRUE(order(midi::GO_TO, 100));
+        run_out();
+        pass(seconds{1});
+        EXPECT_EQ((*this)->position(), 100);
+    }
+};
 
 TEST(MidiLoad, BelowTheHoldingTorqueNothingMoves) {
     for (const std::int32_t torque : {kWhole, 0x40, 0x11}) {
         for (const bool standby : {false, true}) {
             for (const int direction : {1, -1}) {
-                MidiBench bench = at_rest(torque, standby);
+                BenchAtRest bench(torque, standby);
                 bench->set_load(direction * (standby ? torque / 2 : torque));
                 bench.pass(seconds{10});
                 EXPECT_EQ(bench->position(), 100);
@@ -40,7 +40,7 @@ TEST(MidiLoad, BelowTheHoldingTorqueNothingMoves) {
 TEST(MidiLoad, AboveItTheShaftIsDraggedTheWayItIsPulledAndBusyTells) {
     for (const std::int32_t torque : {kWhole, 0x40}) {
         for (const int direction : {1, -1}) {
-            MidiBench bench = at_rest(torque, false);
+            BenchAtRest bench(torque, false);
             bench->set_load(direction * (torque + 1));
             bench.pass(milliseconds{100});
             // 6 Nm / 128 / 2.7e-4 kg m^2 = 173.6 rad/s^2 = 276,310 inc/s^2; over 0.1 s 1382 increments.
@@ -59,7 +59,7 @@ TEST(MidiLoad, AboveItTheShaftIsDraggedTheWayItIsPulledAndBusyTells) {
 }
 
 TEST(MidiLoad, InStandbyHalfOfItHolds) {
-    MidiBench bench = at_rest(kWhole, true);
+    BenchAtRest bench(kWhole, true);
     bench->set_load(kWhole / 2 + 1);
     std::int32_t farthest = 0;
     for (int i = 0; i < 20'000; ++i) {
@@ -86,7 +86,7 @@ TEST(MidiLoad, InStandbyHalfOfItHolds) {
 }
 
 TEST(MidiLoad, InStandbyAlmostTheWholeTorqueStillSwingsWithinTheManualsIncrements) {
-    MidiBench bench = at_rest(kWhole, true);
+    BenchAtRest bench(kWhole, true);
     bench->set_load(-(kWhole - 1));
     for (int i = 0; i < 20'000; ++i) {
         bench.pass(std::chrono::microseconds{100});
@@ -95,7 +95,7 @@ TEST(MidiLoad, InStandbyAlmostTheWholeTorqueStillSwingsWithinTheManualsIncrement
 }
 
 TEST(MidiLoad, WithPowerOffNothingHolds) {
-    MidiBench bench = at_rest(kWhole, false);
+    BenchAtRest bench(kWhole, false);
     bench->set_load(1);
     bench.pass(seconds{1});
     EXPECT_EQ(bench->position(), 100);
@@ -138,7 +138,7 @@ TEST(MidiLoad, WithoutSupplyTheShaftRunsOutUncounted) {
 }
 
 TEST(MidiLoad, AnEndBelowHoldsItToo) {
-    MidiBench bench = at_rest(kWhole, false);
+    BenchAtRest bench(kWhole, false);
     bench->stop_shaft(false, 40);
     bench->set_load(-2 * kWhole);
     bench.pass(seconds{1});
@@ -186,7 +186,7 @@ TEST(MidiLoad, SwitchesAtTheAxis) {
 }
 
 TEST(MidiLoad, AShaftThatIsHeldByHandIsNotDragged) {
-    MidiBench bench = at_rest(kWhole, false);
+    BenchAtRest bench(kWhole, false);
     bench->hold_shaft(true);
     bench->set_load(2 * kWhole);
     bench.pass(seconds{1});

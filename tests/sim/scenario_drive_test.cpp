@@ -41,6 +41,7 @@ TEST(ScenarioDrive, OnlyWhatTheDriveHasIsTaken) {
         {"motor stop above 1 rev", "MAC50 MAC95 MAC140 MAC141 MAC800 MAC23 MAC34-1"},
         {"motor supply 20 V", "MAC50 MAC95 MAC140 MAC141 MAC800 MAC23 MAC34-1"},
         {"motor load 1100", "MAC50 MAC95 MAC140 MAC141 MAC800 MAC23 MAC34-1"},
+        {"motor plant \"axis.toml\"", "MAC50 MAC95 MAC140 MAC141 MAC800"},
         {"motor power off", "MAC50 MAC95 MAC140 MAC141 MAC800 MAC23 MAC34-1"},
         {"motor error", "MAC50 MAC95 MAC140 MAC141 MAC800 MAC23 MAC34-1"},
         {"motor upper_stop on", "MAC23 MAC34-1"},
@@ -111,6 +112,18 @@ TEST(ScenarioDrive, WhatTheFlashHoldsIsGivenFromTheStart) {
         "a register is stored before the run begins; write such as motor HW_SETUP := NOFILT alone in a line");
     EXPECT_EQ(said_of("motor I2TLIM := 5 rev"),
               "I2TLIM takes 0 to 65535, in its own steps or with a unit as macreg takes it");
+}
+
+TEST(ScenarioDrive, APlantFileIsNamedOnceAndInQuotes) {
+    const ParsedScenario parsed = parse_for("IN0 := 1\nmotor plant \"a/axis.toml\"", "MAC140");
+    ASSERT_TRUE(parsed.mistakes.empty());
+    ASSERT_TRUE(parsed.scenario.plant);
+    EXPECT_EQ(parsed.scenario.plant->file, "a/axis.toml");
+    EXPECT_EQ(parsed.scenario.plant->line, 2);
+    EXPECT_EQ(placed("motor plant axis"),
+              "1:13 \"axis\" is out of place; write the file in quotes, such as motor plant \"axis.toml\"");
+    EXPECT_EQ(placed("motor plant \"a\"\nmotor plant \"b\""),
+              "2:7 the scenario has a plant already; keep one of the two");
 }
 
 }  // namespace

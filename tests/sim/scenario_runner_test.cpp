@@ -60,35 +60,44 @@ class Bench final : public Stage {
     }
     void seed(std::uint64_t value) override { did("seed " + std::to_string(value)); }
     void fail_motor() override { did("error"); }
-    void load_motor(int torque) override { did("load " + std::to_string(torque)); }
-    void set_brake(int torque) override { did("brake " + std::to_string(torque)); }
     void power_motor(bool on) override { did(on ? "on" : "off"); }
-    void stop_motor(const action::StopMotor& stop) override {
-        did((stop.above ? "stop above " : "stop below ") + std::to_string(stop.counts) + " spring " +
-            std::to_string(std::lround(1000 * stop.torque_per_count)));
+    void act(const action::OnMotor& what) override {
+        std::visit([this](const auto& one) { did(text_of(one)); }, what);
     }
-    void free_motor() override { did("free"); }
-    void connect_sensor(const action::MotorSensor& sensor) override {
-        did((sensor.on_above ? "sensor above " : "sensor below ") + std::to_string(sensor.counts));
-    }
-    void set_drive_input(const action::SetDriveInput& a) override {
-        did("drive input " + std::to_string(static_cast<int>(a.input)) + (a.active ? " on" : " off"));
-    }
-    void connect_switch(const action::DriveSwitch& a) override {
-        did("switch " + std::to_string(static_cast<int>(a.input)) + (a.on_above ? " above " : " below ") +
-            std::to_string(a.counts));
-    }
-    void set_analogue(double volts) override { did("analogue " + std::to_string(std::lround(10 * volts))); }
-    void set_pulses(const action::MotorPulses& a) override {
-        did((a.with_direction ? "steps " : "pulses ") + std::to_string(a.per_second));
-    }
-    void set_supply(const action::MotorSupply& a) override {
-        did((a.logic ? "logic " : "supply ") + std::to_string(std::lround(10 * a.volts)));
-    }
-    void set_temperature(int celsius) override { did("temperature " + std::to_string(celsius)); }
-    void break_encoder() override { did("encoder"); }
+    void set_points(const action::SetPoints& asked) override { did(asked.text); }
     void gateway(action::Gateway what) override { did("gateway " + std::to_string(static_cast<int>(what))); }
     void log(const std::string& text) override { did(text); }
+
+    static std::string text_of(const action::LoadMotor& a) { return "load " + std::to_string(a.torque); }
+    static std::string text_of(const action::MotorBrake& a) { return "brake " + std::to_string(a.torque); }
+    static std::string text_of(const action::StopMotor& a) {
+        return (a.above ? "stop above " : "stop below ") + std::to_string(a.counts) + " spring " +
+               std::to_string(std::lround(1000 * a.torque_per_count));
+    }
+    static std::string text_of(const action::FreeMotor&) { return "free"; }
+    static std::string text_of(const action::MotorSensor& a) {
+        return (a.on_above ? "sensor above " : "sensor below ") + std::to_string(a.counts);
+    }
+    static std::string text_of(const action::SetDriveInput& a) {
+        return "drive input " + std::to_string(static_cast<int>(a.input)) + (a.active ? " on" : " off");
+    }
+    static std::string text_of(const action::DriveSwitch& a) {
+        return "switch " + std::to_string(static_cast<int>(a.input)) + (a.on_above ? " above " : " below ") +
+               std::to_string(a.counts);
+    }
+    static std::string text_of(const action::MotorAnalogue& a) {
+        return "analogue " + std::to_string(std::lround(10 * a.volts));
+    }
+    static std::string text_of(const action::MotorPulses& a) {
+        return (a.with_direction ? "steps " : "pulses ") + std::to_string(a.per_second);
+    }
+    static std::string text_of(const action::MotorSupply& a) {
+        return (a.logic ? "logic " : "supply ") + std::to_string(std::lround(10 * a.volts));
+    }
+    static std::string text_of(const action::MotorTemperature& a) {
+        return "temperature " + std::to_string(a.celsius);
+    }
+    static std::string text_of(const action::BreakEncoder&) { return "encoder"; }
 
     std::vector<std::string> done;  ///< `milliseconds: action`
     Snapshot s;
@@ -393,6 +402,17 @@ TEST(ScenarioRunner, CancelDropsWhatRulesPlannedBefore) {
     bench.run_to(50ms);
     EXPECT_EQ(bench.done, (Done{"15: IN1=0", "25: kept", "30: IN1=1"}))
         << "what it plans itself stays, and what has a time of its own";
+}
+
+TEST(ScenarioRunner, CancelAtATimeDropsWhatRulesPlannedUntilThen) {
+    Bench bench(R"scn(
+        when OUT0 rises after 20 ms IN1 := 1
+        every 8 ms from 8 ms after 6 ms IN2 := 1
+        at 10 ms cancel IN1, cancel IN2, after 1 ms IN3 := 1
+    )scn");
+    bench.set_outputs(5ms, 1);  // IN1 at 25 ms
+    bench.run_to(23ms);         // IN2 at 14 ms, which is dropped, and at 22 ms
+    EXPECT_EQ(bench.done, (Done{"11: IN3=1", "22: IN2=1"}));
 }
 
 TEST(ScenarioRunner, CancelAllLeavesTheEnd) {

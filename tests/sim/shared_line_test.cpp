@@ -248,6 +248,18 @@ TEST_F(SharedLineTest, AWriteThatAStopCutShortIsNotTakenForDone) {
     EXPECT_EQ(clients.hears[0], too_late(48));
 }
 
+/// It may be stored: the gateway knows.
+TEST_F(SharedLineTest, AChangeOfSetPointsThatAStopCutShortIsNotSaidToBeLost) {
+    constexpr std::uint8_t kSetPointWrite = 91;
+    clients.sends[0] = bytes(mactalk::encode_long_write(kGateway, kSetPointWrite, Bytes(16, 1)));
+    EXPECT_EQ(on_the_line(), bytes(mactalk::encode_long_write(kGateway, kSetPointWrite, Bytes(16, 1))));
+    clients.sends[1] = order(kStop);
+    EXPECT_EQ(on_the_line(), order(kStop));
+    answer(bytes(mactalk::encode_accept()));
+    clients.sends[0] = read_of(31);
+    EXPECT_EQ(on_the_line(), read_of(31));
+}
+
 TEST_F(SharedLineTest, WhatMayHaveWaitedTooLongToBeReadIsRefusedButForReadsAndStops) {
     look();
     now += SharedLine::kLongestUnread;
@@ -350,6 +362,170 @@ TEST_F(SharedLineTest, SamplesOfEitherLengthEndWithASilence) {
     EXPECT_TRUE(on_the_line().empty());
     now += 20ms;
     EXPECT_EQ(on_the_line(), read_of(17));
+}
+
+/// With one seat for all clients of the axis.
+struct SeatedLineTest : SharedLineTest {
+    Bytes seated() { return line_with_seat.to_line(now, {kGateway, kMotor}); }
+    Bytes answered(const Bytes& answer) {
+        line_with_seat.from_line(answer, now);
+        return seated();
+    }
+    /// RESULT, 31: seat_taken, 22, of the register in bits 15..8, and the detail.
+    static Bytes seat_taken(std::uint8_t reg, std::uint8_t detail = 0) {
+        return reply_of(31, {22, reg, detail, 0});
+    }
+
+    faces::Seat seat;
+    SharedLine line_with_seat{clients, &seat};
+};
+
+TEST_F(SeatedLineTest, OneClientOperatesAndAllReadAndStop) {
+    clients.sends[0] = order(kRun);
+    EXPECT_EQ(seated(), order(kRun));
+    EXPECT_EQ(answered(bytes(mactalk::encode_accept())), Bytes());
+    clients.sends[1] = order(kRun) + read_of(31);
+    EXPECT_EQ(seated(), Bytes());
+    EXPECT_EQ(clients.hears[1], seat_taken(48));
+    clients.sends[1] = read_of(16);
+    EXPECT_EQ(seated(), read_of(16));
+    EXPECT_EQ(answered(reply_of(16)), Bytes());
+    clients.sends[1] = order(kStop);
+    EXPECT_EQ(seated(), order(kStop));
+}
+
+/// UPLOAD_BYTES (58) comes before every command of nanoctl, TABLE_POINTER (60) before reading a table back,
+/// SET_POINT_POINTER (89) before reading what can be set.
+TEST_F(SeatedLineTest, WhatOnlyPreparesNeedsNoSeat) {
+    clients.sends[0] = order(kRun);
+    EXPECT_EQ(seated(), order(kRun));
+    EXPECT_EQ(answered(bytes(mactalk::encode_accept())), Bytes());
+    for (const std::uint8_t reg : {std::uint8_t{58}, std::uint8_t{60}, std::uint8_t{89}}) {
+        clients.sends[1] = write_of(reg);
+        EXPECT_EQ(seated(), write_of(reg));
+        EXPECT_EQ(answered(bytes(mactalk::encode_accept())), Bytes());
+    }
+}
+
+TEST_F(SeatedLineTest, TheSeatIsFreeWhenItsClientHasLeft) {
+    clients.sends[0] = order(kRun);
+    EXPECT_EQ(seated(), order(kRun));
+    EXPECT_EQ(answered(bytes(mactalk::encode_accept())), Bytes());
+    clients.left[0] = true;
+    clients.sends[1] = order(kRun);
+    EXPECT_EQ(seated(), order(kRun));
+}
+
+TEST_F(SeatedLineTest, AnotherClientInThePlaceOperatesOnItsOwn) {
+    clients.sends[0] = order(kRun);
+    EXPECT_EQ(seated(), order(kRun));
+    EXPECT_EQ(answered(bytes(mactalk::encode_accept())), Bytes());
+    clients.visits[0] = 3;
+    EXPECT_EQ(seated(), Bytes());
+    EXPECT_EQ(seat.holder(), nullptr);
+}
+
+TEST_F(SeatedLineTest, PersonsWaitWhileThePlantOperates) {
+    EXPECT_EQ(seat.take({faces::Seat::new_number(), faces::Side::plant, "PLC"},
+                        base::Instant(std::chrono::duration_cast<base::Microseconds>(now))),
+              faces::Seat::Verdict::granted);
+    clients.sends[0] = order(kRun) + read_of(31);
+    EXPECT_EQ(seated(), Bytes());
+    EXPECT_EQ(clients.hears[0], seat_taken(48));
+    clients.sends[0] = order(kSafe);
+    EXPECT_EQ(seated(), order(kSafe));
+}
+
+/// A port that asks for a password. PASSWORD_STATE is 10, PASSWORD 11, no_password 30 (REGISTERS.md).
+struct GuardedLineTest : SharedLineTest {
+    Bytes guarded() { return line_with_password.to_line(now, {kGateway, kMotor}); }
+    Bytes hears(std::size_t client) { return std::exchange(clients.hears[client], {}); }
+    static Bytes password(std::string text) {
+        text.resize((text.size() + 3) / 4 * 4, '\0');
+        return bytes(mactalk::encode_long_write(kGateway, 11, Bytes(text.begin(), text.end())));
+    }
+    static Bytes no_password(std::uint8_t reg) { return reply_of(31, {30, reg, 0, 0}); }
+    static Bytes state(std::uint8_t value) { return reply_of(10, {value, 0, 0, 0}); }
+    static const inline Bytes kAccept = bytes(mactalk::encode_accept());
+
+    SharedLine line_with_password{clients, nullptr, "correct horse"};
+};
+
+TEST_F(GuardedLineTest, WithoutItOnlyReadsStopsAndWhatPrepares) {
+    for (const Bytes& message : {read_of(16), order(kStop), order(kSafe), order(kHold), write_of(58)}) {
+        clients.sends[0] = message;
+        EXPECT_EQ(guarded(), message);
+        line_with_password.from_line(kAccept, now);
+        now += 2s;
+        EXPECT_EQ(guarded(), Bytes());
+    }
+    clients.hears[0].clear();
+    const Bytes of_motor =
+        bytes(mactalk::encode({.kind = Kind::write, .address = kMotor, .reg = 2, .length = 2, .value = 1}));
+    const Bytes motor_reset = bytes(mactalk::encode({.kind = Kind::reset, .address = kMotor}));
+    for (const auto& [message, reg] :
+         {std::pair{order(kRun), 48}, {write_of(200), 200}, {of_motor, 2}, {motor_reset, 0}}) {
+        clients.sends[0] = message + read_of(31);
+        EXPECT_EQ(guarded(), Bytes());
+        EXPECT_EQ(hears(0), no_password(static_cast<std::uint8_t>(reg)));
+    }
+}
+
+TEST_F(GuardedLineTest, WithoutItHowLongAMessageWaitedDoesNotMatter) {
+    clients.sends[1] = read_of(16);
+    EXPECT_EQ(guarded(), read_of(16));
+    clients.sends[0] = order(kRun) + read_of(31);
+    EXPECT_EQ(guarded(), Bytes());
+    now += 2s;
+    EXPECT_EQ(guarded(), Bytes());
+    EXPECT_EQ(hears(0), no_password(48));
+}
+
+TEST_F(GuardedLineTest, WhoHasGivenItOperatesUntilHeLeaves) {
+    clients.sends[0] = read_of(10);
+    EXPECT_EQ(guarded(), Bytes());
+    EXPECT_EQ(hears(0), state(1));
+    clients.sends[0] = password("correct horse");
+    EXPECT_EQ(guarded(), Bytes()) << "it never reaches the gateway";
+    EXPECT_EQ(hears(0), kAccept);
+    clients.sends[0] = read_of(10);
+    EXPECT_EQ(guarded(), Bytes());
+    EXPECT_EQ(hears(0), state(2));
+    clients.sends[1] = order(kRun) + read_of(31);
+    EXPECT_EQ(guarded(), Bytes());
+    EXPECT_EQ(hears(1), no_password(48)) << "it is the other client's";
+    clients.sends[0] = order(kRun);
+    EXPECT_EQ(guarded(), order(kRun));
+    line_with_password.from_line(kAccept, now);
+    clients.hears[0].clear();
+    clients.visits[0] = 3;
+    clients.sends[0] = order(kRun) + read_of(31);
+    EXPECT_EQ(guarded(), Bytes());
+    EXPECT_EQ(hears(0), no_password(48));
+}
+
+TEST_F(GuardedLineTest, AnotherOneIsNone) {
+    clients.sends[0] = password("correct horse");
+    EXPECT_EQ(guarded(), Bytes());
+    EXPECT_EQ(hears(0), kAccept);
+    unsigned wrong = 0;
+    for (const char* other : {"correct hors", "correct horse battery", "Correct horse", "12345678", ""}) {
+        clients.sends[0] = (*other == '\0' ? write_of(11) : password(other)) + read_of(31) + read_of(10);
+        EXPECT_EQ(guarded(), Bytes());
+        EXPECT_EQ(hears(0), state(1) + no_password(11)) << other;
+        EXPECT_EQ(line_with_password.wrong_passwords(), ++wrong);
+    }
+    clients.sends[0] = order(kRun);
+    EXPECT_EQ(guarded(), Bytes());
+}
+
+/// For another unit on the line, and where none is asked for, the numbers are anybody's.
+TEST_F(GuardedLineTest, OnlyTheGatewaysRegistersAreMeant) {
+    const Bytes of_motor = bytes(mactalk::encode({.kind = Kind::read, .address = kMotor, .reg = 10}));
+    clients.sends[0] = of_motor;
+    EXPECT_EQ(guarded(), of_motor);
+    clients.sends[0] = read_of(10);
+    EXPECT_EQ(on_the_line(), read_of(10));
 }
 
 }  // namespace

@@ -47,5 +47,11 @@ TEST(Text, TimesArePrintedBack) {
     EXPECT_EQ(in_words(Time(2s)), "2 s");
 }
 
+TEST(Text, InXml) {
+    EXPECT_EQ(in_xml("a < \"b\" & c > d"), "a &lt; &quot;b&quot; &amp; c &gt; d");
+    EXPECT_EQ(in_xml("M\xC3\xBChle 5 \xE2\x82\xAC"), "M\xC3\xBChle 5 \xE2\x82\xAC");
+    EXPECT_EQ(in_xml(std::string_view("\n\x7F\xFF\xC3", 4)), "????");
+}
+
 }  // namespace
 }  // namespace nplc::sim

@@ -115,12 +115,12 @@ TEST_F(WorldRun, ASequenceMovesTheMotor) {
 
 // A stop in the way, then gone: a move of two revolutions (8192 counts) gets as far as 5000.
 TEST_F(WorldRun, AStopHoldsTheShaft) {
-    world_.stop_motor({.above = true, .counts = 5000});
+    world_.act(action::StopMotor{.above = true, .counts = 5000});
     world_.set_input(0, true);
     run_to(2s);
     EXPECT_EQ(world_.take_snapshot().shaft, 5000);
     EXPECT_GT(world_.take_snapshot().torque, 0);
-    world_.free_motor();
+    world_.act(action::FreeMotor{});
     EXPECT_TRUE(run_until([&] { return step() == 3; }, 5s));
 }
 
@@ -129,15 +129,15 @@ TEST_F(WorldRun, AStopThatTheShaftIsBeyondHoldsItWhereItIs) {
     world_.set_input(0, true);
     ASSERT_TRUE(run_until([&] { return world_.mac().p_ist() > 1000; }, 2s));
     const std::int32_t jammed_at = world_.mac().p_ist();
-    world_.stop_motor({.above = true, .counts = -500});
+    world_.act(action::StopMotor{.above = true, .counts = -500});
     run_to(world_.now() + 1s);
     EXPECT_NEAR(world_.mac().p_ist(), jammed_at, 1);
 }
 
 // 512 of torque a revolution of 4096 counts are 1/8 a count.
 TEST_F(WorldRun, ASpringGivesWay) {
-    world_.stop_motor({.above = true, .counts = 0, .torque_per_count = 512.0 / 4096});
-    world_.load_motor(100);
+    world_.act(action::StopMotor{.above = true, .counts = 0, .torque_per_count = 512.0 / 4096});
+    world_.act(action::LoadMotor{100});
     run_to(5s);
     // 100 of torque, less 5 of friction, at 1/8 a count
     EXPECT_NEAR(static_cast<double>(world_.take_snapshot().shaft), 760, 16);
@@ -148,23 +148,23 @@ TEST_F(WorldRun, TheAnalogueInputHasASensorOrAVoltage) {
         run_to(world_.now() + 5ms);
         return world_.mac().read(registers::ANINP);
     };
-    world_.connect_sensor({.on_above = false, .counts = 100});
+    world_.act(action::MotorSensor{.on_above = false, .counts = 100});
     EXPECT_EQ(aninp(), 1023);
-    world_.connect_sensor({.on_above = true, .counts = 100});
+    world_.act(action::MotorSensor{.on_above = true, .counts = 100});
     EXPECT_EQ(aninp(), 0);
-    world_.set_analogue(-5);
+    world_.act(action::MotorAnalogue{-5});
     EXPECT_EQ(aninp(), -511);
 }
 
 // MAC140's pins carry FastMAC; a MAC800 counts 77,000 / 770 Hz = 100 a sample.
 TEST_F(WorldRun, PulsesReachOnlyAMotorWithAnInputForThem) {
-    world_.set_pulses({77'000});
+    world_.act(action::MotorPulses{77'000});
     run_to(100ms);
     EXPECT_EQ(world_.mac().read(registers::V_EXT), 0);
     WorldOptions options;
     options.motor = registers::Model::mac800;
     World big(table(), options);
-    big.set_pulses({77'000});
+    big.act(action::MotorPulses{77'000});
     while (big.now() < 20ms) big.step(20ms);
     constexpr std::uint8_t kVExt = 163;
     EXPECT_NEAR(big.mac().read(kVExt), 100, 1);
@@ -172,7 +172,7 @@ TEST_F(WorldRun, PulsesReachOnlyAMotorWithAnInputForThem) {
 
 // 24 V / 53.7 mV = 447 (001 §3.2.151).
 TEST_F(WorldRun, TheSupplyCanSag) {
-    world_.set_supply({.volts = 24});
+    world_.act(action::MotorSupply{.volts = 24});
     run_to(500ms);
     EXPECT_NEAR(world_.mac().read(151), 447, 2);
 }
@@ -188,14 +188,14 @@ TEST_F(WorldRun, AMac800FeelsItsSurroundings) {
         return big.mac().read(registers::ERR_STAT);
     };
     EXPECT_EQ(err_stat_after(20ms) & 0x2BB8F, 0);
-    big.set_temperature(120);
+    big.act(action::MotorTemperature{120});
     EXPECT_EQ(err_stat_after(20ms) & 0x2BB8F, 1 << 8);
-    big.set_supply({.volts = 12, .logic = true});
+    big.act(action::MotorSupply{.volts = 12, .logic = true});
     EXPECT_EQ(err_stat_after(20ms) & 0x2BB8F, 1 << 8 | 1 << 17);
-    big.break_encoder();
+    big.act(action::BreakEncoder{});
     EXPECT_EQ(err_stat_after(20ms) & 0x2BB8F, 1 << 8 | 1 << 15 | 1 << 17);
-    big.set_temperature(25);
-    big.set_supply({.volts = 24, .logic = true});
+    big.act(action::MotorTemperature{25});
+    big.act(action::MotorSupply{.volts = 24, .logic = true});
     big.power_motor(false);
     big.power_motor(true);
     EXPECT_EQ(err_stat_after(20ms) & 0x2BB8F, 0);
@@ -214,12 +214,12 @@ TEST_F(WorldRun, AMac800CanHaveABrake) {
         while (big.now() < end) big.step(end);
         return big.take_snapshot().shaft - before;
     };
-    big.set_brake(300);
-    big.load_motor(100);
+    big.act(action::MotorBrake{300});
+    big.act(action::LoadMotor{100});
     EXPECT_EQ(turned_in(500ms), 0);
-    big.set_brake(80);
+    big.act(action::MotorBrake{80});
     EXPECT_GT(turned_in(500ms), 10);
-    big.set_brake(0);
+    big.act(action::MotorBrake{0});
     EXPECT_GT(turned_in(500ms), 100);
 }
 
@@ -334,7 +334,7 @@ TEST_F(WorldRun, AMotorWithoutPowerRunsOut) {
     EXPECT_NEAR(static_cast<double>(out.shaft - running.shaft), 458, 20);
     EXPECT_EQ(out.p_ist, running.p_ist) << "nobody counts";
     EXPECT_EQ(run(1s).shaft, out.shaft);
-    world.load_motor(100);
+    world.act(action::LoadMotor{100});
     EXPECT_GT(run(100ms).shaft, out.shaft + 1000) << "nothing holds it";
 }
 
@@ -344,7 +344,7 @@ TEST(World, HwSetupIsGivenFromTheStart) {
     options.motor = registers::Model::mac800;
     options.registers = {{.number = 39, .bits = 0x50}};
     World world(table(), options);
-    world.set_pulses({.per_second = 7'700, .with_direction = true});
+    world.act(action::MotorPulses{.per_second = 7'700, .with_direction = true});
     while (world.now() < 20ms) world.step(20ms);
     EXPECT_EQ(world.mac().read(39), 0x50);
     EXPECT_NEAR(world.mac().read(163), -10, 1);

@@ -96,6 +96,48 @@ TEST(Rest, WithBothSlotsDamagedThereIsNoTableAndItIsSaid) {
     EXPECT_EQ(Session(device, shape.area).content(), kNewTable);
 }
 
+TEST(Rest, ALossIsSaidUntilATableIsStoredAgain) {
+    const Shape shape = shapes(200).front();
+    auto device = with_both(shape);
+    device.flip(Layout(shape.geometry, shape.area).content(1), 3);
+    Session session(device, shape.area);
+    EXPECT_TRUE(session.slots.is_fallback());
+    EXPECT_EQ(session.write(kNewTable), Phase::done);
+    EXPECT_FALSE(session.slots.is_fallback());
+}
+
+/// As the power leaves it that fails before the note in the other slot.
+sim::SimStorage without_last_note(const Shape& shape, const std::vector<Bytes>& tables, unsigned noted) {
+    const Layout layout(shape.geometry, shape.area);
+    auto device = device_with(shape, {tables.begin(), tables.end() - 1});
+    std::optional<sim::SimStorage> cut;
+    device.watch([&](const sim::StorageOperation& operation) {
+        if (!operation.is_erase && operation.address == layout.superseded(noted))
+            cut = device.torn(operation, {});
+    });
+    EXPECT_EQ(Session(device, shape.area).write(tables.back()), Phase::done);
+    EXPECT_TRUE(cut);
+    return *cut;
+}
+
+TEST(Rest, WithoutTheNoteADamagedSlotItselfTellsOfTheLoss) {
+    const Shape shape = shapes(200).front();
+    const Layout layout(shape.geometry, shape.area);
+    auto only = without_last_note(shape, {kOldTable}, 1);
+    EXPECT_EQ(Session(only, shape.area).content(), kOldTable);
+    only.flip(layout.content(0), 3);
+    const Session none(only, shape.area);
+    EXPECT_FALSE(none.slots.has_current());
+    EXPECT_TRUE(none.slots.is_fallback());
+
+    auto both = without_last_note(shape, {kOldTable, kNewTable}, 0);
+    EXPECT_EQ(Session(both, shape.area).content(), kNewTable);
+    both.flip(layout.content(1), 3);
+    Session older(both, shape.area);
+    EXPECT_EQ(older.content(), kOldTable);
+    EXPECT_TRUE(older.slots.is_fallback());
+}
+
 TEST(Rest, HoweverManyBitsFlipNothingButAWholeTableRuns) {
     std::mt19937 random(1);
     for (const Shape& shape : shapes(200)) {

@@ -71,8 +71,10 @@ TEST(Settings, OfSpeedsOnlyStandardOnes) {
 
 TEST(Settings, AreStoredAsNumberAndFourBytes) {
     SettingValues values;
+    ASSERT_TRUE(values.set(Setting::gateway_address, 5).ok());
     ASSERT_TRUE(values.set(Setting::motor_baud, 115'200).ok());  // 0001C200h
     const auto bytes = encode(values);
+    EXPECT_EQ(Bytes(bytes.begin(), bytes.begin() + 5), (Bytes{1, 5, 0, 0, 0}));
     EXPECT_EQ(Bytes(bytes.begin() + 10, bytes.begin() + 15), (Bytes{3, 0x00, 0xC2, 0x01, 0x00}));
     const auto back = decode_settings(bytes);
     ASSERT_TRUE(back.ok());
@@ -101,6 +103,24 @@ TEST_F(SettingsStoreTest, KeepsThem) {
     ASSERT_TRUE(values.set(Setting::safe_outputs, 5).ok());
     ASSERT_EQ(save(settings, values), Phase::done);
     EXPECT_EQ(SettingsStore(device, shape.area).mount().value(), values);
+}
+
+/// A later firmware has more settings.
+TEST_F(SettingsStoreTest, TwiceAsManyAreRead) {
+    const Shape large = shapes(4 * kMaxSettingsBytes).front();
+    sim::SimStorage flash{large.geometry};
+    Bytes bytes(2 * kMaxSettingsBytes, 0);
+    for (std::size_t at = 0; at < bytes.size(); at += 5) bytes[at] = 200;
+    bytes[bytes.size() - 5] = 7;  // debounce
+    bytes[bytes.size() - 4] = 0xD0;
+    bytes[bytes.size() - 3] = 0x07;  // 7D0h = 2000
+    write_raw(flash, large.area, Kind::settings, bytes);
+    const auto values = SettingsStore(flash, large.area).mount();
+    ASSERT_TRUE(values.ok());
+    EXPECT_EQ(values.value().get(Setting::debounce), 2'000U);
+    bytes.insert(bytes.end(), {200, 0, 0, 0, 0});
+    write_raw(flash, large.area, Kind::settings, bytes);
+    EXPECT_EQ(SettingsStore(flash, large.area).mount().error(), base::Error::no_space);
 }
 
 TEST_F(SettingsStoreTest, PowerCutsLeaveOldOrNewOnes) {

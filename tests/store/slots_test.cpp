@@ -48,13 +48,6 @@ TEST_F(SlotsTest, EachWritingCountsOn) {
     EXPECT_EQ(Session(device, shape.area).content(), kOther);
 }
 
-TEST_F(SlotsTest, TheLastNumberIsFollowedByTheFirst) {
-    EXPECT_TRUE(is_later(0, 0xFFFF'FFFF));
-    EXPECT_TRUE(is_later(2, 1));
-    EXPECT_FALSE(is_later(1, 1));
-    EXPECT_FALSE(is_later(0xFFFF'FFFF, 0));
-}
-
 TEST_F(SlotsTest, PiecesComeInOrderAndARepeatIsTaken) {
     EXPECT_EQ(slots.write(0, piece(0, 8)).error(), base::Error::not_begun);
     ASSERT_TRUE(slots.begin().ok());
@@ -100,6 +93,7 @@ TEST_F(SlotsTest, FinishMayBeRepeated) {
     ASSERT_EQ(session.write(kTable), Phase::done);
     const auto length = static_cast<std::uint32_t>(kTable.size());
     EXPECT_TRUE(slots.finish(length, base::crc32(kTable)).ok());
+    EXPECT_EQ(slots.finish(length - 8, base::crc32(kTable)).error(), base::Error::not_begun);
     EXPECT_EQ(slots.finish(length, 1).error(), base::Error::not_begun);
     EXPECT_EQ(slots.phase(), Phase::done);
 }
@@ -193,6 +187,17 @@ TEST_F(SlotsTest, TheOldTableIsReadWhileANewOneComes) {
     EXPECT_EQ(slots.phase(), Phase::idle);
     EXPECT_EQ(session.content(), kOther);
     EXPECT_EQ(session.write(kTable), Phase::done);
+}
+
+TEST_F(SlotsTest, ReadsUpToTheEndAndNotBeyond) {
+    ASSERT_EQ(session.write(kTable), Phase::done);
+    const auto length = static_cast<std::uint32_t>(kTable.size());
+    Bytes bytes(8);
+    EXPECT_TRUE(slots.read(length - 8, bytes).ok());
+    EXPECT_EQ(bytes, Bytes(kTable.end() - 8, kTable.end()));
+    EXPECT_EQ(slots.read(length - 7, bytes).error(), base::Error::bad_offset);
+    EXPECT_TRUE(slots.read(length, {}).ok());
+    EXPECT_EQ(slots.read(length + 1, {}).error(), base::Error::bad_offset);
 }
 
 TEST_F(SlotsTest, WhatDoesNotFitTheStorageIsNamedAtTheStart) {

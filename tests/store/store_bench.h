@@ -58,9 +58,42 @@ inline Bytes table_of(std::size_t terms, std::uint8_t seed) {
     return bytes;
 }
 
+inline void poll_while(Slots& slots, Phase phase) {
+    for (int i = 0; slots.phase() == phase && i < 100'000; ++i) slots.poll();
+}
+
+/// In pieces of 8 bytes, as a client sends terms.
+inline Phase write(Slots& slots, const Bytes& bytes, std::optional<std::uint32_t> crc = {}) {
+    if (!slots.begin()) return Phase::failed;
+    poll_while(slots, Phase::erasing);
+    std::uint32_t at = 0;
+    for (int i = 0; at < bytes.size() && i < 1'000'000; ++i) {
+        const std::uint32_t count = std::min<std::uint32_t>(8, static_cast<std::uint32_t>(bytes.size()) - at);
+        const auto status = slots.write(at, std::span(bytes).subspan(at, count));
+        if (status) {
+            at += count;
+        } else if (status.error() != base::Error::busy) {
+            return slots.phase();
+        }
+        slots.poll();
+    }
+    static_cast<void>(
+        slots.finish(static_cast<std::uint32_t>(bytes.size()), crc.value_or(base::crc32(bytes))));
+    poll_while(slots, Phase::closing);
+    return slots.phase();
+}
+
+/// Content of any kind, whatever it is.
+inline void write_raw(ports::Storage& device, const Area& area, Kind kind, const Bytes& bytes) {
+    AnyContent anything;
+    Slots slots(device, area, kind, anything);
+    ASSERT_TRUE(slots.mount().ok());
+    ASSERT_EQ(write(slots, bytes), Phase::done);
+}
+
 /// One start of the gateway on a device.
 struct Session {
-    explicit Session(sim::SimStorage& device, const Area& area) : slots(device, area, Kind::table, check) {
+    explicit Session(ports::Storage& device, const Area& area) : slots(device, area, Kind::table, check) {
         mounted = slots.mount().ok();
     }
 
@@ -72,30 +105,9 @@ struct Session {
         return length ? std::optional(bytes) : std::nullopt;
     }
 
-    void poll_while(Phase phase) {
-        for (int i = 0; slots.phase() == phase && i < 100'000; ++i) slots.poll();
-    }
-
-    /// In pieces of 8 bytes, as a client sends terms.
+    void poll_while(Phase phase) { store::poll_while(slots, phase); }
     Phase write(const Bytes& bytes, std::optional<std::uint32_t> crc = {}) {
-        if (!slots.begin()) return Phase::failed;
-        poll_while(Phase::erasing);
-        std::uint32_t at = 0;
-        for (int i = 0; at < bytes.size() && i < 1'000'000; ++i) {
-            const std::uint32_t count =
-                std::min<std::uint32_t>(8, static_cast<std::uint32_t>(bytes.size()) - at);
-            const auto status = slots.write(at, std::span(bytes).subspan(at, count));
-            if (status) {
-                at += count;
-            } else if (status.error() != base::Error::busy) {
-                return slots.phase();
-            }
-            slots.poll();
-        }
-        static_cast<void>(
-            slots.finish(static_cast<std::uint32_t>(bytes.size()), crc.value_or(base::crc32(bytes))));
-        poll_while(Phase::closing);
-        return slots.phase();
+        return store::write(slots, bytes, crc);
     }
 
     TableCheck check;

@@ -27,29 +27,25 @@ class Case(programs.Programs):
         expected = 1 if "broken" in verdicts else 4 if "undecided" in verdicts else 0
         if done.returncode != expected:
             raise AssertionError(f"exit code {done.returncode} with {verdicts}")
+        self.replay_all(self.path("t.bin"), document)
         return document
-
-    def replay(self, course):
-        """State after each scan of a course, before time is taken off, by nanoplc-sim."""
-        rows = [f"{s['dt_ms']},{s['inputs']},{s['inpos']},{s['error']}" for s in course]
-        stimulus = self.path("s.csv", ("\n".join(["dt_ms,inputs,inpos,error", *rows]) + "\n").encode())
-        done = subprocess.run([self.nanoplc_sim, "scan", self.path("t.bin"), "--stimulus", stimulus],
-                              capture_output=True, text=True, timeout=60, check=True)
-        return [[int(v) for v in line.split(",")[1:5]] for line in done.stdout.split("\n")[1:-1]]
 
 
 def image_of(scan):
     return scan["inputs"] | scan["inpos"] << 6 | scan["error"] << 7
 
 
-def judge_course(case, table, prop, course, explorer):
+def judge_course(case, prop, course, explorer, free):
     """Whether a course breaks the property (reaches it), played by nanoplc-sim and by the manual."""
     form, c, d, ms, _, e = prop
-    state, states = (0, 0, 0, 0), []
-    for scan, row in zip(course, case.replay(course), strict=True):
-        after = naive.scan(table, state, image_of(scan))
+    course = programs.expanded(course)
+    state, states, begun = explorer.off, [], []
+    for scan, row in zip(course, case.replayed(case.path("t.bin"), course), strict=True):
+        assert image_of(scan) & 0xC0 or explorer.possible(state) is explorer.images, "a move has ended by then"
+        begun.append(state)
+        after = explorer.scan(state, image_of(scan))
         states.append(after)
-        state = (after[0], after[1], max(0, after[2] - scan["dt_ms"]), after[3])
+        state = explorer.elapse(after, scan["dt_ms"])
         assert list(state[:1] + (state[2], state[3], state[1])) == row, (state, row)
     image = image_of(course[-1])
     if form in ("never", "reachable"):
@@ -57,13 +53,13 @@ def judge_course(case, table, prop, course, explorer):
     if form == "always":
         return not naive.holds(c, image, states[-1])
     if form in ("possible", "after"):
-        if explorer is None:
+        if not free:
             return True
         ways = explorer.ways_to(c)
         return (form == "possible" or naive.holds(d, image, states[-1])) and not naive.holds(c, image, states[-1]) and not any(
-            later in ways for later in explorer.elapsed(states[-1], explorer.longest))
+            later in ways for later in explorer.elapsed(states[-1]))
     if form not in ("whenever", "while"):
-        return judge_remembered(form, c, d, e, course, states)
+        return judge_remembered(form, c, d, e, course, states, begun)
     if form == "while":
         return held_too_long(c, d, ms, course, states)
     due = None
@@ -79,13 +75,11 @@ def judge_course(case, table, prop, course, explorer):
     return False
 
 
-def judge_remembered(form, c, d, e, course, states):
+def judge_remembered(form, c, d, e, course, states, begun):
     """Whether the last scan, and none before it, breaks the property."""
-    begun = [(0, 0, 0, 0)]
-    for scan, after in zip(course, states, strict=True):
-        begun.append((after[0], after[1], max(0, after[2] - scan["dt_ms"]), after[3]))
     values = [[naive.holds(x, image_of(scan), after) for x in (c, d, e)]
               for scan, after in zip(course, states, strict=True)]
+    began = [naive.holds(d, image_of(scan), before) for scan, before in zip(course, begun, strict=True)]
     broken, within = [], False
     off = [naive.holds(x, 0, begun[0]) for x in (c, d, e)]
     for k, (one, two, three) in enumerate(values):
@@ -95,6 +89,8 @@ def judge_remembered(form, c, d, e, course, states):
                        "stays": within and not three,
                        "changes": one != before[0] and not two and not before[1],
                        "scan": naive.holds(c, image_of(course[k]), begun[k]) and not two,
+                       "from": one and not any(began[:k + 1]),
+                       "both": one and not any(v[1] and w[2] for v, w in zip(values, values[1:k + 1])),
                        "followed": k > 0 and before[0] and two and not three}[form])
     return broken[-1] and not any(broken[:-1])
 
@@ -112,23 +108,29 @@ def held_too_long(c, d, ms, course, states):
     return False
 
 
-def check_any(case, table, properties, steps, report, explorer):
+def check_any(case, table, properties, report, explorer):
     begun = explorer.begun | {0}
     with_terms = {t[0] & 0x3F for t in table[:-1]}
-    assert set(report["unreachable"]) == {s for s in with_terms if s not in begun}, report["unreachable"]
+    unreachable = {s for s in with_terms if s not in begun}
+    if explorer.move_ms is None:
+        assert set(report["unreachable"]) == unreachable, report["unreachable"]
+    else:  # told without times
+        assert set(report["unreachable"]) <= unreachable, report["unreachable"]
     results = {r["name"]: r for r in report["results"] if "code" not in r}
     for number, prop in enumerate(properties):
         holds, shortest = explorer.verdict(prop[0], prop[1], prop[2], prop[5], prop[3])
         result = results[f"P{number}"]
+        if explorer.move_ms is not None and prop[0] in ("possible", "after") and result["verdict"] == "undecided":
+            continue
         assert result["verdict"] == ("proved" if holds else "broken"), (prop[4], result["verdict"])
         if shortest is None:
             assert "course" not in result
             continue
-        assert len(result["course"]) == shortest, (prop[4], len(result["course"]), shortest)
-        assert judge_course(case, table, prop, result["course"], explorer), prop[4]
+        assert len(programs.expanded(result["course"])) == shortest, (prop[4], result["course"], shortest)
+        assert judge_course(case, prop, result["course"], explorer, True), prop[4]
 
 
-def check_driver(case, table, properties, report, free):
+def check_driver(case, properties, report, free, explorer):
     """Each course of the driver's is one of `any`."""
     assert set(report["unreachable"]) >= set(free["unreachable"])
     results = {r["name"]: r for r in report["results"] if "code" not in r}
@@ -142,7 +144,7 @@ def check_driver(case, table, properties, report, free):
         elif prop[0] not in ("possible", "after"):
             assert (result["verdict"], other["verdict"]) != ("broken", "proved"), prop[4]
         if "course" in result:
-            assert judge_course(case, table, prop, result["course"], None), prop[4]
+            assert judge_course(case, prop, result["course"], explorer, False), prop[4]
     return [r["verdict"] for r in results.values()]
 
 
@@ -154,16 +156,19 @@ def main():
         case = Case(seqc, nanoplc_sim, folder)
         for number in range(cases):
             rng = random.Random(seed * 1_000_003 + number)
-            table, steps = random_cases.random_table(rng)
-            properties = random_cases.random_properties(rng, steps, PROPERTIES)
+            move_ms = rng.choice([1, 2, 4]) if number % 3 == 2 else None
+            table, steps = random_cases.random_table(rng, moves=move_ms is not None)
+            properties = random_cases.random_properties(rng, steps, PROPERTIES, moves=move_ms is not None)
             case.path("t.bin", b"".join(table))
             text = "\n".join(p[4] for p in properties)
+            if move_ms is not None:
+                text += f"\nASSUME moving ENDS WITHIN {move_ms} ms;"
             case.path("p.prop", text.encode())
             try:
-                explorer = naive.Naive(table, random_cases.images(), 3)
+                explorer = naive.Naive(table, random_cases.images(), 3, move_ms)
                 free = case.verify("any")
-                check_any(case, table, properties, steps, free, explorer)
-                verdicts += check_driver(case, table, properties, case.verify("driver"), free)
+                check_any(case, table, properties, free, explorer)
+                verdicts += check_driver(case, properties, case.verify("driver"), free, explorer)
             except AssertionError:
                 print(f"case {number} of seed {seed}:\n" + "\n".join(t.hex(" ") for t in table) + "\n" + text)
                 raise

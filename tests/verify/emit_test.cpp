@@ -70,14 +70,45 @@ TEST(Emit, WhatLinearTimeCannotSayIsLeftOutOfPromela) {
     EXPECT_TRUE(smt2_of(example(), asked).left_out.empty());
 }
 
+/// Step 0 orders POSITION(P1), 40h (001 §5.2.1.4), whatever inputs are.
+TEST(Emit, MovesAndAssumptionsArePartOfTheModel) {
+    const Bytes table = {0xC0, 0, 0, 0x01, 0x40, 0, 0, 0, 0x3F, 0, 0, 0, 0, 0, 0, 0};
+    const PropertyReading reading = read_properties(
+        "ASSUME NEVER IN0 AND IN1; ASSUME moving ENDS WITHIN 20 ms; PROPERTY P: NEVER moving AND IN0;", {});
+    const std::string promela = promela_of(table, reading.properties, reading.assumptions).text;
+    EXPECT_TRUE(contains(promela, "next_step = 1; motion = 1 /* to a place */; moved = 0 :: else fi;"));
+    EXPECT_TRUE(contains(promela, "      !(in0 && in1);\n"));
+    EXPECT_TRUE(contains(promela, "      (motion != 1 || moved <= 20 || inpos || error);\n"));
+    EXPECT_TRUE(contains(promela, "/* ASSUME moving ENDS WITHIN 20 ms */"));
+    const std::string clauses = smt2_of(table, reading.properties, reading.assumptions).text;
+    // Timer not running, counter 0, no input: to step 1, nothing preset, outputs 0 written, counter kept, 01.
+    EXPECT_TRUE(contains(
+        clauses, "(rule (Scan #b000000 #b0 #b1 #b00000000 #b000001 #b0 #b0 #b1 #b0000 #b00 #b0 #b01))"));
+    // To a place, INPOS seen, no ERROR, nothing ordered: it stands. With ERROR instead: disturbed.
+    EXPECT_TRUE(contains(clauses, "(rule (Turn #b01 #b1 #b0 #b11 #b00))"));
+    EXPECT_TRUE(contains(clauses, "(rule (Turn #b01 #b0 #b1 #b11 #b11))"));
+}
+
+TEST(Emit, WhatIsRememberedIsChosenFirst) {
+    const auto asked = properties("PROPERTY A: NEVER IN0; PROPERTY B: IN0 ONLY AFTER IN1;");
+    const std::string promela = promela_of(example(), asked).text;
+    EXPECT_TRUE(contains(promela, ":: watch = 1; kept_first = 0; kept_second = 0"));
+    EXPECT_TRUE(contains(promela, "#define bad_A (scanned && in0)"));
+    EXPECT_TRUE(contains(promela, "#define bad_B (scanned && watch == 1 && "));
+    EXPECT_TRUE(contains(smt2_of(example(), asked).text, "(declare-rel Watch_B "));
+    EXPECT_FALSE(contains(smt2_of(example(), asked).text, "Watch_A"));
+}
+
 /// Step 0, timer not running, counter 0, of the image only ERROR's bit, which the property names: to step 2,
-/// timer running, outputs 5 written, counter kept.
+/// timer preset and so running, outputs 5 written, counter and motion kept.
 TEST(Emit, ClausesSayWhatAScanDoes) {
     const Emission clauses = smt2_of(example(), properties("PROPERTY P: NEVER ERROR;"));
-    EXPECT_TRUE(contains(clauses.text,
-                         "(rule (Scan #b000000 #b0 #b1 #b00000000 #b000010 #b1 #b1 #b0101 #b00 #b0))\n"));
-    EXPECT_TRUE(contains(clauses.text,
-                         "(rule (Scan #b000000 #b0 #b1 #b10000000 #b000000 #b0 #b0 #b0000 #b00 #b0))\n"));
+    EXPECT_TRUE(
+        contains(clauses.text,
+                 "(rule (Scan #b000000 #b0 #b1 #b00000000 #b000010 #b1 #b1 #b1 #b0101 #b00 #b0 #b11))\n"));
+    EXPECT_TRUE(
+        contains(clauses.text,
+                 "(rule (Scan #b000000 #b0 #b1 #b10000000 #b000000 #b0 #b0 #b0 #b0000 #b00 #b0 #b11))\n"));
     EXPECT_FALSE(contains(clauses.text, "(rule (Scan #b000000 #b0 #b1 #b10000000 #b000010"));
     EXPECT_TRUE(contains(clauses.text, "(echo \"P\")\n(query Bad_P)\n"));
 }
@@ -89,7 +120,7 @@ TEST(Emit, CounterIsClearedPresetOrCountedDown) {
                              0xC1, 0, 0, 0x7E, 0x80, 0,      3,      0,  // so that there are two bits
                              0x3F, 0, 0, 0,    0,    0,      0,      0};
         const std::string text = smt2_of(table, {}).text;
-        const std::string scan = "(rule (Scan #b000000 #b0 #b0 #b00000000 #b000000 #b0 #b1 #b0000 ";
+        const std::string scan = "(rule (Scan #b000000 #b0 #b0 #b00000000 #b000000 #b0 #b0 #b1 #b0000 ";
         const std::size_t at = text.find(scan);
         return at == std::string::npos ? std::string() : text.substr(at + scan.size(), 9);
     };

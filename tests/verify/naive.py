@@ -4,11 +4,12 @@ from collections import deque
 from dataclasses import dataclass
 
 INPOS, ERROR = 0x40, 0x80
+STANDS, TO_PLACE, ENDLESS, DISTURBED = range(4)  # what was ordered of the motor; DISTURBED: to a place, and ERROR was seen
 
 
 def scan(table, state, image):
     """State after the scan's commands: step, outputs, timer, counter."""
-    step, outputs, timer, counter = state
+    step, outputs, timer, counter = state[:4]
     next_step, out_byte, timer_preset, counter_preset = None, None, 0, 0
     for term in table:
         if term[0] & 0x3F == 0x3F:
@@ -47,8 +48,19 @@ def scan(table, state, image):
     return step, outputs, timer, counter
 
 
+def orders(table, state, image):
+    """FastMAC commands of the terms that are true."""
+    for term in table:
+        if term[0] & 0x3F == 0x3F:
+            return
+        waits = (not term[0] & 0x80 and state[2]) or (not term[0] & 0x40 and state[3])
+        compared = (term[2] & 0x7F) | 0x80
+        if term[0] & 0x3F == state[0] and not waits and not (term[1] ^ image) & compared and not term[2] & 0x80:
+            yield term[4]
+
+
 def holds(condition, image, state):
-    """A condition as a tree: ("in", bit), ("out", bit), ("timer",), ("counter",), ("step", n), ("not", x),
+    """A condition as a tree: ("in", bit), ("out", bit), ("timer",), ("counter",), ("step", n), ("moving",), ("not", x),
     ("and"|"or"|"xor", x, y)."""
     kind = condition[0]
     if kind == "in":
@@ -59,6 +71,8 @@ def holds(condition, image, state):
         return state[2] == 0
     if kind == "counter":
         return state[3] == 0
+    if kind == "moving":
+        return state[4] != STANDS
     if kind == "step":
         return state[0] == condition[1]
     if kind == "not":
@@ -75,33 +89,62 @@ class Scan:
 
 
 class Naive:
-    """All scans that can be, with everything free (`any`). Times up to the longest preset are tried."""
+    """All scans that can be, with everything free (`any`). Times up to the longest preset are tried. With `move_ms` a move to
+    a place ends within it, and states have two more parts: what was ordered of the motor, and for how long it has moved."""
 
-    def __init__(self, table, images, longest):
-        self.table, self.images = table, images
+    def __init__(self, table, images, longest, move_ms=None):
+        self.table, self.images, self.move_ms = table, images, move_ms
+        self.longest = longest
         self.scans = {}  # (image, state after) -> depth
         self.after = {}  # state before a scan -> {(image, state after)}
-        start = (0, 0, 0, 0)
+        start = self.off = (0, 0, 0, 0) if move_ms is None else (0, 0, 0, 0, STANDS, 0)
         depth = {start: 0}
         queue = deque([start])
         while queue:
             state = queue.popleft()
             self.after[state] = set()
-            for image in images:
-                done = scan(table, state, image)
+            for image in self.possible(state):
+                done = self.scan(state, image)
                 self.after[state].add((image, done))
                 self.scans.setdefault((image, done), depth[state] + 1)
-                for later in self.elapsed(done, longest):
+                for later in self.elapsed(done):
                     if later not in depth:
                         depth[later] = depth[state] + 1
                         queue.append(later)
-        self.longest = longest
         self.begun = {state[0] for state in self.after}
 
-    @staticmethod
-    def elapsed(state, longest):
-        step, outputs, timer, counter = state
-        return {(step, outputs, max(0, timer - ms), counter) for ms in range(min(timer, longest) + 1)}
+    def scan(self, state, image):
+        done = scan(self.table, state, image)
+        if self.move_ms is None:
+            return done
+        motion, moved = state[4:]
+        if motion in (TO_PLACE, DISTURBED) and image & INPOS:
+            motion = STANDS
+        elif motion == TO_PLACE and image & ERROR:
+            motion = DISTURBED
+        for command in orders(self.table, state, image):
+            if command == 0x40:  # POSITION(P1)
+                motion, moved = TO_PLACE, 0
+            elif command == 0x28:  # VELOCITY(V1)
+                motion = ENDLESS
+            elif command == 0x65:  # STOP
+                motion = STANDS
+        return (*done, motion, moved if motion == TO_PLACE else 0)
+
+    def possible(self, state):
+        """Images with which a scan can begin there."""
+        if self.move_ms is None or state[4] != TO_PLACE or state[5] <= self.move_ms:
+            return self.images
+        return [image for image in self.images if image & (INPOS | ERROR)]
+
+    def elapse(self, state, ms):
+        step, outputs, timer, counter, *move = state
+        if move and move[0] == TO_PLACE:
+            move[1] = min(move[1] + ms, self.move_ms + 1)
+        return (step, outputs, max(0, timer - ms), counter, *move)
+
+    def elapsed(self, state):
+        return {self.elapse(state, ms) for ms in range(max(self.longest, (self.move_ms or 0) + 1) + 1)}
 
     def first(self, wanted):
         """Least number of scans to one that `wanted` takes; None if there is none."""
@@ -110,15 +153,15 @@ class Naive:
     def broken_after(self, begin, step):
         """Least number of scans after which `step` says that they break what it watches; None if none do. It takes what
         is remembered, the state before a scan, its image and the state after it, and answers (broken, remembered)."""
-        queue, seen = deque([((0, 0, 0, 0), begin, 0)]), {((0, 0, 0, 0), begin)}
+        queue, seen = deque([(self.off, begin, 0)]), {(self.off, begin)}
         while queue:
             state, memory, depth = queue.popleft()
-            for image in self.images:
-                done = scan(self.table, state, image)
+            for image in self.possible(state):
+                done = self.scan(state, image)
                 broken, after = step(memory, state, image, done)
                 if broken:
                     return depth + 1
-                for later in self.elapsed(done, self.longest):
+                for later in self.elapsed(done):
                     if (later, after) not in seen:
                         seen.add((later, after))
                         queue.append((later, after, depth + 1))
@@ -126,16 +169,16 @@ class Naive:
 
     def held_too_long(self, c, d, ms):
         """The same for c while d has held for `ms`: the time is counted up to `ms`, from each scan on where d begins."""
-        queue, seen = deque([((0, 0, 0, 0), None, 0)]), {((0, 0, 0, 0), None)}
+        queue, seen = deque([(self.off, None, 0)]), {(self.off, None)}
         while queue:
             state, held, depth = queue.popleft()
-            for image in self.images:
-                done = scan(self.table, state, image)
+            for image in self.possible(state):
+                done = self.scan(state, image)
                 now = (held or 0) if holds(d, image, done) else None
                 if held is not None and now is not None and held >= ms and holds(c, image, done):
                     return depth + 1
-                for dt in range(max(ms, self.longest) + 1):
-                    later = (done[0], done[1], max(0, done[2] - dt), done[3])
+                for dt in range(max(ms, self.longest, (self.move_ms or 0) + 1) + 1):
+                    later = self.elapse(done, dt)
                     after = None if now is None else min(ms, now + dt)
                     if (later, after) not in seen:
                         seen.add((later, after))
@@ -159,13 +202,21 @@ class Naive:
         def scan_ends(_, state, image, done):
             return holds(c, image, state) and not holds(d, image, done), None
 
+        def only_from(seen, state, image, done):
+            now = seen or holds(d, image, state)
+            return holds(c, image, done) and not now, now
+
+        def only_both(memory, _, image, done):
+            seen, before = memory
+            now = seen or (before and holds(e, image, done))
+            return holds(c, image, done) and not now, (now, holds(d, image, done))
+
         def followed(before, _, image, done):
             return before and holds(d, image, done) and not holds(e, image, done), holds(c, image, done)
 
-        off = (0, 0, 0, 0)
-        begin = (holds(c, 0, off), holds(d, 0, off)) if form == "changes" else False
+        begin = (holds(c, 0, self.off), holds(d, 0, self.off)) if form == "changes" else (False, False) if form == "both" else False
         return self.broken_after(begin, {"only": only_after, "stays": stays, "changes": changes, "scan": scan_ends,
-                                         "followed": followed}[form])
+                                         "followed": followed, "from": only_from, "both": only_both}[form])
 
     def verdict(self, form, c, d=None, e=None, ms=0):
         """Whether the property holds, and the least number of scans that show that it does not (that it does, for
@@ -178,7 +229,7 @@ class Naive:
             shortest = self.first(lambda i, s: holds(c, i, s) and not holds(d, i, s))
         elif form == "while":
             shortest = self.held_too_long(c, d, ms)
-        elif form in ("only", "stays", "changes", "scan", "followed"):
+        elif form in ("only", "stays", "changes", "scan", "followed", "from", "both"):
             shortest = self.remembered(form, c, d, e)
         elif form == "reachable":
             shortest = self.first(lambda i, s: holds(c, i, s))
@@ -186,7 +237,7 @@ class Naive:
         else:
             ways = self.ways_to(c)
             shortest = self.first(lambda i, s: (form == "possible" or holds(d, i, s)) and not holds(c, i, s)
-                                  and not any(e in ways for e in self.elapsed(s, self.longest)))
+                                  and not any(e in ways for e in self.elapsed(s)))
         return shortest is None, shortest
 
     def ways_to(self, c):
@@ -194,7 +245,7 @@ class Naive:
         ways = {s for s, after in self.after.items() if any(holds(c, i, e) for i, e in after)}
         while True:
             more = {s for s, after in self.after.items() if s not in ways
-                    and any(e in ways for _, end in after for e in self.elapsed(end, self.longest))}
+                    and any(e in ways for _, end in after for e in self.elapsed(end))}
             if not more:
                 return ways
             ways |= more

@@ -69,6 +69,8 @@ TEST(Property, EveryFormIsRead) {
     EXPECT_EQ(only("PROPERTY P: BETWEEN step = Push AND step = Idle Clamp STAYS on;").form, Form::stays);
     EXPECT_EQ(only("PROPERTY P: Clamp CHANGES ONLY IN step = Idle;").form, Form::changes_only_in);
     EXPECT_EQ(only("PROPERTY P: Clamp ONLY AFTER IN0 OR IN1;").form, Form::only_after);
+    EXPECT_EQ(only("PROPERTY P: Clamp ONLY AFTER IN0 FOLLOWED BY IN1;").form, Form::only_after_both);
+    EXPECT_EQ(only("PROPERTY P: Clamp ONLY FROM step = Push AND IN0;").form, Form::only_from);
     EXPECT_EQ(only("PROPERTY P: EVERY_SCAN FROM step = Idle AND IN0 ENDS IN step = Push;").form,
               Form::scan_ends);
     EXPECT_EQ(only("PROPERTY P: WHENEVER IN0 THEN IN1 WITHIN T#1s500ms;").within_ms, 1500U);
@@ -77,15 +79,19 @@ TEST(Property, EveryFormIsRead) {
 
 TEST(Property, AssumptionsAreOfInputs) {
     const PropertyReading reading = read_properties(
-        "ASSUME Start STABLE FOR 50 ms; ASSUME NEVER Start AND Door; ASSUME NEVER ERROR;", names());
+        "ASSUME Start STABLE FOR 50 ms; ASSUME NEVER Start AND Door; ASSUME NEVER ERROR;"
+        "ASSUME moving ENDS WITHIN 2 s;",
+        names());
     EXPECT_EQ(reading.error, "");
-    ASSERT_EQ(reading.assumptions.size(), 3U);
+    ASSERT_EQ(reading.assumptions.size(), 4U);
+    EXPECT_EQ(reading.assumptions[3].move_ms, 2000U);
     EXPECT_EQ(reading.assumptions[0].stable_ms, 50U);
     EXPECT_EQ(reading.assumptions[1].text, "ASSUME NEVER Start AND Door");
     EXPECT_TRUE(holds(reading.assumptions[2].never, 0x80, {}));
-    for (const char* wrong :
-         {"ASSUME NEVER Clamp;", "ASSUME NEVER step = Idle;", "ASSUME Clamp STABLE FOR 5 ms;",
-          "ASSUME NEVER moving;", "ASSUME Start STABLE;", "ASSUME Start;"})
+    for (const char* wrong : {"ASSUME NEVER Clamp;", "ASSUME NEVER step = Idle;",
+                              "ASSUME Clamp STABLE FOR 5 ms;", "ASSUME NEVER moving;", "ASSUME Start STABLE;",
+                              "ASSUME Start;", "ASSUME moving ENDS;", "ASSUME moving ENDS WITHIN 0 ms;",
+                              "ASSUME Start ENDS WITHIN 2 s;", "ASSUME moving STABLE FOR 2 s;"})
         EXPECT_NE(read_properties(wrong, names()).error, "") << wrong;
 }
 

@@ -10,35 +10,40 @@ def images():
     return result
 
 
-def random_term(rng, steps):
+def random_term(rng, steps, moves):
     timer_bit, counter_bit = rng.random() < 0.7, rng.random() < 0.7
     state = rng.randrange(steps) | (0x80 if timer_bit else 0) | (0x40 if counter_bit else 0)
     care = sum(1 << bit for bit in IN if bit != 7 and rng.random() < 0.4)
     wanted = sum(1 << bit for bit in IN if rng.random() < (0.15 if bit == 7 else 0.5))
     if rng.random() < 0.1:
-        return bytes([state, wanted, care | 0x80, rng.randrange(1, 128), rng.randrange(256), 0, 0, 0])
+        register = rng.randrange(40, 128) if moves else rng.randrange(1, 128)  # none that moves the motor or stops it
+        return bytes([state, wanted, care | 0x80, register, rng.randrange(256), 0, 0, 0])
     next_step = rng.choice([0x3E, *range(steps), *range(steps)])
     counter_preset = rng.random() < 0.5
     preset = rng.choice([0, 0, 1, 2, 3])
     command = 0x61 if rng.random() < 0.2 else 0x80
+    if moves and rng.random() < 0.4:
+        command = rng.choice([0x40, 0x40, 0x28, 0x65])  # POSITION(P1), VELOCITY(V1), STOP
     output = rng.randrange(4) | (0x40 if rng.random() < 0.1 else 0) | (0x80 if rng.random() < 0.3 else 0)
     return bytes([state, wanted, care, next_step | (0x40 if counter_preset else 0), command, output, preset, 0])
 
 
-def random_table(rng):
+def random_table(rng, moves=False):
     steps = rng.randint(2, 5)
-    terms = [random_term(rng, steps) for _ in range(rng.randint(steps, 4 * steps))]
+    terms = [random_term(rng, steps, moves) for _ in range(rng.randint(steps, 4 * steps))]
     return terms + [bytes([0x3F, 0, 0, 0, 0, 0, 0, 0])], steps
 
 
-def random_condition(rng, steps, depth=2):
+def random_condition(rng, steps, moves=False, depth=2):
+    if moves and rng.random() < 0.1:
+        return ("moving",)
     if depth == 0 or rng.random() < 0.3:
         return rng.choice([("in", rng.choice(IN)), ("out", rng.randrange(2)), ("timer",), ("counter",),
                            ("step", rng.randrange(steps)), ("step", rng.randrange(steps))])
     kind = rng.choice(["not", "and", "and", "or", "xor"])
     if kind == "not":
-        return (kind, random_condition(rng, steps, depth - 1))
-    return (kind, random_condition(rng, steps, depth - 1), random_condition(rng, steps, depth - 1))
+        return (kind, random_condition(rng, steps, moves, depth - 1))
+    return (kind, random_condition(rng, steps, moves, depth - 1), random_condition(rng, steps, moves, depth - 1))
 
 
 def text_of(condition):
@@ -49,6 +54,8 @@ def text_of(condition):
         return f"OUT{condition[1]}"
     if kind == "step":
         return f"step = {condition[1]}"
+    if kind == "moving":
+        return kind
     if kind in ("timer", "counter"):
         return f"{kind.upper()}.Q"
     if kind == "not":
@@ -63,19 +70,20 @@ def text_of_form(form, c, d, e, ms):
             "after": f"AFTER {two} ALWAYS POSSIBLE {one}", "while": f"NEVER {one} WHILE {two} FOR {ms} ms",
             "only": f"{one} ONLY AFTER {two}", "stays": f"BETWEEN ({one}) AND ({two}) {three} STAYS ON",
             "changes": f"{one} CHANGES ONLY IN {two}", "scan": f"EVERY_SCAN FROM {one} ENDS IN {two}",
-            "followed": f"WHENEVER {one} FOLLOWED BY {two} THEN {three}"}[form]
+            "followed": f"WHENEVER {one} FOLLOWED BY {two} THEN {three}", "from": f"{one} ONLY FROM {two}",
+            "both": f"{one} ONLY AFTER {two} FOLLOWED BY {three}"}[form]
 
 
 BASIC = ["never", "always", "reachable", "possible", "whenever"]
-FORMS = [*BASIC, "after", "while", "only", "stays", "changes", "scan", "followed"]
+FORMS = [*BASIC, "after", "while", "only", "stays", "changes", "scan", "followed", "from", "both"]
 
 
-def random_properties(rng, steps, count, forms=tuple(FORMS)):
+def random_properties(rng, steps, count, forms=tuple(FORMS), moves=False):
     """(form, c, d, milliseconds, text, e)"""
     result = []
     for number in range(count):
         form = rng.choice(forms)
-        c, d, e = (random_condition(rng, steps) for _ in range(3))
+        c, d, e = (random_condition(rng, steps, moves) for _ in range(3))
         ms = rng.choice([1, 2, 5] if form == "while" else [0, 1, 2, 5, 20])
         result.append((form, c, d, ms, f"PROPERTY P{number}: {text_of_form(form, c, d, e, ms)};", e))
     return result

@@ -27,6 +27,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 BUILD = os.path.join(HERE, "..", "..", "build")
 LINES = 8
 LONGEST = 400  # seconds of any wait: generous, for the machine that this runs on may be busy
+PATIENCE = "20000"  # ms of a client for each answer, likewise
 
 _PL061 = 0x9030000
 # Names for some lines, the last one twice.

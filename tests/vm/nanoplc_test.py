@@ -40,6 +40,7 @@ port = "/dev/ttyS0"
 port = "/dev/ttyS1"
 [axis.settings]
 motor_silence = 200
+poll_limit = 1000000
 """
 # Starts it again whatever ends it, until the file `stop` is there; the files `kill` and `term` are signals, `away` and
 # `back` take the driver of the lines and give it back, and the kernel gives the chip another number then. `used` asks for
@@ -101,12 +102,12 @@ class Machine:
         self.hand.set_input(self.lines[name], level)
 
     def status(self):
-        done = subprocess.run([self.nanoctl, "--port", self.port, "--patience", "2000", "--json", "status"], capture_output=True,
+        done = subprocess.run([self.nanoctl, "--port", self.port, "--patience", board.PATIENCE, "--json", "status"], capture_output=True,
                               text=True, timeout=board.LONGEST, check=False)
         return json.loads(done.stdout.splitlines()[-1])
 
     def ctl(self, *arguments):
-        subprocess.run([self.nanoctl, "--port", self.port, "--patience", "2000", *arguments], timeout=board.LONGEST, check=True,
+        subprocess.run([self.nanoctl, "--port", self.port, "--patience", board.PATIENCE, *arguments], timeout=board.LONGEST, check=True,
                        stdout=subprocess.DEVNULL)
 
     def acknowledge(self):

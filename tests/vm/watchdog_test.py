@@ -32,7 +32,7 @@ port = "/dev/ttyS0"
 [axis.user]
 port = "/dev/ttyS1"
 """
-# The files `freeze` and `again` are wishes: that the program hangs, and that it ends in order and starts again.
+# The files `freeze` and `again` are requests: that the program hangs, and that it ends in order and starts again.
 SCRIPT = """
 modprobe -a virtio_blk crc32c_generic ext4 || exit 1
 mkdir /disk
@@ -75,7 +75,7 @@ class Power:
         self.vm.__exit__(*cause)
         self.listener.close()
 
-    def wish(self, name):
+    def request(self, name):
         with open(os.path.join(self.share, name), "w", encoding="utf-8"):
             pass
 
@@ -86,8 +86,9 @@ class Power:
             time.sleep(0.1)
 
     def expect(self, state, reason):
-        done = subprocess.run([self.nanoctl, "--port", "unix:" + self.port, "--patience", "3000", "--json", "status"],
-                              capture_output=True, text=True, timeout=board.LONGEST, check=True)
+        done = subprocess.run([self.nanoctl, "--port", "unix:" + self.port, "--patience", board.PATIENCE, "--json", "status"],
+                              capture_output=True, text=True, timeout=board.LONGEST, check=False)
+        assert done.returncode == 0, done
         status = json.loads(done.stdout)
         assert (status["state"], status["safe_reason"]) == (state, reason), status
 
@@ -109,13 +110,13 @@ def run(phases, share, nanoctl):
         power.vm.wait("no watchdog says that it did this: a power cut")
         power.expect("waiting for the motor", "not started")
         phases.say("it has started by itself; now it hangs")
-        power.wish("freeze")
+        power.request("freeze")
         power.vm.wait("x: a watchdog has reset the board")
         power.vm.wait("x: SAFE: the last run did not end in order")
         power.starts(2)
         power.expect("stopped", "watchdog")
         phases.say("the watchdog's reset is known as one")
-        power.wish("again")
+        power.request("again")
         power.starts(3)
         power.expect("waiting for the motor", "not started")
         phases.say("after an orderly end in the same boot it starts by itself")

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <iostream>
 
+#include "arguments/commit.h"
+
 namespace nplc::arguments {
 namespace {
 
@@ -171,7 +173,7 @@ Option* App::add_flag(const std::string& name, bool& variable, const std::string
 }
 
 void App::set_version_flag(const std::string& name, const std::string& text) {
-    parts_->app->set_version_flag(name, text);
+    parts_->app->set_version_flag(name, text + " (commit " + std::string(commit()) + ")");
 }
 
 App* App::add_subcommand(const std::string& name, const std::string& description) {

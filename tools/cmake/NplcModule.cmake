@@ -19,6 +19,7 @@ option(NPLC_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer
 option(NPLC_TESTS "Build the tests" ON)
 option(NPLC_BOARD_TESTS "Build the tests that run on the virtual board of tests/vm" OFF)
 option(NPLC_STATIC "Link programs statically, and strip them" OFF)
+option(NPLC_COVERAGE "Count the lines and branches of the core that run (tools/coverage)" OFF)
 option(NPLC_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
 option(NPLC_UNITY "Compile several files of a tool or a test at once: half the time for a build from nothing" ON)
 option(NPLC_COMMON_HEADERS "Compile what most host files include once (g++ only)" ON)
@@ -27,6 +28,15 @@ if(CMAKE_SYSTEM_NAME STREQUAL "Generic")
   set(NPLC_HOSTED OFF)
 else()
   set(NPLC_HOSTED ON)
+endif()
+
+# Hosts always keep set-points.
+if(NOT NPLC_HOSTED)
+  option(NPLC_SET_POINTS "Keep set-points, 16 values and 4 recipes: up to 4 KiB of flash and 4 KiB of RAM more" OFF)
+  option(NPLC_MODBUS "Speak Modbus RTU beside MacTalk on the user's port: up to 4 KiB of flash and 1 KiB of RAM more" OFF)
+  option(NPLC_UPDATE "Renew the firmware over the user's port, with a loader and two slots" OFF)
+  add_compile_definitions(NPLC_UPDATE=$<BOOL:${NPLC_UPDATE}>)
+  add_compile_definitions(NPLC_SET_POINTS=$<BOOL:${NPLC_SET_POINTS}> NPLC_RECIPES=4 NPLC_MODBUS=$<BOOL:${NPLC_MODBUS}>)
 endif()
 
 add_library(nplc_options INTERFACE)
@@ -51,6 +61,10 @@ if(NPLC_STATIC)
   add_link_options(-static -s)
 endif()
 if(NPLC_SANITIZE)
+  # A part that goes into a library (host-sim/fmu) reaches the sanitizers' own data as that of another library.
+  string(TOUPPER "${CMAKE_BUILD_TYPE}" configuration)
+  string(APPEND CMAKE_CXX_FLAGS_${configuration} " -fPIC")
+  target_compile_options(nplc_options INTERFACE -fno-semantic-interposition)
   target_compile_options(nplc_options INTERFACE -fsanitize=address,undefined -fno-sanitize=vptr -fno-sanitize-recover=all
                                                 -fno-omit-frame-pointer)
   target_link_options(nplc_options INTERFACE -fsanitize=address,undefined)
@@ -59,6 +73,10 @@ if(NPLC_FUZZ)
   target_compile_options(nplc_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize=vptr
                                                 -fno-sanitize-recover=all)
   target_link_options(nplc_options INTERFACE -fsanitize=address,undefined)
+endif()
+if(NPLC_COVERAGE)
+  target_link_options(nplc_options INTERFACE --coverage)
+  set(NPLC_CORE_COVERAGE --coverage -O0 -fprofile-update=atomic)
 endif()
 
 # Whole machines run for minutes of virtual time in the tests: what they consist of is optimised with the sanitizers too.
@@ -81,7 +99,7 @@ function(_nplc_module name)
 endfunction()
 
 function(nplc_core_module name)
-  _nplc_module(${name} ${ARGN} OPTIONS -fno-exceptions -fno-rtti ${NPLC_BUSY_OPTIONS})
+  _nplc_module(${name} ${ARGN} OPTIONS -fno-exceptions -fno-rtti ${NPLC_BUSY_OPTIONS} ${NPLC_CORE_COVERAGE})
   set_property(GLOBAL APPEND PROPERTY NPLC_CORE_MODULES nplc_${name})
 endfunction()
 

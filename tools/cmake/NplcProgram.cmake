@@ -46,16 +46,17 @@ function(nplc_program_documents name)
     set(folder "${CMAKE_INSTALL_SBINDIR}")
   endif()
   set(generated "${CMAKE_CURRENT_BINARY_DIR}/generated")
-  add_custom_command(OUTPUT "${generated}/${name}.${section}" "${generated}/${name}" "${generated}/_${name}"
+  add_custom_command(OUTPUT "${generated}/${name}.${section}.gz" "${generated}/${name}" "${generated}/_${name}"
     COMMAND ${CMAKE_COMMAND} -E make_directory "${generated}"
     COMMAND ${name} man > "${generated}/${name}.${section}"
+    COMMAND gzip --best --no-name --force --keep "${generated}/${name}.${section}"
     COMMAND ${name} completion bash > "${generated}/${name}"
     COMMAND ${name} completion zsh > "${generated}/_${name}"
     DEPENDS ${name} VERBATIM)
-  add_custom_target(${name}_generated ALL DEPENDS "${generated}/${name}.${section}")
+  add_custom_target(${name}_generated ALL DEPENDS "${generated}/${name}.${section}.gz")
 
   install(TARGETS ${name} RUNTIME DESTINATION "${folder}" COMPONENT ${name})
-  install(FILES "${generated}/${name}.${section}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man${section}" COMPONENT ${name})
+  install(FILES "${generated}/${name}.${section}.gz" DESTINATION "${CMAKE_INSTALL_MANDIR}/man${section}" COMPONENT ${name})
   install(FILES "${generated}/${name}" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
           COMPONENT ${name})
   install(FILES "${generated}/_${name}" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions" COMPONENT ${name})

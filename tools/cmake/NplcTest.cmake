@@ -3,7 +3,7 @@
 # Makes program test_NAME of GoogleTest cases and gives every case to CTest as NAME.Suite.Case; with sanitizers, where
 # each start takes long, all of them as two tests NAME.1 and NAME.2. Tier `quick` (the default) is what one runs while working; `full`
 # cases run in the full test run only. Tests are optimised little, which halves the time to compile them; FAST ones,
-# which compute much themselves, are optimised as the rest is. Built for another processor they are no tests of CTest's:
+# which compute much themselves, are optimised as the rest is, and begin first, so that none is left alone at the end. Built for another processor they are no tests of CTest's:
 # tests/emulated runs them.
 
 # tools/test runs four tests a core, since many wait for real time. What computes all the time says PROCESSORS, what builds
@@ -11,6 +11,7 @@
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
 set(NPLC_CORE 4)
 set(NPLC_PARTS 2)  # of a test program with sanitizers
+set(NPLC_LONG_FIRST 200)  # COST of what computes for long
 math(EXPR NPLC_ALL_PLACES "${NPLC_CORE} * ${cores}")
 
 find_package(GTest)
@@ -25,7 +26,7 @@ add_library(nplc_test_headers OBJECT "${CMAKE_BINARY_DIR}/tests/common_headers.c
 target_link_libraries(nplc_test_headers PRIVATE nplc_options GTest::gtest)
 target_precompile_headers(nplc_test_headers PRIVATE <gtest/gtest.h> <algorithm> <array> <chrono> <cstdint> <deque>
   <functional> <map> <optional> <set> <span> <string> <string_view> <vector>)
-target_compile_options(nplc_test_headers PRIVATE $<$<CONFIG:Release>:-O1> -fpch-preprocess)
+target_compile_options(nplc_test_headers PRIVATE $<$<CONFIG:Release>:-Og> -fpch-preprocess)
 
 add_custom_target(unit_tests)
 
@@ -37,7 +38,7 @@ function(nplc_test name)
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} nplc_options GTest::gtest_main)
   if(NOT ARG_FAST)
-    target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O1> -fpch-preprocess)
+    target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-Og> -fpch-preprocess)
     target_precompile_headers(test_${name} REUSE_FROM nplc_test_headers)
   endif()
   nplc_compile_together(test_${name})
@@ -46,23 +47,27 @@ function(nplc_test name)
   if(CMAKE_CROSSCOMPILING)
     return()
   endif()
+  set(cost 0)
+  if(ARG_FAST OR ARG_TIER STREQUAL "full")
+    set(cost ${NPLC_LONG_FIRST})
+  endif()
   if(NPLC_SANITIZE)
     foreach(part RANGE 1 ${NPLC_PARTS})
       math(EXPR index "${part} - 1")
       add_test(NAME ${name}.${part} COMMAND test_${name} --gtest_brief=1)
-      set_tests_properties(${name}.${part} PROPERTIES LABELS ${ARG_TIER} TIMEOUT 1200
+      set_tests_properties(${name}.${part} PROPERTIES LABELS ${ARG_TIER} TIMEOUT 1200 COST ${cost}
                            ENVIRONMENT "GTEST_TOTAL_SHARDS=${NPLC_PARTS};GTEST_SHARD_INDEX=${index}")
     endforeach()
     return()
   endif()
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES
-    PROPERTIES LABELS ${ARG_TIER} TIMEOUT 600)
+    PROPERTIES LABELS ${ARG_TIER} TIMEOUT 600 COST ${cost})
 endfunction()
 
 # nplc_script_test(NAME SCRIPT [ARGUMENT...] [TIER quick|full] [SPLIT])
 #
 # Gives tests/FOLDER/SCRIPT.py ARGUMENT... to CTest as NAME. SPLIT: each of its cases as a test of its own,
-# NAME.Class.test, named to the script behind its arguments. Those wait most of their time, so they begin first.
+# NAME.Class.test, named to the script behind its arguments. Those wait most of their time, so they begin early.
 function(nplc_script_test name script)
   cmake_parse_arguments(ARG "SPLIT" "TIER" "" ${ARGN})
   if(NOT ARG_TIER)

@@ -17,8 +17,9 @@
 namespace nplc::command_line {
 namespace {
 
-std::string port_variable(const Common& common) {
-    std::string name = common.program + "_PORT";
+/// Of the environment: NANOCTL_PORT.
+std::string variable(const Common& common, const std::string& what) {
+    std::string name = common.program + "_" + what;
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     return name;
@@ -83,7 +84,7 @@ Failure::Failure(int exit_code, const std::string& what, const Json& details)
 void add_line_options(arguments::App& app, Common& common, const std::string& of_whom) {
     app.fallthrough();
     app.add_option("--port", common.port, fmt::format("Where {} is", of_whom))
-        ->envname(port_variable(common));
+        ->envname(variable(common, "PORT"));
     app.add_option("--baud", common.baud, "Speed of the line")
         ->capture_default_str()
         ->each([&common](const std::string&) { common.has_baud = true; });
@@ -92,6 +93,12 @@ void add_line_options(arguments::App& app, Common& common, const std::string& of
         ->capture_default_str()
         ->in_range(1, 60'000);
     app.add_flag("--json", common.json, "Print JSON documents, one a line");
+}
+
+void add_password_option(arguments::App& app, Common& common) {
+    app.add_option("--password-file", common.password_file,
+                   "A file whose first line a gateway's port wants before it takes changes")
+        ->envname(variable(common, "PASSWORD_FILE"));
 }
 
 arguments::App& add_command(arguments::App& app, const std::string& name, const std::string& text) {
@@ -114,8 +121,8 @@ int run(arguments::App& app, Common& common, int argc, char** argv) {
 
 std::unique_ptr<host::ByteClient> open_port(const Common& common, host::ByteClient::Holding holding) {
     if (common.port.empty())
-        throw UserError(
-            fmt::format("no port; name one with --port or in the environment's {}", port_variable(common)));
+        throw UserError(fmt::format("no port; name one with --port or in the environment's {}",
+                                    variable(common, "PORT")));
     // A serial line says by itself what it can; a socket would take anything for the time that messages take.
     const bool socket = host::Endpoint(common.port).is_socket();
     if (socket && std::find(kSpeeds.begin(), kSpeeds.end(), common.baud) == kSpeeds.end())

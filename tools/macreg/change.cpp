@@ -11,6 +11,8 @@
 
 namespace nplc::macreg {
 
+namespace gw = registers::gateway;
+
 using mactalk_client::LineError;
 using registers::Access;
 using registers::Model;
@@ -33,16 +35,6 @@ constexpr std::int64_t kNoise = 8;
 constexpr std::int64_t kAtResetOnly = 0b1'1111;
 
 constexpr const char* kUpset = "a wrong value may damage the motor or upset its control";
-
-std::int64_t mask(Model model, std::uint8_t number, std::string_view bit) {
-    const registers::Field* field = registers::field_of(model, number, bit);
-    return field != nullptr ? static_cast<std::int64_t>(registers::mask_of(*field)) : 0;
-}
-
-/// `small` is the bit's name in 001, `large` in 004.
-std::int64_t control_bit(Model model, std::string_view small, std::string_view large) {
-    return mask(model, registers::CNTRL_BITS, model == Model::mac800 ? large : small);
-}
 
 std::int64_t last_mode(Model model) {
     return model == Model::mac800 ? kAnaloguePosition : kGearFollow;
@@ -139,6 +131,14 @@ ChangeResult refused_or_lost(Motor& motor, std::int64_t before, const LineError&
     return outcome;
 }
 
+/// Results that only the gateway's port gives, and of this client's own messages.
+std::string port_refusal(Motor& motor) {
+    using enum gw::Result;
+    const auto result = static_cast<gw::Result>(motor.master().read(gw::kDefaultAddress, gw::RESULT) & 0xFF);
+    const bool is_ports = result == no_password || result == seat_taken;
+    return is_ports ? std::string(gw::describe(result)) : std::string();
+}
+
 /// 001 §3.2.163: P_IST alone is the shaft's place under another name; where P_MODE goes is P_SOLL - P_FNC.
 std::string apart_remark(Motor& motor) {
     const Model model = motor.model();
@@ -222,28 +222,6 @@ std::string danger(Model model, const Register& reg, std::int64_t raw) {
                        starts ? ", after every reset" : "");
 }
 
-std::string clear_errors_command(Model model, std::int64_t err_stat) {
-    const Register& reg = *registers::find(model, registers::ERR_STAT);
-    return "macreg set ERR_STAT " + bits_word(reg, model, err_stat & setting_bits(model, reg));
-}
-
-std::string control_command(Model model, std::int64_t now, std::int64_t set, std::int64_t clear) {
-    const Register& reg = *registers::find(model, registers::CNTRL_BITS);
-    const std::int64_t settings = now & setting_bits(model, reg);
-    return "macreg set CNTRL_BITS " + bits_word(reg, model, (settings & ~clear) | set);
-}
-
-std::string resynchronise_command(Model model, std::int64_t control_bits, std::int64_t p_ist) {
-    const std::string bits =
-        control_command(model, control_bits, control_bit(model, "MAN_RESYNC", "SYNCPOSMAN"),
-                        control_bit(model, "REL_RESYNC", "SYNCPOSREL"));
-    return fmt::format("macreg set P_NEW {} {}", p_ist, bits.substr(std::string_view("macreg set ").size()));
-}
-
-std::uint32_t error_bits(Model model) {
-    return model == Model::mac800 ? 0x2BB8F : 0x108F;
-}
-
 std::string errors_text(Model model, std::int64_t err_stat) {
     const std::uint32_t errors = static_cast<std::uint32_t>(err_stat) & error_bits(model);
     if (errors == 0) return {};
@@ -252,11 +230,11 @@ std::string errors_text(Model model, std::int64_t err_stat) {
 }
 
 std::string gateway_refusal(Motor& motor, Asked asked) {
-    namespace gw = registers::gateway;
     constexpr const char* kOwnLine =
         "the gateway does not carry SAFE_MODE, flash and reset itself: they need the motor's own MacTalk "
         "line, wired to the board's second serial port or to this computer";
     if (!motor.is_behind_gateway()) return {};
+    if (std::string refusal = port_refusal(motor); !refusal.empty()) return refusal;
     const std::uint32_t status = motor.master().read(gw::kDefaultAddress, gw::STATUS);
     if ((status & gw::kLinkDelivers) == 0)
         return "the gateway's link to the motor does not work; `nanoctl status` tells more";

@@ -156,11 +156,6 @@ std::string family_words(Model model) {
     return model == Model::mac800 ? "MAC800" : "MAC50 to MAC141";
 }
 
-std::optional<std::int64_t> Snapshot::find(std::uint8_t number) const {
-    const auto found = values_.find(number);
-    return found == values_.end() ? std::nullopt : std::optional(found->second);
-}
-
 registers::Model Motor::find_model(mactalk_client::Master& master, std::uint8_t address) {
     const std::uint32_t value = master.read(address, registers::PROG_VERSION);
     if (value == gw::kIdentity)

@@ -91,7 +91,7 @@ struct Parser {
     ParsedFile file{};
     unsigned line = 0;
     std::size_t shown = 0;                  ///< measurements and states, in comments of `dump --all`
-    std::optional<std::size_t> promised{};  ///< registers, by the last line
+    std::optional<std::size_t> declared{};  ///< registers, by the last line
 
     void problem(std::string text) { file.problems.push_back({line, std::move(text)}); }
 
@@ -118,7 +118,7 @@ struct Parser {
         // What is cut off in this very line has the whole file before it.
         if (error != std::errc() || !std::string_view("registers").starts_with(unit))
             return problem(fmt::format("'end = {}': write `end = N registers`", value));
-        promised = count;
+        declared = count;
     }
 
     /// "# P_IST = ...": of `dump --all`, and counted by its last line.
@@ -131,14 +131,14 @@ struct Parser {
     }
 
     /// Why it is not whole; empty if it is.
-    std::string lacks() const {
+    std::string missing() const {
         const std::size_t found = file.set.values.size();
-        if (!promised) return "no line says 'end = ...', so it may be cut short";
-        if (*promised == found || *promised == found + shown) return {};
+        if (!declared) return "no line says 'end = ...', so it may be cut short";
+        if (*declared == found || *declared == found + shown) return {};
         return fmt::format(
             "its last line says {} registers, and it has {}: lines are missing or were added (then write "
             "that number into the last line)",
-            *promised, shown == 0 ? found : found + shown);
+            *declared, shown == 0 ? found : found + shown);
     }
 
     void value(const std::string& name, const std::string& text) {
@@ -177,14 +177,6 @@ struct Parser {
 
 bool is_parameter(Model, const Register& reg) {
     return reg.access != Access::read_only && !is_passing(reg);
-}
-
-std::uint32_t setting_bits(Model model, const Register& reg) {
-    const bool large = model == Model::mac800;
-    if (reg.number == registers::ERR_STAT) return large ? 1U << 14 : 0x4600U;
-    if (reg.number == registers::CNTRL_BITS) return large ? kAll & ~0b100'0011U : 0b1'1011'0011'1111U;
-    if (reg.number == registers::HOME_MODE && large) return 0xFFFF;
-    return kAll;
 }
 
 ParameterSet read_parameters(Motor& motor, const Received& received, const std::function<bool()>& goes_on) {
@@ -235,7 +227,7 @@ ParsedFile parse_parameters(std::string_view text) {
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     parser.line = 0;
-    if (parser.file.set.incomplete.empty()) parser.file.set.incomplete = parser.lacks();
+    if (parser.file.set.incomplete.empty()) parser.file.set.incomplete = parser.missing();
     if (parser.file.set.header.count("model") == 0)
         parser.problem("no line says 'model = ...'; this is no file of macreg dump");
     if (parser.file.set.values.empty() && parser.file.problems.empty()) parser.problem("holds no register");

@@ -24,30 +24,6 @@ using spelling::whole_number;
 
 namespace {
 
-/// A mode, a pointer: one field as wide as the register.
-const Field* whole_field(const Register& reg, Model model) {
-    const auto fields = registers::fields_of(model, reg.number);
-    if (fields.size() != 1 || fields[0].values.empty()) return nullptr;
-    return fields[0].width >= 16 ? &fields[0] : nullptr;
-}
-
-bool is_position(const Register& reg) {
-    return reg.unit == Unit::counts || reg.unit == Unit::counts_16;
-}
-
-std::string number_text(const Register& reg, Model model, std::int64_t raw) {
-    if (is_position(reg)) return std::string(registers::to_text(raw, reg, model, shown_unit(reg)).view());
-    return std::string(registers::to_text(raw, reg, model).view());
-}
-
-std::string field_text(const Field& field, std::uint32_t bits) {
-    const std::uint32_t value = registers::value_in(field, bits);
-    if (const auto* name = registers::named(field, value))
-        return fmt::format("{}={}", field.name, name->name);
-    if (field.width == 1) return value != 0 ? std::string(field.name) : std::string();
-    return value != 0 ? fmt::format("{}={}", field.name, value) : std::string();
-}
-
 /// What stands before the unit, if it is meant to be a number and is none: 1,5 or 1e3.
 std::string_view malformed_number(const Register& reg, Model model, std::string_view text) {
     for (std::size_t end = text.size(); end > 0; --end) {
@@ -136,22 +112,16 @@ TypedValue raw_value(const Register& reg, Model model, std::string_view text,
 }
 
 std::optional<std::uint32_t> named_bits(const Register& reg, Model model, std::string_view word) {
-    for (const Field& field : registers::fields_of(model, reg.number)) {
-        const std::string name = lower(field.name);
-        if (field.width == 1 && lower(word) == name) return registers::mask_of(field);
-        const auto equals = word.find('=');
-        const bool is_field = equals != std::string_view::npos && lower(word.substr(0, equals)) == name;
-        const std::string_view value = is_field ? word.substr(equals + 1) : word;
-        for (const auto& one : field.values) {
-            if ((is_field || field.width >= 16) && lower(one.name) == lower(value))
-                return static_cast<std::uint32_t>(one.value) << field.first;
-        }
-        if (!is_field) continue;
-        const auto number = whole_number(value);
-        if (number && *number >= 0 && *number <= registers::mask_of(field) >> field.first)
-            return static_cast<std::uint32_t>(*number) << field.first;
-    }
-    return std::nullopt;
+    const auto equals = word.find('=');
+    if (equals == std::string_view::npos) return registers::bits_named(model, reg, word);
+    const std::string_view part = word.substr(0, equals);
+    const std::string_view value = word.substr(equals + 1);
+    if (const auto bits = registers::bits_named(model, reg, part, value)) return bits;
+    const Field* field = registers::field_of(model, reg.number, part);
+    const auto number = whole_number(value);
+    if (field == nullptr || !number || *number < 0 || *number > registers::mask_of(*field) >> field->first)
+        return std::nullopt;
+    return static_cast<std::uint32_t>(*number) << field->first;
 }
 
 /// Words joined by + or blanks, each a bit's or a value's name.
@@ -290,46 +260,6 @@ std::string numbered(std::string_view reg) {
 }
 
 }  // namespace
-
-std::string names_text(const Register& reg, Model model, std::int64_t raw) {
-    const auto bits = static_cast<std::uint32_t>(raw);
-    if (const Field* field = whole_field(reg, model)) {
-        const auto* name = registers::named(*field, bits);
-        return name != nullptr ? std::string(name->name) : std::string();
-    }
-    std::string text;
-    for (const Field& field : registers::fields_of(model, reg.number)) {
-        const std::string one = field_text(field, bits);
-        if (!one.empty()) text += (text.empty() ? "" : " ") + one;
-    }
-    return text;
-}
-
-std::string_view shown_unit(const Register& reg) {
-    if (is_position(reg)) return "counts";
-    const auto units = registers::units_of(reg.unit);
-    return units.empty() ? std::string_view() : units.front();
-}
-
-std::string long_value_text(const Register& reg, Model model, std::int64_t raw) {
-    const std::string text = value_text(reg, model, raw);
-    if (!is_position(reg) || raw == 0) return text;
-    return fmt::format("{} ({})", text, registers::to_text(raw, reg, model, "rev").view());
-}
-
-std::string bits_word(const Register& reg, Model model, std::int64_t raw) {
-    std::string word = raw == 0 ? "none" : names_text(reg, model, raw);
-    std::replace(word.begin(), word.end(), ' ', '+');
-    const TypedValue typed = typed_value(reg, model, word);
-    if (typed.error.empty() && typed.raw == raw) return word;
-    return fmt::format("0x{:X}", registers::bits_of(reg.format, raw));
-}
-
-std::string value_text(const Register& reg, Model model, std::int64_t raw) {
-    const std::string names = names_text(reg, model, raw);
-    if (names.empty() && raw == 0 && reg.unit == Unit::bits) return "none";
-    return names.empty() ? number_text(reg, model, raw) : names;
-}
 
 std::string choice_text(const Register& reg, Model model) {
     constexpr std::int64_t kFirstOrder = 256;  // 256 to 258 act on the flash (001 §4.4.16)

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/bytes.h"
-#include "nanoctl/words.h"
+#include "nanoctl/texts.h"
 
 namespace nplc::nanoctl {
 

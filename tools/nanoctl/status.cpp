@@ -92,6 +92,11 @@ std::optional<unsigned> Names::find_step(const std::string& text) const {
     return find(text, "STEP", symbols_ ? &symbols_->symbols.steps : nullptr, 63);
 }
 
+std::uint64_t Names::with_copies(unsigned step) const {
+    const auto number = static_cast<std::uint8_t>(step);
+    return symbols_ ? seqc::with_copies(symbols_->symbols, number) : std::uint64_t{1} << step;
+}
+
 std::string signals_text(std::uint32_t bits, unsigned count, const Names& names, bool are_inputs) {
     std::string text;
     for (unsigned i = 0; i < count; ++i) {

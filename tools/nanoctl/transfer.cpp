@@ -163,10 +163,10 @@ std::string_view why_not(GatewayClient& gateway, std::span<const std::uint8_t> t
                : drive->family->refuses_command(*drive, order.command);
 }
 
-void give_up(GatewayClient& gateway) {
+void cancel_upload(GatewayClient& gateway) {
     try {
         gateway.command(gw::Command::upload_abort);
-    } catch (const Refused&) {  // it was given up already
+    } catch (const Refused&) {  // it was aborted already
     }
 }
 
@@ -180,16 +180,17 @@ void upload(GatewayClient& gateway, std::span<const std::uint8_t> table, const P
     try {
         upload_whole(gateway, table, progress);
     } catch (const Refused& refused) {
-        // What is under way now is another client's if this one was given up.
-        if (refused.reg() != gw::UPLOAD_STATE && refused.result() != gw::Result::no_upload) give_up(gateway);
+        // What is under way now is another client's if this one was aborted.
+        if (refused.reg() != gw::UPLOAD_STATE && refused.result() != gw::Result::no_upload)
+            cancel_upload(gateway);
         if (refused.result() != gw::Result::not_for_motor) throw;
         const std::string_view why = why_not(gateway, table, refused.detail());
         if (why.empty()) throw;
         throw Refused(refused.result(), refused.reg(), refused.detail(),
                       fmt::format("the table was not stored, for its term {}: {}", refused.detail(), why));
     } catch (const Interrupted&) {
-        give_up(gateway);
-        throw Interrupted("interrupted; the upload was given up, the stored table is as it was");
+        cancel_upload(gateway);
+        throw Interrupted("interrupted; the upload was aborted, the stored table is as it was");
     }
 }
 

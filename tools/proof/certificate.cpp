@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "digest/digest.h"
+
 namespace nplc::proof {
 namespace {
 
@@ -18,7 +20,7 @@ std::string dumped(const Json& document, int indent) {
 
 /// Of the document without its own field.
 std::string check_of(const Json& document) {
-    return hex(sha256(dumped(document, -1)));
+    return digest::hex(digest::sha256(dumped(document, -1)));
 }
 
 Json document_of(const Certificate& certificate) {
@@ -75,16 +77,6 @@ std::string why_refused(const Certificate& certificate) {
 
 }  // namespace
 
-Digest sha256(std::string_view text) {
-    return sha256(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
-}
-
-std::string hex(std::span<const std::uint8_t> digest) {
-    std::string text;
-    for (const std::uint8_t byte : digest) text += fmt::format("{:02x}", byte);
-    return text;
-}
-
 std::string to_text(const Certificate& certificate) {
     Json document = document_of(certificate);
     document["check"] = check_of(document);
@@ -111,7 +103,7 @@ CertificateReading read_certificate(std::string_view text) {
 }
 
 std::string why_not_of(const Certificate& certificate, std::span<const std::uint8_t> table) {
-    const std::string own = hex(sha256(table));
+    const std::string own = digest::hex(digest::sha256(table));
     if (certificate.table_sha256 == own) return "";
     return fmt::format("is of another table ({}, SHA-256 {}...) than this one ({}...)", certificate.table,
                        certificate.table_sha256.substr(0, 16), own.substr(0, 16));

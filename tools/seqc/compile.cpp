@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "lowering/lower.h"
+#include "lowering/set_points.h"
 #include "semantics/checker.h"
+#include "semantics/copies.h"
 #include "semantics/helper_steps.h"
 #include "semantics/oversights.h"
 #include "semantics/scope.h"
+#include "semantics/sequences.h"
+#include "semantics/set_points.h"
+#include "semantics/written.h"
 #include "seqc/seqc.h"
 #include "syntax/lexer.h"
 #include "syntax/names.h"
@@ -85,7 +91,8 @@ void collect_allowances(const ast::Program& program, const Plan& plan, Compilati
     const auto collect = [&](const ast::Step& step) {
         for (const ast::Allowance& allowance : step.allowances) {
             for (const StepPlan& planned : plan.steps) {
-                if (same_name(planned.name, step.name.text))
+                if (same_name(planned.name, step.name.text) ||
+                    (planned.is_copy && planned.span == step.name.span))
                     result.allowances.push_back(
                         {planned.number, upper(allowance.code.text), std::string(allowance.reason.text)});
             }
@@ -93,6 +100,39 @@ void collect_allowances(const ast::Program& program, const Plan& plan, Compilati
     };
     for (const ast::Step& step : program.steps) collect(step);
     if (program.power_up) collect(*program.power_up);
+}
+
+/// Steps of a SEQUENCE say whose they are; those of a later call are copies of the first one's.
+void name_origins(const ast::Program& program, const Scope& scope, Compilation& result) {
+    const auto number_of = [&](std::string_view name) -> std::optional<std::uint8_t> {
+        for (std::size_t i = 0; i < scope.steps().size(); ++i) {
+            if (same_name(scope.steps()[i]->name.text, name) && scope.number_of(i) <= kLastNamed)
+                return scope.number_of(i);
+        }
+        return std::nullopt;
+    };
+    for (const ast::Step& step : program.steps) {
+        const auto number = step.origin ? number_of(step.name.text) : std::nullopt;
+        if (!number) continue;
+        result.symbols.made_for[*number] = fmt::format("of SEQUENCE {}, goes on at '{}'",
+                                                       step.origin->sequence.text, step.origin->back.text);
+        if (!step.origin->first.empty()) result.symbols.copy_of[*number] = number_of(step.origin->first);
+    }
+}
+
+std::vector<LoweredTerm> lower_all(const Plan& plan, const std::vector<DeclaredSetPoint>& points,
+                                   Symbols& symbols, Report& checks) {
+    const std::vector<std::uint8_t> outputs = outputs_of_steps(plan);
+    const SetPointMarks marks(plan, points);
+    std::vector<LoweredTerm> terms;
+    for (const StepPlan& step : marks.plan().steps) {
+        const std::vector<LoweredTerm> own = lower(step, outputs, checks);
+        terms.insert(terms.end(), own.begin(), own.end());
+    }
+    std::vector<set_points::SetPoint> placed;
+    marks.place(terms, placed);
+    symbols.set_points = record_of(plan, points, placed);
+    return terms;
 }
 
 void merge(Report& report, Report& checks, bool all) {
@@ -105,43 +145,52 @@ void merge(Report& report, Report& checks, bool all) {
 }  // namespace
 
 Compilation compile(std::string_view source) {
+    return compile(Sources({{}, std::string(source)}));
+}
+
+Compilation compile(const Sources& sources) {
     Compilation result;
     Report report;
-    if (source.size() > kLongestSource) {
+    if (sources.text().size() > kLongestSource) {
         report.add("E001", {}, "the file is larger than 16 MiB: this is no program",
                    "name the program's text, a .seq file");
         result.diagnostics = report.take();
         return result;
     }
-    const ast::Program program = Parser(source, tokens_of(source, report), report).parse();
+    for (const Diagnostic& problem : sources.problems()) report.add(problem);
+    ast::Program program = Parser(sources, report).parse();
     const bool syntax_sound = !report.has_errors();
     result.properties = program.properties;
     Report checks;
-    Scope scope(program, source, checks, result);
+    expand_sequences(program, checks);
+    Scope scope(program, sources.text(), checks, result);
     Plan plan = check(program, scope, checks);
     if (!plan.steps.empty() && plan.steps.front().number == 0)
         result.symbols.steps[0] = plan.steps.front().name;
+    if (syntax_sound && !checks.has_errors()) check_shared_timer(plan, checks);
+    if (syntax_sound && !checks.has_errors()) make_copies(plan, result, checks);
     if (syntax_sound && !checks.has_errors()) make_helper_steps(plan, result, checks);
+    name_origins(program, scope, result);
     for (const StepPlan& step : plan.steps) result.steps.push_back({step.number, step.span, step.outputs});
+    result.written = written_of(program, plan, scope.initial_values());
     collect_allowances(program, plan, result);
     std::sort(result.steps.begin(), result.steps.end(),
               [](const StepOrigin& a, const StepOrigin& b) { return a.number < b.number; });
     if (syntax_sound && !checks.has_errors()) check_fewest_terms(plan, program.name.span, checks);
     if (syntax_sound && !checks.has_errors()) {
         check_motor_state(plan, result.symbols, checks);
+        check_relative_moves(plan, result.roundings, checks);
+        check_replaced_moves(plan, checks);
         check_invisible_limits(plan, result.symbols.motor, checks);
         if (result.symbols.drive != nullptr) {
-            check_drive_motion(plan, *result.symbols.drive, checks, result.roundings);
+            check_drive_motion(plan, *result.symbols.drive, scope.set_points(), checks, result.roundings);
             check_drive_registers(plan, *result.symbols.drive, checks);
         }
     }
     std::vector<LoweredTerm> terms;
     if (syntax_sound && !checks.has_errors()) {
-        const std::vector<std::uint8_t> outputs = outputs_of_steps(plan);
-        for (const StepPlan& step : plan.steps) {
-            const std::vector<LoweredTerm> own = lower(step, outputs, checks);
-            terms.insert(terms.end(), own.begin(), own.end());
-        }
+        terms = lower_all(plan, scope.set_points(), result.symbols, checks);
+        check_set_points(plan, scope.set_points(), result.symbols, checks);
     }
     if (syntax_sound && !checks.has_errors()) check_oversights(plan, result.symbols, checks);
     if (!checks.has_errors()) check_length(terms.size(), plan, program.name.span, checks);

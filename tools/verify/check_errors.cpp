@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "findings.h"
@@ -11,7 +12,7 @@ namespace {
 using Node = Explorer::Node;
 
 bool shows_error(const Place& place) {
-    return place.motor != Place::Motor::free;
+    return place.motor == Place::Motor::error || place.motor == Place::Motor::lost;
 }
 
 class Errors {
@@ -23,6 +24,7 @@ class Errors {
     }
 
     std::vector<Finding> find() {
+        spread_to_copies();
         std::array<bool, 63> told{};
         for (Node node = 0; node < explorer_.size(); ++node) {
             const Place place = explorer_.place(node);
@@ -56,18 +58,32 @@ class Errors {
         }
     }
 
+    /// What a step is its copies are too, whichever of them ERROR leads to.
+    void spread_to_copies() {
+        const auto copy_of = [&](std::uint8_t step) { return names_.copy_of[step].value_or(step); };
+        std::array<bool, 64> whole{};
+        for (std::uint8_t step = 0; step < names_.copy_of.size(); ++step)
+            whole[copy_of(step)] = whole[copy_of(step)] || is_fault_step_[step];
+        for (std::uint8_t step = 0; step < names_.copy_of.size(); ++step)
+            is_fault_step_[step] = whole[copy_of(step)];
+    }
+
     /// Places from which, while ERROR lasts, some course sends RESET_ERROR.
     void find_ways_to_reset() {
         resets_.assign(explorer_.size(), false);
+        std::vector<Node> open;
+        for (auto node = static_cast<Node>(explorer_.size()); node-- > 0;) {
+            if (shows_error(explorer_.place(node))) open.push_back(node);
+        }
         for (bool changed = true; changed;) {
-            changed = false;
-            for (std::size_t i = explorer_.edges().size(); i-- > 0;) {
-                const Explorer::Edge& edge = explorer_.edges()[i];
-                if (resets_[edge.from] || !shows_error(explorer_.place(edge.from))) continue;
-                const bool goes_on = shows_error(explorer_.place(edge.to)) && resets_[edge.to];
-                if (!goes_on && !explorer_.group_of(edge).resets_error) continue;
-                resets_[edge.from] = changed = true;
-            }
+            changed = std::erase_if(open, [&](Node node) {
+                          const auto edges = explorer_.edges_from(node);
+                          resets_[node] =
+                              std::any_of(edges.begin(), edges.end(), [&](const Explorer::Edge& edge) {
+                                  return explorer_.group_of(edge).resets_error || resets_[edge.to];
+                              });
+                          return resets_[node];
+                      }) != 0;
         }
     }
 
@@ -100,15 +116,18 @@ class Errors {
     /// Scans with ERROR in which no term writes outputs.
     void find_outputs_left_on() {
         std::array<bool, 63> told{};
-        for (const Explorer::Edge& edge : explorer_.edges()) {
-            const Place place = explorer_.place(edge.from);
+        for (Node node = 0; node < explorer_.size(); ++node) {
+            const Place& place = explorer_.place(node);
             if (place.outputs == 0 || is_fault_step_[place.step] || told[place.step]) continue;
-            if (explorer_.group_of(edge).pending.has_output) continue;
-            const ImageSet images = explorer_.images_of(edge);
-            if ((images >> sequencer::kError).none()) continue;
+            const auto edges = explorer_.edges_from(node);
+            const auto left = std::find_if(edges.begin(), edges.end(), [&](const Explorer::Edge& edge) {
+                const Group& group = explorer_.group_of(edge);
+                return group.error && !group.pending.has_output;
+            });
+            if (left == edges.end()) continue;
             told[place.step] = true;
-            std::vector<CourseScan> way = explorer_.course_to_node(edge.from);
-            way.push_back(explorer_.scan_of(edge, images));
+            std::vector<CourseScan> way = explorer_.course_to_node(node);
+            way.push_back(explorer_.scan_of(*left, explorer_.images_of(*left)));
             findings_.push_back({"V006", place.step,
                                  fmt::format("in step {} ERROR leaves {} on", step_name(names_, place.step),
                                              outputs_text(place.outputs, names_)),

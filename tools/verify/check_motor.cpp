@@ -27,35 +27,58 @@ std::vector<CourseScan> course_with(const Explorer& explorer, const Explorer::Ed
     return course;
 }
 
+/// Of each group, whether one of its orders is such.
+template <class IsSuch>
+std::vector<bool> of_groups(const Machine& machine, const IsSuch& is_such) {
+    std::vector<bool> result;
+    for (const Group& group : machine.all_groups())
+        result.push_back(std::any_of(group.orders.begin(), group.orders.end(), is_such));
+    return result;
+}
+
+/// The groups of all scans that can be, in the order in which the first one of each was found.
+std::vector<const Group*> used_groups(const Explorer& explorer) {
+    std::vector<const Group*> groups;
+    for (const Group& group : explorer.machine().all_groups()) {
+        if (explorer.first_use(group) != Explorer::kNone) groups.push_back(&group);
+    }
+    std::sort(groups.begin(), groups.end(), [&](const Group* a, const Group* b) {
+        return std::pair(explorer.first_use(*a), a->number) < std::pair(explorer.first_use(*b), b->number);
+    });
+    return groups;
+}
+
 /// V009: a move after which no step looks at INPOS or at the timer.
 std::vector<Finding> find_unseen_ends(const Subject& subject, const Sensitivity& sensitivity) {
     const Explorer& explorer = subject.explorer;
-    const auto moves = [&](const Explorer::Edge& edge) {
-        const auto& orders = explorer.group_of(edge).orders;
-        return std::any_of(orders.begin(), orders.end(), [](const MotorOrder& order) {
-            return begins_motion(kind_of(order)) || ends_motion(kind_of(order));
-        });
-    };
+    const auto moves = of_groups(explorer.machine(), [](const MotorOrder& order) {
+        return begins_motion(kind_of(order)) || ends_motion(kind_of(order));
+    });
     std::vector<bool> sees(explorer.size());
-    for (Node node = 0; node < explorer.size(); ++node) {
+    std::vector<Node> open;
+    for (auto node = static_cast<Node>(explorer.size()); node-- > 0;) {
         const std::uint8_t step = explorer.place(node).step;
         sees[node] = sensitivity.tests_in_pos(step) || sensitivity.tests_timer(step);
+        if (!sees[node]) open.push_back(node);
     }
     for (bool changed = true; changed;) {
-        changed = false;
-        for (std::size_t i = explorer.edges().size(); i-- > 0;) {
-            const Explorer::Edge& edge = explorer.edges()[i];
-            if (sees[edge.from] || !sees[edge.to] || moves(edge)) continue;
-            sees[edge.from] = changed = true;
-        }
+        changed = std::erase_if(open, [&](Node node) {
+                      const auto edges = explorer.edges_from(node);
+                      sees[node] = std::any_of(edges.begin(), edges.end(), [&](const Explorer::Edge& edge) {
+                          return sees[edge.to] && !moves[edge.group];
+                      });
+                      return sees[node];
+                  }) != 0;
     }
     std::vector<Finding> findings;
+    if (open.empty()) return findings;
+    std::vector<bool> goes(explorer.machine().all_groups().size());
+    for (const Group& group : explorer.machine().all_groups()) goes[group.number] = begins_move(group.orders);
     std::array<bool, 63> told{};
     for (const Explorer::Edge& edge : explorer.edges()) {
+        if (sees[edge.to] || !goes[edge.group]) continue;
         const std::uint8_t step = explorer.place(edge.to).step;
-        if (sees[edge.to] || told[step]) continue;
-        const Group& group = explorer.group_of(edge);
-        if (motion_after(Motion::none, false, group.orders) != Motion::to_place) continue;
+        if (told[step]) continue;
         told[step] = true;
         findings.push_back(
             {"V009", step,
@@ -76,48 +99,88 @@ std::array<bool, 63> steps_without_limit(const Machine& machine, const Sensitivi
     return result;
 }
 
+const char* why_zero(MotorState::Speed speed) {
+    return speed == MotorState::Speed::zero ? "V_SOLL is 0, or may be, by the value it is set to"
+                                            : "V_SOLL is 0 from a STOP";
+}
+
+const char* why_never(const MotorState& motor) {
+    if (motor.mode == MotorState::Mode::init) return "the motor is in INIT mode";
+    if (motor.mode == MotorState::Mode::silent) return "the motor's mode never sets it";
+    return why_zero(motor.speed);
+}
+
+/// V1..V8 that are only ever written as 0, and what may be 0 by its range.
+ZeroRegisters zero_registers(const Subject& subject) {
+    ZeroRegisters zeros;
+    ZeroRegisters others;
+    for (const Group* group : used_groups(subject.explorer)) {
+        for (const MotorOrder& order : group->orders) {
+            if (order.is_register_write) (order.value == 0 ? zeros : others).set(order.reg & 0x7FU);
+        }
+    }
+    zeros &= ~others;
+    for (const std::uint8_t reg : subject.may_be_zero) zeros.set(reg & 0x7FU);
+    return zeros;
+}
+
+/// What a scan makes of the motor.
+struct MotorChange {
+    bool is_known = false;
+    std::uint16_t then = 0;  ///< packed
+    const char* stands{};    ///< a move is ordered with V_SOLL 0: why it is
+};
+
+MotorChange change_by(const Group& group, std::uint16_t before, const ZeroRegisters& zeros) {
+    MotorState motor = MotorState::unpacked(before);
+    if (group.error) motor = {MotorState::Mode::init, motor.speed, true};
+    bool begins = false;
+    for (const MotorOrder& order : group.orders) {
+        motor.apply(order, zeros);
+        begins = begins || kind_of(order) == OrderKind::place;
+    }
+    const bool stands = begins && !group.error && motor.stands();
+    return {true, motor.packed(), stands ? why_zero(motor.speed) : nullptr};
+}
+
 /// V010 and V011, by following what the orders make of the motor.
 std::vector<Finding> find_motor_stands(const Subject& subject, const Sensitivity& sensitivity) {
     const Explorer& explorer = subject.explorer;
     const auto no_limit = steps_without_limit(explorer.machine(), sensitivity);
+    const ZeroRegisters zeros = zero_registers(subject);
     std::array<bool, 63> told_wait{};
     std::array<bool, 63> told_move{};
     std::vector<Finding> findings;
+    std::vector<std::array<MotorChange, MotorState::kPacked>> changes(explorer.machine().all_groups().size());
     Walk walk(explorer);
-    walk.all([&](const Explorer::Edge& edge, const ImageSet& images, std::uint16_t memory, const auto& go_on,
-                 const auto& show) {
-        const Place here = explorer.place(edge.from);
-        const Group& group = explorer.group_of(edge);
-        MotorState motor = MotorState::unpacked(memory);
-        const bool error = (images >> sequencer::kError).any();
-        if (!error && motor.in_pos_never_comes() && no_limit[here.step] && !told_wait[here.step]) {
-            told_wait[here.step] = true;
-            const char* why = motor.mode == MotorState::Mode::init     ? "the motor is in INIT mode"
-                              : motor.mode == MotorState::Mode::silent ? "the motor's mode never sets it"
-                                                                       : "V_SOLL is 0 from a STOP";
-            findings.push_back({"V010", here.step,
-                                fmt::format("step {} waits for INPOS without time limit, and it may never "
-                                            "come: {}",
-                                            step_name(subject.names, here.step), why),
-                                show(images)});
+    walk.begin_at_power_up(0);
+    walk.all([&](const Walk::Scan& scan) {
+        const std::uint8_t step = explorer.place(scan.edge.from).step;
+        const Group& group = explorer.group_of(scan.edge);
+        if (!group.error && no_limit[step] && !told_wait[step]) {
+            const MotorState motor = MotorState::unpacked(scan.memory);
+            if (motor.in_pos_never_comes()) {
+                told_wait[step] = true;
+                findings.push_back(
+                    {"V010", step,
+                     fmt::format("step {} waits for INPOS without time limit, and it may never "
+                                 "come: {}",
+                                 step_name(subject.names, step), why_never(motor)),
+                     scan.course(scan.images())});
+            }
         }
-        if (error) motor = {MotorState::Mode::init, motor.stopped, true};
-        bool begins = false;
-        for (const MotorOrder& order : group.orders) {
-            motor.apply(order);
-            begins = begins || kind_of(order) == OrderKind::place;
-        }
-        const std::uint8_t next = explorer.place(edge.to).step;
-        if (begins && !error && motor.mode == MotorState::Mode::position && motor.stopped &&
-            !told_move[next]) {
+        MotorChange& change = changes[group.number][scan.memory];
+        if (!change.is_known) change = change_by(group, scan.memory, zeros);
+        const std::uint8_t next = explorer.place(scan.edge.to).step;
+        if (change.stands != nullptr && !told_move[next]) {
             told_move[next] = true;
             findings.push_back({"V011", next,
-                                fmt::format("on the way into step {} a move is ordered while V_SOLL is 0 "
-                                            "from a STOP: the motor stands",
-                                            step_name(subject.names, next)),
-                                show(images)});
+                                fmt::format("on the way into step {} a move is ordered while {}: the motor "
+                                            "stands",
+                                            step_name(subject.names, next), change.stands),
+                                scan.course(scan.images())});
         }
-        go_on(images, motor.packed());
+        scan.go_on(change.then);
     });
     return findings;
 }
@@ -148,39 +211,38 @@ std::optional<std::pair<MotorOrder, MotorOrder>> undone(const std::vector<MotorO
 std::vector<Finding> find_undone(const Subject& subject) {
     std::vector<Finding> findings;
     std::array<bool, 63> told{};
-    std::map<const Group*, bool> seen;
-    for (const Explorer::Edge& edge : subject.explorer.edges()) {
-        const Group& group = subject.explorer.group_of(edge);
-        const std::uint8_t step = subject.explorer.place(edge.from).step;
-        if (group.orders.size() < 2 || told[step] || !seen.emplace(&group, true).second) continue;
-        const auto pair = undone(group.orders);
+    for (const Group* group : used_groups(subject.explorer)) {
+        const std::uint8_t step = subject.explorer.place(subject.explorer.first_use(*group)).step;
+        if (group->orders.size() < 2 || told[step]) continue;
+        const auto pair = undone(group->orders);
         if (!pair) continue;
         told[step] = true;
         findings.push_back(
             {"V012", step,
              fmt::format("in a scan of step {} {} is sent after {} and undoes it",
                          step_name(subject.names, step), order_text(pair->second), order_text(pair->first)),
-             course_with(subject.explorer, edge)});
+             course_with(subject.explorer, subject.explorer.first_edge_with(*group))});
     }
     return findings;
 }
 
 /// V014
 std::vector<Finding> find_never_written(const Subject& subject) {
-    std::map<std::uint8_t, Explorer::Edge> selected;
+    std::map<std::uint8_t, const Group*> selected;
     std::array<bool, 128> written{};
-    for (const Explorer::Edge& edge : subject.explorer.edges()) {
-        for (const MotorOrder& order : subject.explorer.group_of(edge).orders) {
+    for (const Group* group : used_groups(subject.explorer)) {
+        for (const MotorOrder& order : group->orders) {
             if (order.is_register_write) {
                 written[order.reg & 0x7FU] = true;
             } else if (const std::uint8_t reg = selected_register(order); reg != 0) {
-                selected.try_emplace(reg, edge);
+                selected.try_emplace(reg, group);
             }
         }
     }
     std::vector<Finding> findings;
-    for (const auto& [reg, edge] : selected) {
+    for (const auto& [reg, group] : selected) {
         if (written[reg]) continue;
+        const Explorer::Edge& edge = subject.explorer.first_edge_with(*group);
         const std::uint8_t step = subject.explorer.place(edge.from).step;
         findings.push_back({"V014", step,
                             fmt::format("step {} selects register {}, and nothing ever writes it: it holds "

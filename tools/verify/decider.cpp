@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "monitor.h"
+#include "preset_values.h"
 #include "surely.h"
 
 namespace nplc::verify {
@@ -26,7 +27,11 @@ constexpr const char* kNotSurely =
 }  // namespace
 
 std::string out_of_bounds(const Explorer& explorer) {
-    return fmt::format("{} states were explored, and there are more", explorer.size());
+    return fmt::format(
+        "{} states were explored, and there are more{}; what leaves fewer may decide it: ASSUME "
+        "NEVER ERROR, ASSUME NEVER of inputs that cannot be together, a shorter time, or --assume "
+        "any, which knows no times",
+        explorer.size(), explorer.complete() ? " scans between them than are kept" : "");
 }
 
 Decider::Decider(const sequencer::Table& table, const Machine& machine, const Options& options,
@@ -40,16 +45,31 @@ Decider::Decider(const sequencer::Table& table, const Machine& machine, const Op
     coarse_->explore(targets_);
 }
 
-std::optional<Course> Decider::realized(const std::vector<CourseScan>& scans,
+std::optional<Played> Decider::realized(const std::vector<CourseScan>& scans,
                                         const std::optional<Overdue>& overdue) const {
-    return realize({.table = table_, .assume = options_.assume, .stable_ms = stable_ms_}, scans, overdue);
+    for (std::vector<ChosenPreset>& presets : choices_for(machine_, scans)) {
+        const std::vector<std::uint8_t> bytes = bytes_with(table_, presets);
+        const sequencer::Table::LoadResult with_values = sequencer::Table::load(bytes);
+        auto course = realize({.table = with_values.table,
+                               .assume = options_.assume,
+                               .stable_ms = stable_ms_,
+                               .move_ms = machine_.move_ms(),
+                               .presets = presets},
+                              scans, overdue);
+        if (course) return Played{.course = std::move(*course), .presets = std::move(presets)};
+    }
+    return std::nullopt;
+}
+
+bool Decider::is_reached_with_all(std::size_t target) const {
+    return !has_ranges() || (coarse_->has_all_edges() && surely_reached(*coarse_, targets_[target]));
 }
 
 const Explorer& Decider::fine() {
     if (!fine_) {
         fine_ = std::make_unique<Explorer>(
             machine_, Precision{.times_timer = true, .keeps_edges = true, .most_states = kMostTimedStates});
-        fine_->explore(targets_);
+        fine_->explore({});
     }
     return *fine_;
 }
@@ -59,78 +79,64 @@ Decider::Finding Decider::scan_of_target(std::size_t target) {
         if (coarse_->complete()) return {Answer::cannot_be, {}, {}};
         return {Answer::unknown, {}, out_of_bounds(*coarse_)};
     }
-    if (auto course = realized(coarse_->course_to(target))) return {Answer::can_be, std::move(course), {}};
-    const Explorer& exact = fine();
-    if (!exact.hit(target)) {
+    if (auto played = realized(coarse_->course_to(target))) return {Answer::can_be, std::move(played), {}};
+    if (!coarse_->has_all_edges()) return {Answer::unknown, {}, out_of_bounds(*coarse_)};
+    const std::vector<std::uint32_t> distances = coarse_->distances_to(targets_[target]);
+    Explorer exact(machine_, Precision{.times_timer = true,
+                                       .most_states = kMostTimedStates,
+                                       .guide = coarse_.get(),
+                                       .distances = &distances});
+    exact.explore({targets_[target]});
+    if (!exact.hit(0)) {
         if (exact.complete()) return {Answer::cannot_be, {}, {}};
         return {Answer::unknown, {}, out_of_bounds(exact)};
     }
-    if (auto course = realized(exact.course_to(target))) return {Answer::can_be, std::move(course), {}};
+    if (auto played = realized(exact.course_to(std::size_t{0})))
+        return {Answer::can_be, std::move(played), {}};
     return {Answer::unknown, {}, kNoTimes};
 }
 
 Decider::Finding Decider::missed_deadline(const Property& property) const {
-    std::string why;
+    Finding finding;
     for (const bool times_timer : {false, true}) {
-        Explorer explorer(
-            machine_,
-            Precision{.times_timer = times_timer, .deadline = &property, .most_states = kMostTimedStates});
-        explorer.explore({});
-        if (!explorer.missed_deadline()) {
-            if (explorer.complete()) return {Answer::cannot_be, {}, {}};
-            why = out_of_bounds(explorer);
-            continue;
-        }
-        const std::vector<CourseScan> scans = explorer.course_to_missed_deadline();
-        const std::size_t to = explorer.missed_at_end() ? scans.size() - 1 : scans.size();
-        const std::uint32_t more_than = property.within_ms - (property.form == Form::never_while ? 1 : 0);
-        Overdue overdue{.from = scans.size() - 1, .to = to, .more_than_ms = more_than};
-        while (scans[overdue.from].place.pending) --overdue.from;
-        if (auto course = realized(scans, overdue)) return {Answer::can_be, std::move(course), {}};
-        why = kNoTimes;
+        Precision precision{
+            .times_timer = times_timer, .deadline = &property, .most_states = kMostTimedStates};
+        finding = missed_deadline(property, precision);
+        if (finding.answer != Answer::unknown) return finding;
+        precision.waits_for_line = false;
+        const Finding without = missed_deadline(property, precision);
+        if (without.answer == Answer::can_be) return without;
     }
-    return {Answer::unknown, {}, why};
+    return finding;
+}
+
+Decider::Finding Decider::missed_deadline(const Property& property, const Precision& precision) const {
+    Explorer explorer(machine_, precision);
+    explorer.explore({});
+    if (!explorer.missed_deadline()) {
+        if (explorer.complete()) return {Answer::cannot_be, {}, {}};
+        return {Answer::unknown, {}, out_of_bounds(explorer)};
+    }
+    const std::vector<CourseScan> scans = explorer.course_to_missed_deadline();
+    const std::size_t to = explorer.missed_at_end() ? scans.size() - 1 : scans.size();
+    const std::uint32_t more_than = property.within_ms - (property.form == Form::never_while ? 1 : 0);
+    Overdue overdue{.from = scans.size() - 1, .to = to, .more_than_ms = more_than};
+    while (scans[overdue.from].place.pending) --overdue.from;
+    if (auto played = realized(scans, overdue)) return {Answer::can_be, std::move(played), {}};
+    return {Answer::unknown, {}, kNoTimes};
 }
 
 Decider::Finding Decider::remembered(const Property& property) {
     if (!coarse_->has_all_edges()) return {Answer::unknown, {}, out_of_bounds(*coarse_)};
     const auto scans = breaking_course(*coarse_, property);
     if (!scans) return {Answer::cannot_be, {}, {}};
-    if (auto course = realized(*scans)) return {Answer::can_be, std::move(course), {}};
+    if (auto played = realized(*scans)) return {Answer::can_be, std::move(played), {}};
     const Explorer& exact = fine();
     if (!exact.has_all_edges()) return {Answer::unknown, {}, out_of_bounds(exact)};
     const auto timed = breaking_course(exact, property);
     if (!timed) return {Answer::cannot_be, {}, {}};
-    if (auto course = realized(*timed)) return {Answer::can_be, std::move(course), {}};
+    if (auto played = realized(*timed)) return {Answer::can_be, std::move(played), {}};
     return {Answer::unknown, {}, kNoTimes};
-}
-
-const std::vector<bool>& Decider::ways_to(const Target& target) {
-    if (back_.empty()) {
-        first_back_.assign(coarse_->size() + 1, 0);
-        for (const auto& edge : coarse_->edges()) ++first_back_[edge.to + 1];
-        for (std::size_t i = 1; i < first_back_.size(); ++i) first_back_[i] += first_back_[i - 1];
-        back_.resize(coarse_->edges().size());
-        std::vector<std::uint32_t> next(first_back_.begin(), first_back_.end());
-        for (const auto& edge : coarse_->edges()) back_[next[edge.to]++] = edge.from;
-    }
-    good_.assign(coarse_->size(), false);
-    std::vector<Explorer::Node> open;
-    for (Explorer::Node node = 0; node < coarse_->size(); ++node) {
-        if (!coarse_->can_hit_from(node, target)) continue;
-        good_[node] = true;
-        open.push_back(node);
-    }
-    while (!open.empty()) {
-        const Explorer::Node node = open.back();
-        open.pop_back();
-        for (std::uint32_t i = first_back_[node]; i < first_back_[node + 1]; ++i) {
-            if (good_[back_[i]]) continue;
-            good_[back_[i]] = true;
-            open.push_back(back_[i]);
-        }
-    }
-    return good_;
 }
 
 bool Decider::assumes_stable_inputs() const {
@@ -140,16 +146,28 @@ bool Decider::assumes_stable_inputs() const {
 
 Decider::Finding Decider::stuck_outside(std::size_t index) {
     const Target& target = targets_[index];
-    const std::vector<bool>& good = ways_to(target);
     if (!coarse_->has_all_edges()) return {Answer::unknown, {}, out_of_bounds(*coarse_)};
-    const Explorer::Stuck stuck = coarse_->first_stuck(target, good);
+    const std::vector<std::uint32_t> distances = coarse_->distances_to(target);
+    Explorer::Stuck stuck = coarse_->first_stuck(target, distances);
     if (stuck.node == Explorer::kNone) {
-        const bool is_exact = options_.assume == Assume::any && !assumes_stable_inputs();
+        const bool is_exact = options_.assume == Assume::any && !assumes_stable_inputs() &&
+                              machine_.move_ms() == 0 && !has_ranges();
         if (is_exact) return {Answer::cannot_be, {}, {}};
         if (!assumes_stable_inputs() && surely_possible(*coarse_, target)) return {Answer::cannot_be, {}, {}};
         return {Answer::unknown, {}, kNotSurely};
     }
-    if (auto course = realized(coarse_->course_to(stuck))) return {Answer::can_be, std::move(course), {}};
+    if (auto played = realized(coarse_->course_to(stuck))) return {Answer::can_be, std::move(played), {}};
+    const Explorer& exact = fine();  // without the scans that no times allow
+    if (!exact.has_all_edges()) return {Answer::unknown, {}, out_of_bounds(exact)};
+    const Explorer::Scans scans = exact.scans();
+    stuck = coarse_->first_stuck(target, distances, &scans);
+    if (stuck.node == Explorer::kNone) {
+        if (!assumes_stable_inputs() && surely_possible(*coarse_, target, &scans))
+            return {Answer::cannot_be, {}, {}};
+        return {Answer::unknown, {}, kNotSurely};
+    }
+    const Explorer::Stuck there = exact.same_scan(coarse_->place(stuck.node), stuck);
+    if (auto played = realized(exact.course_to(there))) return {Answer::can_be, std::move(played), {}};
     return {Answer::unknown, {}, kNoTimes};
 }
 

@@ -24,24 +24,28 @@ class Decider {
     enum class Answer : std::uint8_t { can_be, cannot_be, unknown };
     struct Finding {
         Answer answer = Answer::unknown;
-        std::optional<Course> course;
+        std::optional<Played> played;
         std::string why;  ///< it is unknown
     };
 
     Finding scan_of_target(std::size_t target);
     Finding missed_deadline(const Property& property) const;
+    Finding missed_deadline(const Property& property, const Precision& precision) const;
     Finding remembered(const Property& property);
     Finding stuck_outside(std::size_t index);
 
     const Explorer& coarse() const { return *coarse_; }
 
-    std::optional<Course> realized(const std::vector<CourseScan>& scans,
+    /// What is reached with some values of the ranges surely is with each.
+    bool is_reached_with_all(std::size_t target) const;
+
+    std::optional<Played> realized(const std::vector<CourseScan>& scans,
                                    const std::optional<Overdue>& overdue = {}) const;
 
   private:
     const Explorer& fine();
     bool assumes_stable_inputs() const;
-    const std::vector<bool>& ways_to(const Target& target);
+    bool has_ranges() const { return !machine_.ranges().timer.empty() || machine_.has_counter_ranges(); }
 
     const sequencer::Table& table_;
     const Machine& machine_;
@@ -49,9 +53,6 @@ class Decider {
     std::vector<Target> targets_;
     std::unique_ptr<Explorer> coarse_;
     std::unique_ptr<Explorer> fine_;
-    std::vector<std::uint32_t> first_back_;
-    std::vector<Explorer::Node> back_;
-    std::vector<bool> good_;
     std::array<std::uint32_t, 6> stable_ms_{};
 };
 

@@ -3,8 +3,9 @@
 
 #include <array>
 #include <map>
+#include <utility>
 
-#include "manual_term.h"
+#include "emit_question.h"
 #include "verify/emit.h"
 
 namespace nplc::verify {
@@ -45,25 +46,53 @@ std::string expression(const Condition& condition) {
             return joined(condition, " || ");
         case Kind::odd_of:
             return joined(condition, " ^ ");
-        case Kind::moving:  // no matter of the table alone
-            break;
+        case Kind::moving:
+            return "(motion != 0)";
     }
     return {};
 }
 
-/// What no scan may be for the claim to hold; empty for what linear time cannot say.
-std::string bad_scan(const Property& property) {
-    switch (property.form) {
-        case Form::never:
-        case Form::reachable:
-            return expression(property.condition);
-        case Form::always:
-            return "(!" + expression(property.condition) + ")";
-        case Form::whenever:
-            return fmt::format("({} && !{})", expression(property.condition), expression(property.then));
-        default:
-            return {};
+std::string formula_text(const Formula& formula, std::uint32_t hold_ms);
+
+std::string joined_formula(const Formula& formula, const char* sign, std::uint32_t hold_ms) {
+    std::string text;
+    for (const Formula& part : formula.parts)
+        text += (text.empty() ? "(" : sign) + formula_text(part, hold_ms);
+    return text + ")";
+}
+
+std::string formula_text(const Formula& formula, std::uint32_t hold_ms) {
+    using Of = Formula::Kind;
+    switch (formula.kind) {
+        case Of::ended:
+            return expression(*formula.condition);
+        case Of::began:
+            return "began";
+        case Of::first:
+            return "kept_first";
+        case Of::second:
+            return "kept_second";
+        case Of::negation:
+            return "!" + formula_text(formula.parts[0], hold_ms);
+        case Of::all_of:
+            return joined_formula(formula, " && ", hold_ms);
+        case Of::any_of:
+            return joined_formula(formula, " || ", hold_ms);
+        case Of::odd_of:
+            return joined_formula(formula, " ^ ", hold_ms);
+        case Of::held:
+            return fmt::format("(held >= {})", hold_ms);
     }
+    return {};
+}
+
+/// What a formula asks of a scan's beginning; none if nothing.
+const Condition* beginning_of(const Formula& formula) {
+    if (formula.kind == Formula::Kind::began) return formula.condition;
+    for (const Formula& part : formula.parts) {
+        if (const Condition* found = beginning_of(part)) return found;
+    }
+    return nullptr;
 }
 
 std::string condition_of(const ManualTerm& term) {
@@ -77,29 +106,40 @@ std::string condition_of(const ManualTerm& term) {
     return fmt::format("{}", fmt::join(parts, " && "));
 }
 
-std::string commands_of(const ManualTerm& term) {
+constexpr std::array<const char*, 3> kMotions = {"0 /* stands */", "1 /* to a place */", "2 /* runs */"};
+
+std::string motion_text(const ManualTerm& term, const Question& question) {
+    if (!question.tells_motion || term.motion == ManualMotion::keeps) return {};
+    return fmt::format("motion = {}{}", kMotions[static_cast<std::size_t>(term.motion)],
+                       question.move_ms != 0 ? "; moved = 0" : "");
+}
+
+std::string commands_of(const ManualTerm& term, const Question& question) {
+    const std::string motion = motion_text(term, question);
+    if (term.is_flexmac) return motion;  // an order to the motor and nothing else
     std::string text = fmt::format("wrote = true; output_byte = {}", term.output_byte);
     if (term.names_next) text += fmt::format("; next_step = {}", term.next_state);
     if (term.word != 0)
         text += fmt::format("; {}_preset = {}", term.word_is_counter ? "counter" : "timer", term.word);
+    if (!motion.empty()) text += "; " + motion;
     return text;
 }
 
 /// Spin takes no d_step of any length. Between two of them nothing is chosen, so a scan stays one course.
-std::string terms_text(const std::vector<ManualTerm>& terms) {
+std::string terms_text(const Question& question) {
     constexpr unsigned kAtOnce = 16;
     struct Step {
         std::string text;
         unsigned terms = 0;
     };
     std::map<std::uint8_t, Step> steps;
-    for (const ManualTerm& term : terms) {
-        if (term.is_flexmac) continue;  // an order to the motor and nothing else
+    for (const ManualTerm& term : question.terms) {
+        const std::string commands = commands_of(term, question);
+        if (commands.empty()) continue;
         Step& step = steps[term.state];
         if (step.terms++ % kAtOnce == 0)
             step.text += step.text.empty() ? "d_step {\n" : "         };\n         d_step {\n";
-        step.text +=
-            fmt::format("         if :: {} -> {} :: else fi;\n", condition_of(term), commands_of(term));
+        step.text += fmt::format("         if :: {} -> {} :: else fi;\n", condition_of(term), commands);
     }
     std::string text = "      if\n";
     for (const auto& [number, step] : steps)
@@ -123,7 +163,6 @@ constexpr const char* kVariables = R"(
 bool scanned;                   /* a scan has just finished */
 byte step;
 bool out0, out1, out2, out3;
-bool timer_runs;                /* the timer is not 0 */
 unsigned counter : 16;
 
 hidden byte next_step;          /* the temporary command registers */
@@ -146,53 +185,176 @@ constexpr const char* kExecution = R"(
          :: !(output_byte & 64) && counter_preset == 0 && (output_byte & 128) && counter > 0 -> counter = counter - 1
          :: else
          fi;
-         if :: timer_preset > 0 -> timer_runs = true :: else fi
+         if :: timer_preset > 0 -> PRESETS :: else fi
       :: else
       fi;
 )";
 
+class Model {
+  public:
+    explicit Model(Question question) : question_(std::move(question)) {}
+
+    Emission emission() {
+        Emission emission;
+        for (const Property& property : question_.properties) {
+            if (asks_for_ways(property)) {
+                emission.left_out.push_back(property.name);
+            } else {
+                add(property);
+            }
+        }
+        const bool watches = watches_ != 0;
+        emission.text = fmt::format(
+            "{}{}{}\n{}\nactive proctype gateway() {{\n{}   do\n   :: atomic {{\n"
+            "      d_step {{ {}scanned = false;{} }};\n{}{}{}"
+            "      d_step {{ next_step = 62; wrote = false; timer_preset = 0; counter_preset = 0 }};\n{}"
+            "      d_step {{{}"
+            "      next_step = 0; wrote = false; output_byte = 0; timer_preset = 0; counter_preset = 0;\n"
+            "     {} scanned = true\n      }} }}\n   od\n}}\n{}",
+            kPromelaHeader, assumed(), kVariables, declared(), watches ? choice_of_watch() : "", kept_,
+            forgotten(question_.named), time(), chosen(), allowed(), terms_text(question_), executed(),
+            forgotten(question_.used & ~question_.named), claims_);
+        return emission;
+    }
+
+  private:
+    void add(const Property& property) {
+        const Watch watch = watch_of(property);
+        const bool is_watched = watch.remembers || watch.lasts != nullptr;
+        std::string bad = formula_text(watch.bad, property.within_ms);
+        if (is_watched) {
+            ++watches_;
+            bad = fmt::format("watch == {} && {}", watches_, bad);
+            choices_ += fmt::format("   :: watch = {}; kept_first = {}; kept_second = {}\n", watches_,
+                                    watch.first_at_power_up ? 1 : 0, watch.second_at_power_up ? 1 : 0);
+        }
+        if (watch.remembers) {
+            kept_ += fmt::format(
+                "if :: scanned && watch == {} -> next_first = {}; kept_second = {}; kept_first = next_first "
+                ":: else fi;\n               ",
+                watches_, formula_text(watch.first, 0), formula_text(watch.second, 0));
+            if (const Condition* begins = beginning_of(watch.bad))
+                began_ += fmt::format("; began = (watch == {} -> {} : began)", watches_, expression(*begins));
+        }
+        if (watch.lasts != nullptr) {
+            kept_ += fmt::format(
+                "if :: scanned && watch == {} -> held = ({} -> (held < 0 -> 0 : held) : -1) "
+                ":: else fi;\n               ",
+                watches_, expression(*watch.lasts));
+        }
+        claims_ += fmt::format("\n/* {} */\n#define bad_{} (scanned && {})\nltl p_{} {{ [] !bad_{} }}\n",
+                               property.text, property.name, bad, property.name, property.name);
+    }
+
+    std::string assumed() const {
+        std::string text;
+        for (const Assumption& assumption : question_.assumptions)
+            text += fmt::format("/* {} */\n", assumption.text);
+        if (!question_.counts_time()) return text;
+        return text + fmt::format(
+                          "/* Time is counted in milliseconds, up to the {} after which more makes no "
+                          "difference. */\n",
+                          question_.longest());
+    }
+
+    std::string declared() const {
+        std::string text;
+        for (unsigned bit = 0; bit < 8; ++bit) {
+            if (((question_.used >> bit) & 1U) != 0) text += fmt::format("bool {};\n", kBits[bit]);
+        }
+        text += question_.counts_time() ? "int timer, dt;\n#define timer_runs (timer > 0)\n"
+                                        : "bool timer_runs;                /* the timer is not 0 */\n";
+        if (question_.tells_motion) text += "byte motion;                    /* what was ordered */\n";
+        if (question_.move_ms != 0)
+            text += "int moved;                      /* for how long, to a place */\n";
+        if (watches_ != 0) {
+            text +=
+                "byte watch;                     /* the property that remembers something of scans before "
+                "*/\n"
+                "bool kept_first, kept_second, began;\nhidden byte next_first;\n";
+        }
+        if (question_.longest_hold != 0)
+            text += "int held = -1;                  /* for how long; -1 for not */\n";
+        return text;
+    }
+
+    std::string choice_of_watch() const {
+        return fmt::format("   if\n   :: watch = 0\n{}   fi;\n", choices_);
+    }
+
+    /// What is told of a scan no more, so that it need not be kept apart.
+    std::string forgotten(unsigned bits) const {
+        std::string text;
+        for (unsigned bit = 0; bit < 8; ++bit) {
+            if (((bits >> bit) & 1U) != 0) text += fmt::format(" {} = 0;", kBits[bit]);
+        }
+        return text;
+    }
+
+    std::string time() const {
+        if (!question_.counts_time()) return "      if :: timer_runs -> timer_runs = false :: skip fi;\n";
+        std::string text = fmt::format(
+            "      do :: dt < {} -> dt++ :: break od; skip;\n"
+            "      d_step {{ timer = (timer > dt -> timer - dt : 0);",
+            question_.longest());
+        if (question_.move_ms != 0) {
+            text += fmt::format(" moved = (motion != 1 -> 0 : (moved + dt > {0} -> {1} : moved + dt));",
+                                question_.move_ms, question_.move_ms + 1);
+        }
+        if (question_.longest_hold != 0) {
+            text += fmt::format(" held = (held < 0 -> held : (held + dt > {0} -> {0} : held + dt));",
+                                question_.longest_hold);
+        }
+        return text + " dt = 0 };\n";
+    }
+
+    std::string chosen() const {
+        std::string text;
+        for (unsigned bit = 0; bit < 8; ++bit) {
+            if (((question_.used >> bit) & 1U) != 0)
+                text += fmt::format("      if :: {0} = 0 :: {0} = 1 fi;\n", kBits[bit]);
+        }
+        return text;
+    }
+
+    /// Scans that assumptions leave out, and the end of a move.
+    std::string allowed() const {
+        std::string text;
+        for (const Assumption& assumption : question_.assumptions) {
+            if (assumption.move_ms == 0) text += fmt::format("      !{};\n", expression(assumption.never));
+        }
+        if (question_.move_ms != 0) {
+            text += fmt::format("      (motion != 1 || moved <= {} || inpos || error);\n", question_.move_ms);
+        }
+        if (!began_.empty()) text += fmt::format("      d_step {{ {} }};\n", began_.substr(2));
+        if (!question_.tells_motion) return text;
+        text += "      if\n      :: (motion == 1 || motion == 3) && inpos -> motion = 0\n";
+        if (question_.move_ms != 0) text += "      :: motion == 1 && !inpos && error -> motion = 3\n";
+        return text + "      :: else\n      fi;\n";
+    }
+
+    std::string executed() const {
+        std::string text = kExecution;
+        const std::string word = "PRESETS";
+        text.replace(text.find(word), word.size(),
+                     question_.counts_time() ? "timer = timer_preset" : "timer_runs = true");
+        if (question_.move_ms != 0) text += "      moved = (motion == 1 -> moved : 0);\n";
+        return text;
+    }
+
+    Question question_;
+    unsigned watches_ = 0;
+    std::string choices_;
+    std::string kept_;
+    std::string began_;
+    std::string claims_;
+};
+
 }  // namespace
 
-Emission promela_of(std::span<const std::uint8_t> table, const std::vector<Property>& properties) {
-    Emission emission;
-    std::string claims;
-    unsigned named = 0;
-    for (const Property& property : properties) {
-        const std::string bad = bad_scan(property);
-        if (bad.empty()) {
-            emission.left_out.push_back(property.name);
-            continue;
-        }
-        named |= unsigned{image_bits_of(property.condition)} | image_bits_of(property.then);
-        claims += fmt::format("\n/* {} */\n#define bad_{} (scanned && {})\nltl p_{} {{ [] !bad_{} }}\n",
-                              property.text, property.name, bad, property.name, property.name);
-    }
-    const std::vector<ManualTerm> terms = manual_terms(table);
-    unsigned used = named;
-    for (const ManualTerm& term : terms) used |= term.compared;
-
-    std::string declared;
-    std::string chosen;
-    std::string forgotten;
-    std::string begun;
-    for (unsigned bit = 0; bit < 8; ++bit) {
-        if (((used >> bit) & 1U) == 0) continue;
-        declared += fmt::format("bool {};\n", kBits[bit]);
-        chosen += fmt::format("      if :: {0} = 0 :: {0} = 1 fi;\n", kBits[bit]);
-        // What no property names need not be told apart.
-        (((named >> bit) & 1U) != 0 ? begun : forgotten) += fmt::format(" {} = 0;", kBits[bit]);
-    }
-    emission.text = fmt::format(
-        "{}{}\n{}\nactive proctype gateway() {{\n   do\n   :: atomic {{\n"
-        "      d_step {{ scanned = false;{} }};\n"
-        "      if :: timer_runs -> timer_runs = false :: skip fi;\n{}"
-        "      d_step {{ next_step = 62; wrote = false; timer_preset = 0; counter_preset = 0 }};\n{}"
-        "      d_step {{{}"
-        "      next_step = 0; wrote = false; output_byte = 0; timer_preset = 0; counter_preset = 0;\n"
-        "     {} scanned = true\n      }} }}\n   od\n}}\n{}",
-        kPromelaHeader, kVariables, declared, begun, chosen, terms_text(terms), kExecution, forgotten,
-        claims);
-    return emission;
+Emission promela_of(std::span<const std::uint8_t> table, const std::vector<Property>& properties,
+                    const std::vector<Assumption>& assumptions) {
+    return Model(Question(table, properties, assumptions, true)).emission();
 }
 
 }  // namespace nplc::verify

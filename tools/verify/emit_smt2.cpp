@@ -1,59 +1,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <set>
+#include <utility>
 
-#include "manual_term.h"
+#include "emit_smt2_fields.h"
 #include "verify/emit.h"
 
 namespace nplc::verify {
 namespace {
 
-using Kind = Condition::Kind;
-
-std::string bits(unsigned value, unsigned width) {
-    return fmt::format("#b{:0{}b}", value, width);
-}
-
-std::string clause(const Condition& condition, unsigned counter_bits);
-
-std::string joined_clause(const char* sign, const Condition& condition, unsigned counter_bits) {
-    std::string text = clause(condition.operands[0], counter_bits);
-    for (std::size_t i = 1; i < condition.operands.size(); ++i)
-        text = fmt::format("({} {} {})", sign, text, clause(condition.operands[i], counter_bits));
-    return text;
-}
-
-/// Over i, s, o, r, c: image, step, outputs, whether the timer runs, counter after a scan.
-std::string clause(const Condition& condition, unsigned counter_bits) {
-    const unsigned number = condition.number;
-    switch (condition.kind) {
-        case Kind::constant:
-            return number != 0 ? "true" : "false";
-        case Kind::image:
-            return fmt::format("(= ((_ extract {0} {0}) i) #b1)", number);
-        case Kind::output:
-            return fmt::format("(= ((_ extract {0} {0}) o) #b1)", number);
-        case Kind::timer_q:
-            return "(= r #b0)";
-        case Kind::counter_q:
-            return fmt::format("(= c {})", bits(0, counter_bits));
-        case Kind::step:
-            return fmt::format("(= s {})", bits(number, 6));
-        case Kind::negation:
-            return fmt::format("(not {})", clause(condition.operands[0], counter_bits));
-        case Kind::all_of:
-            return joined_clause("and", condition, counter_bits);
-        case Kind::any_of:
-            return joined_clause("or", condition, counter_bits);
-        case Kind::odd_of:
-            return joined_clause("xor", condition, counter_bits);
-        case Kind::moving:  // no matter of the table alone
-            break;
-    }
-    return {};
-}
+using smt2::bit;
+using smt2::bits;
+using smt2::condition_clause;
+using smt2::Field;
+using smt2::Fields;
+using smt2::formula_clause;
 
 /// The temporary command registers (001 §6.1.9) after all terms were executed in one case.
 struct Registers {
@@ -62,6 +24,7 @@ struct Registers {
     unsigned output_byte = 0;
     unsigned timer_preset = 0;
     unsigned counter_preset = 0;
+    ManualMotion motion = ManualMotion::keeps;
 };
 
 Registers executed(const std::vector<ManualTerm>& terms, unsigned step, bool runs, bool counter_zero,
@@ -71,6 +34,7 @@ Registers executed(const std::vector<ManualTerm>& terms, unsigned step, bool run
     for (const ManualTerm& term : terms) {
         if (term.state != step || ((image ^ term.input) & term.compared) != 0) continue;
         if ((term.timer_must_be_zero && runs) || (term.counter_must_be_zero && !counter_zero)) continue;
+        if (term.motion != ManualMotion::keeps) registers.motion = term.motion;
         if (term.is_flexmac) continue;
         registers.wrote = true;
         registers.output_byte = term.output_byte;
@@ -83,72 +47,183 @@ Registers executed(const std::vector<ManualTerm>& terms, unsigned step, bool run
 
 class Clauses {
   public:
-    Clauses(std::span<const std::uint8_t> table, const std::vector<Property>& properties)
-        : terms_(manual_terms(table)) {
-        for (const ManualTerm& term : terms_) {
-            cared_ |= term.compared;
-            if (!term.is_flexmac && term.word_is_counter)
-                greatest_ = std::max<unsigned>(greatest_, term.word);
-        }
-        for (const Property& property : properties)
-            named_ |= unsigned{image_bits_of(property.condition)} | image_bits_of(property.then);
-        counter_bits_ = std::max(1U, static_cast<unsigned>(std::bit_width(greatest_)));
-    }
+    explicit Clauses(Question question)
+        : question_(std::move(question)),
+          fields_(question_),
+          told_(question_.named | (question_.used & assumed_bits())) {}
+
+    const Fields& fields() const { return fields_; }
+    bool times_moves() const { return fields_.times_moves; }
 
     std::string text() const {
-        const std::string c = fmt::format("(_ BitVec {})", counter_bits_);
-        const std::string place = fmt::format("(_ BitVec 6) (_ BitVec 4) (_ BitVec 1) {}", c);
-        std::string result = fmt::format(
-            R"((set-option :fp.engine datalog)
-(declare-var i (_ BitVec 8))
-(declare-var s (_ BitVec 6)) (declare-var o (_ BitVec 4)) (declare-var r (_ BitVec 1)) (declare-var c {0})
-(declare-var t (_ BitVec 6)) (declare-var p (_ BitVec 4)) (declare-var q (_ BitVec 1)) (declare-var d {0})
-(declare-var z (_ BitVec 1)) (declare-var v {0})
-; step, timer runs, counter is 0, image -> step, timer runs, outputs written, outputs, counter: 00 kept, 01 set, 10 counted
-; down; its value
-(declare-rel Scan ((_ BitVec 6) (_ BitVec 1) (_ BitVec 1) (_ BitVec 8) (_ BitVec 6) (_ BitVec 1) (_ BitVec 1) (_ BitVec 4)
-  (_ BitVec 2) {0}))
-(declare-rel Zero ({0} (_ BitVec 1)))
-(declare-rel Down ({0} {0}))
-; a scan begins here; one leads from here to there; one ended here
-(declare-rel Begin ({1}))
-(declare-rel Move ({1} (_ BitVec 8) {1}))
-(declare-rel After ((_ BitVec 8) {1}))
-)",
-            c, place);
-        result += fmt::format("(rule (Begin {} #b0000 #b0 {}))\n", bits(0, 6), bits(0, counter_bits_));
-        for (const char* outputs : {"#b0 p", "#b1 p"}) {
-            const char* then = outputs[2] == '0' ? "o" : "p";
-            const auto rule = [&](const char* counter, const char* with, const char* value) {
-                result += fmt::format(
-                    "(rule (=> (and (Begin s o r c) (Zero c z) (Scan s r z i t q {} {} v){}) "
-                    "(Move s o r c i t {} q {})))\n",
-                    outputs, counter, with, then, value);
-            };
-            rule("#b00", "", "c");
-            rule("#b01", "", "v");
-            rule("#b10", " (Down c d)", "d");
+        std::string result = declared() + ticks();
+        result += fmt::format("(rule (Begin {}))\n", fields_.at_power_up());
+        result += scans();
+        result += fmt::format("(rule (=> (Move {0} i {1}) (After i {1})))\n; any time passes\n",
+                              fields_.here(), fields_.there());
+        result += fmt::format("(rule (=> (After i {0}) (Begin {0})))\n", fields_.here());
+        result += time("Begin", "");
+        for (unsigned value = 0; value <= question_.greatest_counter; ++value) {
+            const std::string from = bits(value, fields_.counter.width);
+            result += fmt::format("(rule (Zero {} {}))\n(rule (Down {} {}))\n", from, bit(value == 0), from,
+                                  bits(value == 0 ? 0 : value - 1, fields_.counter.width));
         }
-        result +=
-            "(rule (=> (Move s o r c i t p q d) (After i t p q d)))\n"
-            "; any time passes\n"
-            "(rule (=> (After i s o r c) (Begin s o r c)))\n"
-            "(rule (=> (After i s o #b1 c) (Begin s o #b0 c)))\n";
-        for (unsigned value = 0; value <= greatest_; ++value) {
-            const std::string from = bits(value, counter_bits_);
-            result +=
-                fmt::format("(rule (Zero {} {}))\n(rule (Down {} {}))\n", from, value == 0 ? "#b1" : "#b0",
-                            from, bits(value == 0 ? 0 : value - 1, counter_bits_));
-        }
-        return result + facts();
+        return result + turns() + facts();
     }
 
-    unsigned counter_bits() const { return counter_bits_; }
+    /// While time passes, a relation of a state, and of what is remembered of scans, stays so.
+    std::string time(const std::string& relation, const std::string& remembered) const {
+        const std::string from = fields_.here() + remembered;
+        if (!times_moves()) {
+            return fmt::format("(rule (=> ({0} {1}) ({0} {2})))\n", relation, with_timer(from, "#b1"),
+                               with_timer(from, "#b0"));
+        }
+        return fmt::format("(rule (=> (and ({0} {1}) (Tick {2} {3})) ({0} {3}{4})))\n", relation, from,
+                           fields_.here(), fields_.there(), remembered);
+    }
+    /// A state with another word for the timer.
+    std::string with_timer(std::string state, const char* word) const {
+        state.replace(state.find(" r") + 1, 1, word);
+        return state;
+    }
 
   private:
+    unsigned assumed_bits() const {
+        unsigned bits = question_.tells_motion ? 0xC0U : 0U;
+        for (const Assumption& assumption : question_.assumptions) bits |= image_bits_of(assumption.never);
+        return bits;
+    }
+
+    std::string declared() const {
+        std::string vars;
+        for (const Field& field : fields_.all()) {
+            vars += fmt::format("(declare-var {0} (_ BitVec {2})) (declare-var {1} (_ BitVec {2}))\n",
+                                field.here, field.there, field.width);
+        }
+        return fmt::format(
+            R"((set-option :fp.engine datalog)
+(declare-var i (_ BitVec 8)) (declare-var z (_ BitVec 1)) (declare-var y (_ BitVec 1))
+{0}(declare-var u (_ BitVec {1})) (declare-var x (_ BitVec {2}))
+(declare-var k (_ BitVec 1)) (declare-var l (_ BitVec 1)) (declare-var g (_ BitVec 2))
+; step, timer runs, counter is 0, image -> step, timer preset, its value, outputs written, outputs, counter: 00 kept, 01 set,
+; 10 counted down; its value, motion: 00 stopped, 01 to a place, 10 runs, 11 kept
+(declare-rel Scan ((_ BitVec 6) (_ BitVec 1) (_ BitVec 1) (_ BitVec 8) (_ BitVec 6) (_ BitVec 1) (_ BitVec {2}) (_ BitVec 1)
+  (_ BitVec 4) (_ BitVec 2) (_ BitVec {1}) (_ BitVec 2)))
+(declare-rel Zero ((_ BitVec {1}) (_ BitVec 1)))
+(declare-rel Down ((_ BitVec {1}) (_ BitVec {1})))
+(declare-rel Runs ((_ BitVec {2}) (_ BitVec 1)))
+; motion, INPOS seen, ERROR seen, what a scan orders -> motion
+(declare-rel Turn ((_ BitVec 2) (_ BitVec 1) (_ BitVec 1) (_ BitVec 2) (_ BitVec 2)))
+; a scan begins here; one leads from here to there; one ended here
+(declare-rel Begin ({3}))
+(declare-rel Move ({3} (_ BitVec 8) {3}))
+(declare-rel After ((_ BitVec 8) {3}))
+)",
+            vars, fields_.counter.width, fields_.timer.width, fields_.sorts());
+    }
+
+    /// A rule for each way to take over the outputs, the counter and the timer.
+    std::string scans() const {
+        struct Choice {
+            const char* word;     ///< of the scan's fact
+            const char* needs;    ///< what else must hold
+            const char* becomes;  ///< where a state after the scan has it
+        };
+        static constexpr Choice kOutputs[] = {{"#b0 p", "", "o"}, {"#b1 p", "", "p"}};
+        static constexpr Choice kCounter[] = {
+            {"#b00 u", "", "c"}, {"#b01 u", "", "u"}, {"#b10 u", " (Down c d)", "d"}};
+        static constexpr Choice kTimer[] = {{"#b0 x", "", "r"}, {"#b1 x", "", "x"}};
+        std::string text;
+        for (const Choice& o : kOutputs) {
+            for (const Choice& c : kCounter) {
+                for (const Choice& r : kTimer) {
+                    const std::string scan =
+                        fmt::format("(Begin {}) (Runs r y) (Zero c z) (Scan s y z i t {} {} {} g){}{}",
+                                    fields_.here(), r.word, o.word, c.word, c.needs, left_out());
+                    const std::string end = fmt::format("t {} {} {}", o.becomes, r.becomes, c.becomes);
+                    text += moves(scan, end);
+                }
+            }
+        }
+        return text;
+    }
+
+    std::string moves(const std::string& scan, const std::string& end) const {
+        const auto rule = [&](const std::string& more, const std::string& motion) {
+            return fmt::format("(rule (=> (and {}{}) (Move {} i {}{})))\n", scan, more, fields_.here(), end,
+                               motion);
+        };
+        if (!fields_.tells_motion) return rule("", "");
+        const std::string turn = " (Turn m ((_ extract 6 6) i) ((_ extract 7 7) i) g n)";
+        if (!times_moves()) return rule(turn, " n");
+        const std::string in_time = fmt::format(
+            " (or (not (= m #b01)) (not (= v {})) (= ((_ extract 6 6) i) #b1) (= ((_ extract 7 7) i) #b1))",
+            bits(question_.move_ms + 1, fields_.moved.width));
+        const std::string none = bits(0, fields_.moved.width);
+        return rule(turn + in_time + " (= n #b01) (= g #b11)", " n v") +
+               rule(turn + in_time + " (or (not (= n #b01)) (not (= g #b11)))", " n " + none);
+    }
+
+    std::string left_out() const {
+        std::string text;
+        for (const Assumption& assumption : question_.assumptions) {
+            if (assumption.move_ms == 0)
+                text += fmt::format(" (not {})", condition_clause(assumption.never, fields_, false));
+        }
+        return text;
+    }
+
+    /// Motion 3 is one to a place during which ERROR was seen; it is told only where moves are timed.
+    std::string turns() const {
+        std::string text;
+        if (!fields_.tells_motion) return text;
+        for (unsigned all = 0; all < 64; ++all) {
+            const unsigned before = all & 3U;
+            const bool in_pos = (all & 4U) != 0;
+            const bool error = (all & 8U) != 0;
+            const unsigned order = all >> 4U;
+            unsigned then = before;
+            if ((before == 1 || before == 3) && in_pos) {
+                then = 0;
+            } else if (before == 1 && error && times_moves()) {
+                then = 3;
+            }
+            if (order != 3) then = order;
+            text += fmt::format("(rule (Turn {} {} {} {} {}))\n", bits(before, 2), bit(in_pos), bit(error),
+                                bits(order, 2), bits(then, 2));
+        }
+        return text;
+    }
+
+    /// A millisecond, where time is counted.
+    std::string ticks() const {
+        std::string text;
+        const unsigned greatest = times_moves() ? question_.greatest_timer : 1;
+        for (unsigned value = 0; value <= greatest; ++value) {
+            const std::string from = bits(value, fields_.timer.width);
+            text += fmt::format("(rule (Runs {} {}))\n", from, bit(value != 0));
+            if (!times_moves()) continue;
+            text += fmt::format("(rule (Less {} {}))\n", from,
+                                bits(value == 0 ? 0 : value - 1, fields_.timer.width));
+        }
+        if (!times_moves()) return text;
+        const unsigned late = question_.move_ms + 1;
+        for (unsigned value = 0; value <= late; ++value) {
+            text += fmt::format("(rule (More {} {}))\n", bits(value, fields_.moved.width),
+                                bits(std::min(value + 1, late), fields_.moved.width));
+        }
+        return fmt::format(
+                   "(declare-rel Less ((_ BitVec {0}) (_ BitVec {0})))\n"
+                   "(declare-rel More ((_ BitVec {1}) (_ BitVec {1})))\n(declare-rel Tick ({2} {2}))\n"
+                   "(rule (=> (and (Begin {3}) (Less r q) (More v w) (= m #b01)) (Tick {3} s o q c m w)))\n"
+                   "(rule (=> (and (Begin {3}) (Less r q) (not (= m #b01))) (Tick {3} s o q c m v)))\n",
+                   fields_.timer.width, fields_.moved.width, fields_.sorts(), fields_.here()) +
+               text;
+    }
+
     std::string facts() const {
         std::set<unsigned> steps;
-        for (const ManualTerm& term : terms_) {
+        for (const ManualTerm& term : question_.terms) {
             steps.insert(term.state);
             if (!term.is_flexmac && term.names_next) steps.insert(term.next_state);
         }
@@ -156,7 +231,7 @@ class Clauses {
         std::set<std::string> facts;
         for (const unsigned step : steps) {
             for (unsigned image = 0; image < 256; ++image) {
-                if ((image & ~(cared_ | named_)) != 0) continue;
+                if ((image & ~question_.used) != 0) continue;
                 for (unsigned zeros = 0; zeros < 4; ++zeros)
                     facts.insert(fact(step, (zeros & 1U) != 0, (zeros & 2U) != 0, image));
             }
@@ -167,7 +242,7 @@ class Clauses {
     }
 
     std::string fact(unsigned step, bool runs, bool counter_zero, unsigned image) const {
-        const Registers done = executed(terms_, step, runs, counter_zero, image);
+        const Registers done = executed(question_.terms, step, runs, counter_zero, image);
         unsigned operation = 0;
         unsigned value = 0;
         if ((done.output_byte & 0x40U) != 0) {
@@ -178,18 +253,19 @@ class Clauses {
         } else if ((done.output_byte & 0x80U) != 0) {
             operation = 2;
         }
-        return fmt::format("(rule (Scan {} {} {} {} {} {} {} {} {} {}))\n", bits(step, 6),
-                           bits(runs ? 1 : 0, 1), bits(counter_zero ? 1 : 0, 1), bits(image & named_, 8),
-                           bits(done.next_step, 6), bits(runs || done.timer_preset != 0 ? 1 : 0, 1),
-                           bits(done.wrote ? 1 : 0, 1), bits(done.output_byte & 0x0FU, 4), bits(operation, 2),
-                           bits(value, counter_bits_));
+        const bool presets = done.timer_preset != 0;
+        const unsigned left = times_moves() ? done.timer_preset : (presets ? 1U : 0U);
+        const auto motion = static_cast<unsigned>(fields_.tells_motion ? done.motion : ManualMotion::keeps);
+        return fmt::format("(rule (Scan {} {} {} {} {} {} {} {} {} {} {} {}))\n", bits(step, 6), bit(runs),
+                           bit(counter_zero), bits(image & told_, 8), bits(done.next_step, 6), bit(presets),
+                           bits(left, fields_.timer.width), bit(done.wrote),
+                           bits(done.output_byte & 0x0FU, 4), bits(operation, 2),
+                           bits(value, fields_.counter.width), bits(motion, 2));
     }
 
-    std::vector<ManualTerm> terms_;
-    unsigned cared_ = 0;
-    unsigned named_ = 0;
-    unsigned greatest_ = 0;
-    unsigned counter_bits_ = 1;
+    Question question_;
+    Fields fields_;
+    unsigned told_;  ///< bits of HW_INP that a scan's facts tell apart
 };
 
 constexpr const char* kClausesHeader =
@@ -203,56 +279,82 @@ constexpr const char* kClausesHeader =
 ; IS REACHABLE. The next scan may come after any time, so WHENEVER is broken as soon as a scan leaves its deadline open.
 )";
 
-/// What breaks the property, or what is to be reached; empty for what is not known here.
-std::string bad_clause(const Property& property, unsigned counter_bits) {
-    std::string c = clause(property.condition, counter_bits);
-    switch (property.form) {
-        case Form::never:
-        case Form::reachable:
-        case Form::always_possible:
-            return c;
-        case Form::always:
-            return fmt::format("(not {})", c);
-        case Form::whenever:
-            return fmt::format("(and {} (not {}))", c, clause(property.then, counter_bits));
-        default:
-            return {};
-    }
+/// From which states no scan leads on to one of the condition.
+std::string ways_text(const Property& property, const Clauses& clauses) {
+    const Fields& fields = clauses.fields();
+    const std::string here = fields.here();
+    const std::string condition = condition_clause(property.condition, fields, false);
+    const std::string asked =
+        property.form == Form::after_possible ? " " + condition_clause(property.then, fields, false) : "";
+    const std::string waits =
+        clauses.times_moves()
+            ? fmt::format("(and (Can_{0} {2}) (Tick {1} {2}))", property.name, here, fields.there())
+            : fmt::format("(and (Can_{0} {1}) (Begin {2}))", property.name, clauses.with_timer(here, "#b0"),
+                          clauses.with_timer(here, "#b1"));
+    return fmt::format(
+        R"((declare-rel Hit_{0} ((_ BitVec 8) {2}))
+(declare-rel Can_{0} ({2}))
+(rule (=> (and (After i {3}) {1}) (Hit_{0} i {3})))
+(rule (=> (and (Move {3} i {4}) (Hit_{0} i {4})) (Can_{0} {3})))
+(rule (=> (and (Move {3} i {4}) (Can_{0} {4})) (Can_{0} {3})))
+(rule (=> {5} (Can_{0} {6})))
+(rule (=> (and (After i {3}) (not (Hit_{0} i {3})) (not (Can_{0} {3})){7}) Bad_{0}))
+)",
+        property.name, condition, fields.sorts(), here, fields.there(), waits,
+        clauses.times_moves() ? here : clauses.with_timer(here, "#b1"), asked);
 }
 
-std::string query_of(const Property& property, const std::string& bad, unsigned counter_bits) {
+/// What is remembered is followed along all scans.
+std::string watch_text(const Property& property, const Watch& watch, const Clauses& clauses) {
+    const Fields& fields = clauses.fields();
     const std::string& name = property.name;
+    std::string text = fmt::format(
+        "(declare-rel Watch_{0} ({1} (_ BitVec 1) (_ BitVec 1)))\n(rule (Watch_{0} {2} {3} {4}))\n", name,
+        fields.sorts(), fields.at_power_up(), bit(watch.first_at_power_up), bit(watch.second_at_power_up));
+    const std::string scan =
+        fmt::format("(Watch_{} {} k l) (Move {} i {})", name, fields.here(), fields.here(), fields.there());
+    const std::string first = formula_clause(watch.first, fields);
+    const std::string second = formula_clause(watch.second, fields);
+    for (const bool one : {false, true}) {
+        for (const bool two : {false, true}) {
+            text += fmt::format("(rule (=> (and {} {} {}) (Watch_{} {} {} {})))\n", scan,
+                                one ? first : "(not " + first + ")", two ? second : "(not " + second + ")",
+                                name, fields.there(), bit(one), bit(two));
+        }
+    }
+    return text + clauses.time("Watch_" + name, " k l") +
+           fmt::format("(rule (=> (and {} {}) Bad_{}))\n", scan, formula_clause(watch.bad, fields), name);
+}
+
+std::string query_of(const Property& property, const Clauses& clauses) {
+    const std::string& name = property.name;
+    const Fields& fields = clauses.fields();
     std::string text = fmt::format("\n; {}\n(declare-rel Bad_{} ())\n", property.text, name);
-    if (property.form == Form::always_possible) {
-        const std::string place =
-            fmt::format("(_ BitVec 6) (_ BitVec 4) (_ BitVec 1) (_ BitVec {})", counter_bits);
-        text += fmt::format(
-            R"((declare-rel Hit_{0} ((_ BitVec 8) {2}))
-(declare-rel Can_{0} ({2}))
-(rule (=> (and (After i s o r c) {1}) (Hit_{0} i s o r c)))
-(rule (=> (and (Move s o r c i t p q d) (Hit_{0} i t p q d)) (Can_{0} s o r c)))
-(rule (=> (and (Move s o r c i t p q d) (Can_{0} t p q d)) (Can_{0} s o r c)))
-(rule (=> (and (Can_{0} s o #b0 c) (Begin s o #b1 c)) (Can_{0} s o #b1 c)))
-(rule (=> (and (After i s o r c) (not (Hit_{0} i s o r c)) (not (Can_{0} s o r c))) Bad_{0}))
-)",
-            name, bad, place);
+    if (asks_for_ways(property)) {
+        text += ways_text(property, clauses);
+    } else if (const Watch watch = watch_of(property); watch.remembers) {
+        text += watch_text(property, watch, clauses);
     } else {
-        text += fmt::format("(rule (=> (and (After i s o r c) {}) Bad_{}))\n", bad, name);
+        text += fmt::format("(rule (=> (and (Move {} i {}) {}) Bad_{}))\n", fields.here(), fields.there(),
+                            formula_clause(watch.bad, fields), name);
     }
     return text + fmt::format("(echo \"{0}\")\n(query Bad_{0})\n", name);
 }
 
 }  // namespace
 
-Emission smt2_of(std::span<const std::uint8_t> table, const std::vector<Property>& properties) {
-    const Clauses clauses(table, properties);
-    Emission emission{kClausesHeader + clauses.text(), {}};
+Emission smt2_of(std::span<const std::uint8_t> table, const std::vector<Property>& properties,
+                 const std::vector<Assumption>& assumptions) {
+    const Clauses clauses(Question(table, properties, assumptions, false));
+    Emission emission{kClausesHeader, {}};
+    for (const Assumption& assumption : assumptions) emission.text += "; " + assumption.text + "\n";
+    if (clauses.times_moves()) emission.text += "; Time is counted in milliseconds.\n";
+    emission.text += clauses.text();
     for (const Property& property : properties) {
-        const std::string bad = bad_clause(property, clauses.counter_bits());
-        if (bad.empty()) {
+        if (property.form == Form::never_while) {
             emission.left_out.push_back(property.name);
         } else {
-            emission.text += query_of(property, bad, clauses.counter_bits());
+            emission.text += query_of(property, clauses);
         }
     }
     return emission;

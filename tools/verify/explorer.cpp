@@ -2,69 +2,63 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace nplc::verify {
 namespace {
 
+using Motor = Place::Motor;
+
 /// A line that works no more is known as lost by then, whatever was to be sent.
 constexpr std::int32_t kUntilLost = 300;
 
-ImageSet images_with(unsigned bits, unsigned levels) {
-    ImageSet set;
-    for (unsigned image = 0; image < 256; ++image) set[image] = (image & bits) == levels;
-    return set;
-}
-
-const ImageSet& images_of_error() {
-    static const ImageSet set = images_with(sequencer::kError, sequencer::kError);
-    return set;
-}
-const ImageSet& images_of_lost_link() {
-    static const ImageSet set = images_with(sequencer::kError | sequencer::kInPos, sequencer::kError);
-    return set;
-}
-
-constexpr unsigned kCounterBit = 15;
-constexpr unsigned kPlainBits = 11;  ///< of a place under `any`: step, outputs, timer
-constexpr std::size_t kMostEdges = 10'000'000;
+/// With times: comparisons of zones; to look one up costs as much as kLookUp of them.
+constexpr std::uint64_t kMostWork = 25'000'000;
+constexpr std::uint64_t kLookUp = 10;
+constexpr std::size_t kMostEdges = 6'000'000;
 constexpr std::size_t kMostDense = std::size_t{1} << 24U;
+
+constexpr std::uint8_t bit_of(Motor motor) {
+    return static_cast<std::uint8_t>(1U << static_cast<unsigned>(motor));
+}
 
 }  // namespace
 
-std::size_t Explorer::dense_index(std::uint64_t packed) const {
-    if (machine_.assume() == Assume::driver) return packed;
-    return (packed & ((1U << kPlainBits) - 1)) | (packed >> kCounterBit << kPlainBits);
+Explorer::Explorer(const Machine& machine, const Precision& precision)
+    : machine_(machine), precision_(precision) {
+    allowed_.fill(machine.permitted());
+    if (machine.assume() == Assume::any) return;
+    for (const Motor motor : {Motor::error, Motor::cut})
+        allowed_[static_cast<std::size_t>(motor)] &= images_of_error();
+    allowed_[static_cast<std::size_t>(Motor::lost)] &= images_of_lost_link();
 }
 
-Explorer::Node& Explorer::slot(std::uint64_t packed) {
-    if (!dense_.empty()) return dense_[dense_index(packed)];
-    return sparse_.try_emplace(packed, kNone).first->second;
+Explorer::Node& Explorer::slot(const Place& place) {
+    if (dense_) return dense_[dense_index(place)];
+    return sparse_.try_emplace(place.packed(), 0).first->second;
 }
 
-Explorer::Node Explorer::slot_value(std::uint64_t packed) const {
-    if (!dense_.empty()) return dense_[dense_index(packed)];
-    const auto found = sparse_.find(packed);
-    return found == sparse_.end() ? kNone : found->second;
-}
-
-ImageSet Explorer::allowed(const Place& place) const {
-    const ImageSet& permitted = machine_.permitted();
-    if (machine_.assume() == Assume::any) return permitted;
-    if (place.motor == Place::Motor::lost) return images_of_lost_link() & permitted;
-    if (place.motor == Place::Motor::error || place.error_comes) return images_of_error() & permitted;
-    return permitted;
+Explorer::Node Explorer::slot_value(const Place& place) const {
+    if (dense_) return dense_[dense_index(place)] - 1;
+    const auto found = sparse_.find(place.packed());
+    return found == sparse_.end() ? kNone : found->second - 1;
 }
 
 View Explorer::view_after(const Place& place, const Group& group) const {
     sequencer::State state{place.step, place.outputs, std::uint16_t{place.runs}, place.counter};
     sequencer::apply(group.pending, state);
-    const bool moving =
-        machine_.tells_motion() && motion_after(place.motion, group.in_pos, group.orders) != Motion::none;
+    const bool moving = motion_of(place, group) != Motion::none;
     return {state.step, state.outputs, state.timer == 0, state.counter == 0, moving};
 }
 
+/// After a scan of the group.
+Motion Explorer::motion_of(const Place& place, const Group& group) const {
+    if (!machine_.tells_motion()) return Motion::none;
+    return motion_after(place.motion, {group.in_pos, group.disturbs}, group.orders);
+}
+
 bool Explorer::is_idle(const Place& place, const Group& group) const {
-    if (group.sends || (place.motion == Motion::to_place && group.in_pos)) return false;
+    if (group.sends || motion_of(place, group) != place.motion) return false;
     sequencer::State state{place.step, place.outputs, std::uint16_t{place.runs}, place.counter};
     return !sequencer::apply(group.pending, state);
 }
@@ -78,10 +72,8 @@ Place Explorer::after(const Place& place, const Group& group) const {
     next.outputs = state.outputs;
     next.runs = state.timer != 0;
     next.counter = state.counter;
-    if (machine_.tells_motion()) next.motion = motion_after(place.motion, group.in_pos, group.orders);
-    if (machine_.assume() == Assume::driver && (group.images & images_of_error()).any() &&
-        !group.resets_error)
-        next.motor = Place::Motor::error;
+    next.motion = motion_of(place, group);
+    if (group.error && !group.resets_error) next.motor = Motor::error;
     return next;
 }
 
@@ -95,13 +87,20 @@ std::array<Explorer::Part, 2> Explorer::parts(const Place& place, const View& vi
     return {Part{images & ~begun, false, false}, Part{images & begun, true, true}};
 }
 
+bool Explorer::may_wait_for_line(Motor motor) const {
+    return motor == Motor::cut || (precision_.waits_for_line && motor != Motor::free);
+}
+
+std::int32_t Explorer::most_idle(Motor motor) const {
+    return std::int32_t{Machine::kMostIdle} + (may_wait_for_line(motor) ? kUntilLost : 0);
+}
+
 Bounds Explorer::delay_of(const Place& place, const Group& group, const Place& next) const {
     if (machine_.assume() == Assume::any) return {0, kEndless};
     if (is_idle(place, group)) return {0, kEndless};
     const auto most = static_cast<std::int32_t>(group.delay.most);
-    if (next.error_comes) return {0, most + kUntilLost};
-    const bool error = (group.images & images_of_error()).any();
-    if (error || group.delay.least < group.delay.end) return {0, most};
+    if (may_wait_for_line(next.motor)) return {0, most + kUntilLost};
+    if (group.error || group.delay.least < group.delay.end) return {0, most};
     return {static_cast<std::int32_t>(group.delay.least - group.delay.end), most};
 }
 
@@ -123,7 +122,7 @@ bool Explorer::keeps_too_long(const Place& place, const Zone& zone, const Group&
 
 /// The images of a scan after which `next` can be.
 ImageSet Explorer::narrowed(const ImageSet& images, const Place& next) const {
-    return next.motor == Place::Motor::lost ? images & images_of_lost_link() : images;
+    return next.motor == Motor::lost ? images & images_of_lost_link() : images;
 }
 
 template <class Each>
@@ -132,7 +131,12 @@ void Explorer::successors(const Place& place, const Zone& zone, const Group& gro
     const Place next = after(place, group);
     Zone now = zone;
     if (part.begins || (place.pending && !part.pending)) now.begin_deadline();
-    if (group.pending.timer_preset != 0 && precision_.times_timer) now.preset(group.pending.timer_preset);
+    const bool moves = times_moves_ && next.motion == Motion::to_place;
+    if (times_moves_ && (!moves || begins_move(group.orders))) now.begin_move();
+    if (group.pending.timer_preset != 0 && precision_.times_timer) {
+        const PresetRange times = machine_.times_of(group.pending.timer_preset);
+        now.preset(times.least, times.most);
+    }
     const auto let_pass = [&](Place to) {
         if (!narrowed(part.images, to).any() || allowed(to).none()) return;
         to.pending = part.pending;
@@ -144,11 +148,13 @@ void Explorer::successors(const Place& place, const Zone& zone, const Group& gro
         }
         const Bounds delay = delay_of(place, group, to);
         Zone later = now;
-        later.elapse(delay, part.pending);
-        if (precision_.times_timer && next.runs && delay.most >= kEndless &&
-            machine_.assume() == Assume::driver) {
-            later.left.least = std::max(later.left.least, 1 - std::int32_t{Machine::kMostIdle});
-            later.tighten();
+        later.elapse(delay, part.pending, moves);
+        if (delay.most >= kEndless && machine_.assume() == Assume::driver) {
+            // Scans repeat meanwhile, and the first that sees something new is not idle.
+            if (precision_.times_timer && next.runs)
+                later.left.least = std::max(later.left.least, 1 - most_idle(next.motor));
+            if (moves) later.moved.most = std::min(later.moved.most, longest_move() + most_idle(next.motor));
+            later.tighten(times_moves_);
         }
         if (part.pending) {
             const auto limit = static_cast<std::int32_t>(precision_.deadline->within_ms);
@@ -157,8 +163,13 @@ void Explorer::successors(const Place& place, const Zone& zone, const Group& gro
                 later.passed.most = std::min(later.passed.most, limit);
             }
         }
-        const auto hand_out = [&](bool runs, bool is_over) {
+        const auto hand_out = [&](bool runs, bool is_over, bool is_late) {
             Zone there = later;
+            if (is_late) {
+                there.moved.least = std::max(there.moved.least, longest_move() + 1);
+            } else if (moves) {
+                there.moved.most = std::min(there.moved.most, longest_move());
+            }
             if (is_hold() && part.pending) {
                 const auto limit = static_cast<std::int32_t>(precision_.deadline->within_ms);
                 if (is_over) {
@@ -174,277 +185,310 @@ void Explorer::successors(const Place& place, const Zone& zone, const Group& gro
                     there.left.most = std::min(there.left.most, 0);
                 }
             } else {
-                there.left = {};
-                there.sum = there.passed;
+                there.stop_timer();
             }
-            there.tighten();
+            there.tighten(times_moves_);
             if (there.empty()) return;
             if (!runs) there.stop_timer();
             if (is_over) there.cut_passed(static_cast<std::int32_t>(precision_.deadline->within_ms));
+            if (is_late) there.cut_moved(longest_move() + 1);
             to.runs = runs;
             each(to, there);
         };
-        for (const bool is_over : {false, true}) {
-            if (is_over && !(is_hold() && part.pending)) continue;
-            if (next.runs) hand_out(true, is_over);
-            hand_out(false, is_over);
+        for (const bool is_late : {false, true}) {
+            if (is_late && !moves) continue;
+            for (const bool is_over : {false, true}) {
+                if (is_over && !(is_hold() && part.pending)) continue;
+                if (next.runs) hand_out(true, is_over, is_late);
+                hand_out(false, is_over, is_late);
+            }
         }
     };
-    const bool stays_lost = place.motor == Place::Motor::lost && next.motor == Place::Motor::error;
+    const bool stays_lost = place.motor == Motor::lost && next.motor == Motor::error;
     if (!stays_lost) let_pass(next);
     if (machine_.assume() == Assume::any) return;
-    if (next.motor == Place::Motor::error && precision_.knows_lost_link &&
-        place.motor != Place::Motor::error) {
+    if (next.motor == Motor::error && precision_.knows_lost_link && place.motor != Motor::error) {
         Place lost = next;
-        lost.motor = Place::Motor::lost;
+        lost.motor = Motor::lost;
         let_pass(lost);
     }
-    if (next.motor == Place::Motor::free && group.sends) {
+    if (next.motor == Motor::free && group.sends) {
         Place cut = next;
-        cut.error_comes = true;
+        cut.motor = Motor::cut;
         let_pass(cut);
     }
 }
 
+/// The same as `after` and `successors` say, for every place at once.
+void Explorer::find_effects() {
+    const bool driver = machine_.assume() == Assume::driver;
+    for (const Group& group : machine_.all_groups()) {
+        Effect& effect = effects_.emplace_back();
+        const sequencer::Pending& pending = group.pending;
+        effect.presets = pending.timer_preset != 0;
+        if (pending.has_output) {
+            using Counter = Effect::Counter;
+            const bool clears = (pending.output_byte & 0x40U) != 0;
+            effect.counter_value = clears ? std::uint16_t{0} : pending.counter_preset;
+            if (clears || pending.counter_preset != 0) {
+                effect.counter = Counter::becomes;
+            } else if ((pending.output_byte & 0x80U) != 0) {
+                effect.counter = Counter::counts_down;
+            }
+        }
+        for (const Motor motor : {Motor::free, Motor::error, Motor::lost, Motor::cut}) {
+            const ImageSet images = group.images & allowed_[static_cast<std::size_t>(motor)];
+            if (images.none() || (!driver && motor != Motor::free)) continue;
+            std::uint8_t& next = effect.next[static_cast<std::size_t>(motor)];
+            const bool shows_error = group.error && !group.resets_error;
+            if (!(shows_error && motor == Motor::lost))
+                next |= bit_of(shows_error ? Motor::error : Motor::free);
+            const bool may_be_lost = (images & images_of_lost_link()).any();
+            if (shows_error && precision_.knows_lost_link && motor != Motor::error && may_be_lost)
+                next |= bit_of(Motor::lost);
+            if (driver && !shows_error && group.sends) next |= bit_of(Motor::cut);
+            for (const Motor then : {Motor::free, Motor::error, Motor::lost, Motor::cut}) {
+                if (allowed_[static_cast<std::size_t>(then)].none())
+                    next &= static_cast<std::uint8_t>(~bit_of(then));
+            }
+        }
+    }
+}
+
 Explorer::Node Explorer::find(const Place& place, const Zone& zone) const {
-    Node node = slot_value(place.packed());
+    Node node = slot_value(place);
     if (!uses_zones_) return node;
-    while (node != kNone && !zone.within(zones_[node])) node = same_place_[node];
+    while (node != kNone && !zone.within(zones_[node])) {
+        node = same_place_[node];
+        ++work_;
+    }
     return node;
 }
 
-void Explorer::add(const Place& place, const Zone& zone, const Origin& origin, Node from) {
-    Node node = find(place, zone);
+/// Whether all that can have passed can have so in nodes that are known; if not, it is known from now on.
+bool Explorer::is_covered(const Place& place, const Bounds& passed) {
+    std::vector<Bounds>& parts = covered_[place.packed()];
+    const auto first = std::find_if(parts.begin(), parts.end(),
+                                    [&](const Bounds& part) { return part.most >= passed.least - 1; });
+    if (first != parts.end() && passed.within(*first)) return true;
+    Bounds joined = passed;
+    auto end = first;
+    for (; end != parts.end() && end->least <= passed.most + 1; ++end)
+        joined = {std::min(joined.least, end->least), std::max(joined.most, end->most)};
+    parts.insert(parts.erase(first, end), joined);
+    return false;
+}
+
+void Explorer::add(const Place& place, const Zone& zone, const Origin& origin) {
+    const std::uint32_t depth = origin.parent == kNone ? 0 : depths_[origin.parent] + 1;
+    if (uses_zones_) work_ += kLookUp;
+    const bool is_line = precision_.deadline != nullptr && zone.left == Bounds{} &&
+                         !(times_moves_ && place.motion == Motion::to_place);
+    if (is_line && is_covered(place, zone.passed)) return;
+    Node node = is_line ? kNone : find(place, zone);
+    if (precision_.guide != nullptr) {
+        while (node != kNone && (depths_[node] > depth || !zone.within(zones_[node])))
+            node = same_place_[node];
+    }
     if (node == kNone) {
-        if (places_.size() >= precision_.most_states) {
+        const std::uint32_t rest = precision_.guide != nullptr ? distance(place) : 0;
+        if (rest == kFar) return;
+        if (places_.size() >= precision_.most_states || is_worn_out()) {
             complete_ = false;
             return;
         }
         node = static_cast<Node>(places_.size());
-        Node& first = slot(place.packed());
-        places_.push_back(place.packed());
+        Node& first = slot(place);
+        places_.push_back(place);
         origins_.push_back(origin);
+        depths_.push_back(depth);
         if (uses_zones_) {
             zones_.push_back(zone);
-            same_place_.push_back(first);
+            same_place_.push_back(first - 1);
         }
-        first = node;
+        first = node + 1;
         steps_begun_ |= std::uint64_t{1} << place.step;
+        if (precision_.guide != nullptr) {
+            if (open_.size() <= depth + rest) open_.resize(depth + rest + 1);
+            open_[depth + rest].push_back(node);
+        }
     }
-    if (!precision_.keeps_edges || from == kNone || !has_all_edges_) return;
+    if (!precision_.keeps_edges || origin.parent == kNone || !has_all_edges_) return;
     has_all_edges_ = edges_.size() < kMostEdges;
-    edges_.push_back({from, node, origin.group});
+    if (has_all_edges_) {
+        edges_.push_back({origin.parent, node, origin.group});
+    } else {
+        edges_ = {};
+    }
+}
+
+std::uint32_t Explorer::distance(const Place& place) const {
+    const Node node = precision_.guide->slot_value(place);
+    return node == kNone ? kFar : (*precision_.distances)[node];
+}
+
+/// The shortest course through a node is never longer than through one that follows, so the first hit is of
+/// the shortest course.
+void Explorer::explore_guided(const std::vector<Target>& targets) {
+    for (std::size_t length = 0; length < open_.size(); ++length) {
+        for (std::size_t i = 0; i < open_[length].size(); ++i) {
+            visit(open_[length][i], targets);
+            if (hit(0) || is_worn_out()) return;
+        }
+    }
+}
+
+bool Explorer::is_worn_out() {
+    if (work_ < kMostWork) return false;
+    complete_ = false;
+    return true;
+}
+
+/// Enough for most tables: memory costs where it is written to.
+void Explorer::reserve() {
+    constexpr std::size_t kNodes = std::size_t{1} << 17U;
+    constexpr std::size_t kEdges = std::size_t{1} << 20U;
+    places_.reserve(kNodes);
+    origins_.reserve(kNodes);
+    depths_.reserve(kNodes);
+    if (uses_zones_) zones_.reserve(kNodes);
+    if (precision_.keeps_edges) edges_.reserve(kEdges);
 }
 
 void Explorer::explore(const std::vector<Target>& targets) {
     uses_zones_ = precision_.times_timer || precision_.deadline != nullptr;
+    times_moves_ = uses_zones_ && machine_.move_ms() != 0;
     hits_.assign(targets.size(), {});
-    judged_.assign(machine_.group_count(), {});
-    const unsigned bits = machine_.assume() == Assume::driver ? kCounterBit : kPlainBits;
+    judged_.assign(machine_.all_groups().size(), {});
+    first_uses_.assign(machine_.all_groups().size(), kNone);
+    const unsigned bits = Place::kPlainBits + (precision_.deadline != nullptr ? 1U : 0U);
     const std::size_t dense = (machine_.greatest_counter() + std::size_t{1}) << bits;
-    if (dense <= kMostDense && !machine_.tells_motion()) dense_.assign(dense, kNone);
-    add({}, {}, {}, kNone);
+    if (dense <= kMostDense && !machine_.tells_motion())
+        dense_.reset(static_cast<Node*>(std::calloc(dense, sizeof(Node))));
+    find_effects();
+    reserve();
+    add({}, {}, {});
+    if (precision_.guide != nullptr) return explore_guided(targets);
     for (Node node = 0; node < places_.size(); ++node) {
         first_edge_.push_back(static_cast<std::uint32_t>(edges_.size()));
-        visit(node, targets);
-        if (missed_deadline()) return;
+        if (uses_zones_) {
+            visit(node, targets);
+        } else {
+            visit_plain(node, targets);
+        }
+        if (missed_deadline() || is_worn_out()) return;
     }
     first_edge_.push_back(static_cast<std::uint32_t>(edges_.size()));
 }
 
+/// Where a scan of a group leads before any time passes; the motor is left as it was.
+Place Explorer::landing(const Place& here, const Group& group) const {
+    const Effect& effect = effects_[group.number];
+    const sequencer::Pending& pending = group.pending;
+    Place to = here;
+    if (pending.next_step != sequencer::kNoSwitch) to.step = pending.next_step;
+    if (pending.has_output) to.outputs = pending.output_byte & 0x0F;
+    if (effect.counter == Effect::Counter::becomes) {
+        to.counter = effect.counter_value;
+    } else if (effect.counter == Effect::Counter::counts_down && here.counter != 0) {
+        to.counter = static_cast<std::uint16_t>(here.counter - 1U);
+    }
+    to.runs = here.runs || effect.presets;
+    to.motion = motion_of(here, group);
+    return to;
+}
+
+void Explorer::visit_plain(Node node, const std::vector<Target>& targets) {
+    const Place here = places_[node];
+    const auto motor = static_cast<std::size_t>(here.motor);
+    for (const Group& group : machine_.groups(here.step, !here.runs, here.counter == 0)) {
+        if ((group.images & allowed_[motor]).none()) continue;
+        const std::uint8_t next_motors = effects_[group.number].next[motor];
+        if (first_uses_[group.number] == kNone && next_motors != 0) first_uses_[group.number] = node;
+        Place to = landing(here, group);
+        if (!targets.empty()) judge(node, group, view_of(to), targets);
+        const bool runs = to.runs;
+        each_count(to, [&](Place there) {
+            for (unsigned next = next_motors; next != 0; next &= next - 1) {
+                there.motor = static_cast<Motor>(std::countr_zero(next));
+                there.runs = runs;
+                if (runs) add(there, {}, {node, group.number, 0});
+                there.runs = false;
+                add(there, {}, {node, group.number, 0});
+            }
+        });
+    }
+}
+
 void Explorer::visit(Node node, const std::vector<Target>& targets) {
     const Place here = place(node);
-    const Zone zone = uses_zones_ ? zones_[node] : Zone{};
+    const Zone zone = zones_[node];
     const ImageSet permitted = allowed(here);
-    const auto groups = machine_.groups(here.step, !here.runs, here.counter == 0);
-    const std::size_t first = machine_.first_group(here.step, !here.runs, here.counter == 0);
-    for (std::size_t i = 0; i < groups.size(); ++i) {
-        const Group& group = groups[i];
+    const bool is_late = times_moves_ && zone.moved.least > longest_move();
+    for (const Group& group : machine_.groups(here.step, !here.runs, here.counter == 0)) {
         const ImageSet images = group.images & permitted;
-        if (images.none()) continue;
-        const auto index = static_cast<std::uint16_t>(i);
+        if (images.none() || (is_late && !group.in_pos && !group.disturbs)) continue;
+        if (first_uses_[group.number] == kNone) first_uses_[group.number] = node;
         const View view = view_after(here, group);
-        if (!targets.empty()) {
-            const std::size_t surroundings = (group.pending.has_output ? 0U : here.outputs) |
-                                             (view.timer_zero ? 16U : 0U) | (view.counter_zero ? 32U : 0U) |
-                                             (static_cast<unsigned>(here.motor) << 6U) |
-                                             (here.error_comes ? 256U : 0U) | (view.moving ? 512U : 0U);
-            auto seen = judged_[first + i][surroundings];
-            if (!seen) judge(node, index, group, images, view, targets);
-            seen = true;
-        }
+        if (!targets.empty()) judge(node, group, view, targets);
         const auto split = parts(here, view, images);
-        if (is_hold() && !missed_deadline() && keeps_too_long(here, zone, group, view, images)) {
-            missed_ = {node, index,
-                       images & images_where(precision_.deadline->then, view) &
-                           images_where(precision_.deadline->condition, view)};
-            missed_at_end_ = true;
-        }
-        if (!is_hold() && here.pending && split[0].images.any() && ends_late(zone, group) &&
-            !missed_deadline()) {
-            missed_ = {node, index, split[0].images};
-            missed_at_end_ = true;
-        }
+        note_missed(here, zone, node, group, view, split, images);
         for (std::size_t p = 0; p < split.size(); ++p) {
             if (split[p].images.none()) continue;
             bool misses = false;
             successors(
                 here, zone, group, split[p],
                 [&](const Place& place_there, const Zone& zone_there) {
-                    add(place_there, zone_there, {node, index, static_cast<std::uint8_t>(p)}, node);
+                    each_count(place_there, [&](const Place& to) {
+                        add(to, zone_there, {node, group.number, static_cast<std::uint8_t>(p)});
+                    });
                 },
                 misses);
-            if (misses && !missed_deadline()) missed_ = {node, index, split[p].images};
+            if (misses && !missed_deadline()) missed_ = {node, &group, split[p].images};
         }
     }
 }
 
-void Explorer::judge(Node node, std::uint16_t index, const Group& /*group*/, const ImageSet& images,
-                     const View& view, const std::vector<Target>& targets) {
-    for (std::size_t t = 0; t < targets.size(); ++t) {
-        if (hits_[t].node != kNone) continue;
-        const ImageSet wanted = targets[t].images(view) & images;
-        if (wanted.any()) hits_[t] = {node, index, wanted};
+/// A deadline that is missed by the end of the scan itself.
+void Explorer::note_missed(const Place& here, const Zone& zone, Node node, const Group& group,
+                           const View& view, const std::array<Part, 2>& split, const ImageSet& images) {
+    if (missed_deadline() || precision_.deadline == nullptr) return;
+    if (is_hold()) {
+        if (!keeps_too_long(here, zone, group, view, images)) return;
+        missed_ = {node, &group,
+                   images & images_where(precision_.deadline->then, view) &
+                       images_where(precision_.deadline->condition, view)};
+        missed_at_end_ = true;
+    } else if (here.pending && split[0].images.any() && ends_late(zone, group)) {
+        missed_ = {node, &group, split[0].images};
+        missed_at_end_ = true;
     }
 }
 
-CourseScan Explorer::scan_of(const Place& place, std::uint16_t index, const ImageSet& images) const {
-    const Group& group = machine_.groups(place.step, !place.runs, place.counter == 0)[index];
-    CourseScan scan;
-    scan.place = place;
-    scan.group = &group;
-    scan.images = images;
-    scan.view = view_after(place, group);
-    scan.idle = is_idle(place, group);
-    scan.delay = delay_of(place, group, after(place, group));
-    return scan;
-}
-
-std::vector<CourseScan> Explorer::course_to_node(Node node) const {
-    std::vector<CourseScan> course;
-    for (; origins_[node].parent != kNone; node = origins_[node].parent) {
-        const Origin& origin = origins_[node];
-        const Place from = place(origin.parent);
-        const Place to = place(node);
-        const Group& group = machine_.groups(from.step, !from.runs, from.counter == 0)[origin.group];
-        const auto split = parts(from, view_after(from, group), group.images & allowed(from));
-        CourseScan scan = scan_of(from, origin.group, narrowed(split[origin.part].images, to));
-        scan.delay = delay_of(from, group, to);
-        course.push_back(scan);
+const std::vector<Explorer::Wanted>& Explorer::wanted_in(const View& view,
+                                                         const std::vector<Target>& targets) {
+    const std::uint32_t key = view.step | (std::uint32_t{view.outputs} << 6U) |
+                              (view.timer_zero ? 1U << 10U : 0U) | (view.counter_zero ? 1U << 11U : 0U) |
+                              (view.moving ? 1U << 12U : 0U);
+    const auto [found, is_new] = wanted_.try_emplace(key);
+    if (!is_new) return found->second;
+    for (std::size_t target = 0; target < targets.size(); ++target) {
+        const ImageSet images = targets[target].images(view);
+        if (images.any()) found->second.push_back({target, images});
     }
-    std::reverse(course.begin(), course.end());
-    return course;
+    return found->second;
 }
 
-CourseScan Explorer::scan_of(const Edge& edge, const ImageSet& images) const {
-    CourseScan scan = scan_of(place(edge.from), edge.group, images);
-    scan.delay = delay_of(place(edge.from), group_of(edge), place(edge.to));
-    return scan;
-}
-
-std::vector<CourseScan> Explorer::course_to(std::size_t target) const {
-    const Hit& hit = hits_[target];
-    if (hit.node == kNone) return {};
-    std::vector<CourseScan> course = course_to_node(hit.node);
-    course.push_back(scan_of(place(hit.node), hit.group, hit.images));
-    return course;
-}
-
-std::vector<CourseScan> Explorer::course_to_missed_deadline() const {
-    if (!missed_deadline()) return {};
-    std::vector<CourseScan> course = course_to_node(missed_.node);
-    course.push_back(scan_of(place(missed_.node), missed_.group, missed_.images));
-    if (missed_at_end_ && course.size() > 1 && course[course.size() - 2].delay.most < kEndless)
-        course[course.size() - 2].delay.most += static_cast<std::int32_t>(course.back().group->delay.end);
-    return course;
-}
-
-bool Explorer::can_hit_from(Node node, const Target& target) const {
-    const Place here = place(node);
-    const ImageSet permitted = allowed(here);
-    for (const Group& group : machine_.groups(here.step, !here.runs, here.counter == 0)) {
-        const ImageSet images = group.images & permitted;
-        if (images.any() && (images & target.images(view_after(here, group))).any()) return true;
+void Explorer::judge(Node node, const Group& group, const View& view, const std::vector<Target>& targets) {
+    const Place& here = places_[node];
+    auto seen = judged_[group.number][surroundings_of(here, group, view)];
+    if (seen) return;
+    seen = true;
+    for (const Wanted& wanted : wanted_in(view, targets)) {
+        if (hits_[wanted.target].node != kNone) continue;
+        const ImageSet images = wanted.images & group.images & allowed(here);
+        if (images.any()) hits_[wanted.target] = {node, &group, images};
     }
-    return false;
-}
-
-std::vector<Explorer::Option> Explorer::options(Node node, const Target& target) const {
-    std::vector<Option> result;
-    const Place here = place(node);
-    const ImageSet permitted = allowed(here);
-    for (const Group& group : machine_.groups(here.step, !here.runs, here.counter == 0)) {
-        Option option{.group = &group,
-                      .images = group.images & permitted,
-                      .hits = {},
-                      .other = {},
-                      .idle = is_idle(here, group),
-                      .next = {}};
-        if (option.images.none()) continue;
-        const View view = view_after(here, group);
-        option.hits = option.images & target.images(view);
-        option.other = option.images & ~option.hits;
-        if (target.from != nullptr) option.other &= images_where(*target.from, view);
-        bool misses = false;
-        successors(
-            here, {}, group, Part{option.images, false, false},
-            [&](const Place& to, const Zone& zone) {
-                if (to.error_comes) return;
-                const bool lost = to.motor == Place::Motor::lost;
-                if (option.next.empty() || option.next.back().lost != lost) {
-                    option.next.emplace_back();
-                    option.next.back().lost = lost;
-                }
-                (to.runs ? option.next.back().running : option.next.back().zero) = find(to, zone);
-            },
-            misses);
-        result.push_back(std::move(option));
-    }
-    return result;
-}
-
-Explorer::Stuck Explorer::first_stuck(const Target& target, const std::vector<bool>& good) const {
-    for (Node node = 0; node < places_.size(); ++node) {
-        const Place here = place(node);
-        const Zone zone = uses_zones_ ? zones_[node] : Zone{};
-        const ImageSet permitted = allowed(here);
-        const auto groups = machine_.groups(here.step, !here.runs, here.counter == 0);
-        for (std::size_t i = 0; i < groups.size(); ++i) {
-            const View view = view_after(here, groups[i]);
-            ImageSet images = groups[i].images & permitted & ~target.images(view);
-            if (target.from != nullptr) images &= images_where(*target.from, view);
-            if (images.none()) continue;
-            bool is_stuck = false;
-            std::array<bool, 3> way_out{};
-            std::array<bool, 3> there{};
-            bool misses = false;
-            successors(
-                here, zone, groups[i], Part{images, false, false},
-                [&](const Place& to, const Zone& zone_there) {
-                    const Node next = find(to, zone_there);
-                    const auto motor = static_cast<std::size_t>(to.motor);
-                    there[motor] = true;
-                    if (next == kNone || good[next]) way_out[motor] = true;
-                },
-                misses);
-            ImageSet stuck_images = images;
-            for (std::size_t motor = 0; motor < 3; ++motor) {
-                if (!there[motor] || way_out[motor]) continue;
-                is_stuck = true;
-                if (motor == static_cast<std::size_t>(Place::Motor::lost))
-                    stuck_images &= images_of_lost_link();
-                break;
-            }
-            if (is_stuck) return {node, i, stuck_images};
-        }
-    }
-    return {};
-}
-
-std::vector<CourseScan> Explorer::course_to(const Stuck& stuck) const {
-    std::vector<CourseScan> course = course_to_node(stuck.node);
-    course.push_back(scan_of(place(stuck.node), static_cast<std::uint16_t>(stuck.group), stuck.images));
-    return course;
 }
 
 }  // namespace nplc::verify

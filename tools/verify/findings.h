@@ -22,12 +22,22 @@ struct Finding {
 struct Subject {
     const Explorer& explorer;
     const Names& names;
+    /// Motor registers that a permitted value makes 0, whatever the table writes.
+    const std::vector<std::uint8_t>& may_be_zero;
 };
 
 std::vector<Finding> check_steps(const Subject& subject);
+std::vector<Finding> find_rounds(const Subject& subject);
 std::vector<Finding> check_errors(const Subject& subject);
 std::vector<Finding> check_zeros(const Subject& subject);
 std::vector<Finding> check_motor(const Subject& subject);
+
+using Steps = std::uint64_t;  ///< a bit for each
+
+constexpr Steps bit_of(std::uint8_t step) {
+    return Steps{1} << step;
+}
+std::string names_of(Steps steps, const Names& names);
 
 /// For which images a scan of a step does something else when the timer (the counter) is zero, or when INPOS
 /// is on.

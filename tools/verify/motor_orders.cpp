@@ -80,12 +80,6 @@ OrderKind kind_of(const MotorOrder& order) {
     return kind_of_number(static_cast<Number>(command.number));
 }
 
-bool selects_velocity(const MotorOrder& order) {
-    if (order.is_register_write) return false;
-    const Command command = protocol::fastmac::decode_command(order.command);
-    return command.mode != Mode::command && command.group == RegisterGroup::v;
-}
-
 std::uint8_t selected_register(const MotorOrder& order) {
     if (order.is_register_write) return 0;
     const Command command = protocol::fastmac::decode_command(order.command);
@@ -94,6 +88,20 @@ std::uint8_t selected_register(const MotorOrder& order) {
     const unsigned spacing = command.group == RegisterGroup::p ? 2 : 1;
     return static_cast<std::uint8_t>(kFirst[static_cast<std::size_t>(command.group)] +
                                      spacing * (command.index - 1U));
+}
+
+std::uint8_t velocity_taken(const MotorOrder& order) {
+    constexpr std::uint32_t kVelocities = 8;
+    const auto velocity = [](std::uint32_t number) {
+        return static_cast<std::uint8_t>(number >= 1 && number <= kVelocities ? registers::V1 + number - 1
+                                                                              : 0);
+    };
+    if (order.is_register_write) return order.reg == registers::V_REG_P ? velocity(order.value) : 0;
+    if (const OrderKind kind = kind_of(order); kind == OrderKind::set) {
+        const Command command = protocol::fastmac::decode_command(order.command);
+        return velocity(command.number - static_cast<unsigned>(Number::use_set_1) + 1U);
+    }
+    return velocity(selected_register(order) - std::uint32_t{registers::V1} + 1);
 }
 
 bool begins_motion(OrderKind kind) {
@@ -105,8 +113,14 @@ bool ends_motion(OrderKind kind) {
     return kind == OrderKind::init || kind == OrderKind::stop;
 }
 
-Motion motion_after(Motion before, bool in_pos, std::span<const MotorOrder> orders) {
-    Motion motion = in_pos && before == Motion::to_place ? Motion::none : before;
+Motion motion_after(Motion before, const Seen& seen, std::span<const MotorOrder> orders) {
+    const bool to_place = before == Motion::to_place || before == Motion::disturbed;
+    Motion motion = before;
+    if (to_place && seen.in_pos) {
+        motion = Motion::none;
+    } else if (to_place && seen.disturbs) {
+        motion = Motion::disturbed;
+    }
     for (const MotorOrder& order : orders) {
         const OrderKind kind = kind_of(order);
         if (ends_motion(kind)) motion = Motion::none;
@@ -115,19 +129,23 @@ Motion motion_after(Motion before, bool in_pos, std::span<const MotorOrder> orde
     return motion;
 }
 
-void MotorState::apply(const MotorOrder& order) {
+bool begins_move(std::span<const MotorOrder> orders) {
+    return motion_after(Motion::none, {}, orders) == Motion::to_place;
+}
+
+void MotorState::apply(const MotorOrder& order, const ZeroRegisters& zeros) {
     const OrderKind kind = kind_of(order);
-    if (selects_velocity(order)) stopped = false;
+    const std::uint8_t taken = velocity_taken(order);
+    if (taken != 0 || kind == OrderKind::speed) {
+        const bool is_zero = zeros[taken != 0 ? taken : std::uint8_t{registers::V_SOLL}];
+        speed = is_zero ? Speed::zero : Speed::some;
+    }
     switch (kind) {
         case OrderKind::reset_error:
             error = false;
             break;
         case OrderKind::stop:
-            stopped = true;
-            break;
-        case OrderKind::speed:
-        case OrderKind::set:
-            stopped = false;
+            speed = Speed::stopped;
             break;
         case OrderKind::init:
             mode = Mode::init;
@@ -145,6 +163,8 @@ void MotorState::apply(const MotorOrder& order) {
         case OrderKind::silent:
             mode = Mode::silent;
             break;
+        case OrderKind::speed:
+        case OrderKind::set:
         case OrderKind::nothing:
             break;
     }

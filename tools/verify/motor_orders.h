@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bitset>
 #include <cstdint>
 #include <span>
 
@@ -23,34 +24,55 @@ enum class OrderKind : std::uint8_t {
 };
 
 OrderKind kind_of(const sequencer::MotorOrder& order);
-/// Selects a velocity, so V_SOLL is no longer 0 from a STOP.
-bool selects_velocity(const sequencer::MotorOrder& order);
+/// The register that V_SOLL is taken from with this order, V1..V8; 0 if V_SOLL stays, or is written itself.
+std::uint8_t velocity_taken(const sequencer::MotorOrder& order);
 /// The register that a command selects, 1..127; 0 for others.
 std::uint8_t selected_register(const sequencer::MotorOrder& order);
 bool begins_motion(OrderKind kind);
 bool ends_motion(OrderKind kind);
 
 /// Whether the motor was ordered to move and is not known to have ended: `moving` in properties.
-enum class Motion : std::uint8_t { none, to_place, endless };
-/// After a scan that saw `in_pos` and gave these orders.
-Motion motion_after(Motion before, bool in_pos, std::span<const sequencer::MotorOrder> orders);
+enum class Motion : std::uint8_t {
+    none,
+    to_place,
+    endless,
+    disturbed,  ///< to a place, and ERROR was seen since; told only where it counts how long moves last
+};
+/// What a scan saw of the motor.
+struct Seen {
+    bool in_pos = false;
+    bool disturbs = false;  ///< ERROR, where it counts how long moves last
+};
+/// After a scan that saw this and gave these orders.
+Motion motion_after(Motion before, const Seen& seen, std::span<const sequencer::MotorOrder> orders);
+
+/// They begin a move to a place, and nothing after it ends it.
+bool begins_move(std::span<const sequencer::MotorOrder> orders);
+
+/// Registers that are 0 whenever they are used, or may be: V1..V8 and V_SOLL count.
+using ZeroRegisters = std::bitset<128>;
 
 /// As far as it decides whether INPOS can come.
 struct MotorState {
     enum class Mode : std::uint8_t { unknown, init, velocity, position, silent };
+    enum class Speed : std::uint8_t {
+        some,
+        stopped,  ///< V_SOLL is 0 from a STOP
+        zero,     ///< V_SOLL was set to a value that is 0
+    };
     Mode mode = Mode::unknown;
-    bool stopped = false;  ///< V_SOLL is 0 from a STOP
+    Speed speed = Speed::some;
     bool error = false;
 
-    void apply(const sequencer::MotorOrder& order);
-    bool in_pos_never_comes() const {
-        return mode == Mode::init || mode == Mode::silent || (mode == Mode::position && stopped);
-    }
+    void apply(const sequencer::MotorOrder& order, const ZeroRegisters& zeros);
+    bool stands() const { return mode == Mode::position && speed != Speed::some; }
+    bool in_pos_never_comes() const { return mode == Mode::init || mode == Mode::silent || stands(); }
+    static constexpr std::size_t kPacked = 32;
     std::uint16_t packed() const {
-        return static_cast<std::uint16_t>(static_cast<unsigned>(mode) | (stopped ? 8U : 0U));
+        return static_cast<std::uint16_t>(static_cast<unsigned>(mode) | static_cast<unsigned>(speed) << 3U);
     }
     static MotorState unpacked(std::uint16_t bits) {
-        return {static_cast<Mode>(bits & 7U), (bits & 8U) != 0, false};
+        return {static_cast<Mode>(bits & 7U), static_cast<Speed>(bits >> 3U & 3U), false};
     }
 };
 

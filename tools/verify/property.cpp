@@ -19,14 +19,18 @@ ImageSet constant(bool value) {
 
 }  // namespace
 
-ImageSet images_where(const Condition& condition, const View& view) {
+const ImageSet& images_with_bit(std::size_t bit) {
     static const std::array<ImageSet, 8> bits = make_bits();
+    return bits[bit];
+}
+
+ImageSet images_where(const Condition& condition, const View& view) {
     using Kind = Condition::Kind;
     switch (condition.kind) {
         case Kind::constant:
             return constant(condition.number != 0);
         case Kind::image:
-            return bits[condition.number];
+            return images_with_bit(condition.number);
         case Kind::output:
             return constant(((view.outputs >> condition.number) & 1U) != 0);
         case Kind::timer_q:
@@ -65,11 +69,6 @@ bool holds(const Condition& condition, std::uint8_t image, const View& view) {
 bool names_moving(const Condition& condition) {
     return condition.kind == Condition::Kind::moving ||
            std::any_of(condition.operands.begin(), condition.operands.end(), names_moving);
-}
-
-bool is_basic(const Property& property) {
-    return property.form <= Form::whenever && !names_moving(property.condition) &&
-           !names_moving(property.then);
 }
 
 std::uint8_t image_bits_of(const Condition& condition) {

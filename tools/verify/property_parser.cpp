@@ -207,20 +207,28 @@ bool PropertyParser::parse_assumption() {
         if (!parse_condition(assumption.never)) return false;
         if (!is_of_image(assumption.never))
             return fail("what is assumed never to be is made of inputs, INPOS and ERROR");
-    } else {
-        Condition input;
-        if (!parse_signal(input)) return false;
-        if (input.kind != Kind::image || input.number > 5)
-            return fail("an input is expected between ASSUME and STABLE");
-        assumption.input = input.number;
-        if (!expect("STABLE", "behind the input, or NEVER behind ASSUME") ||
-            !expect("FOR", "behind STABLE") || !parse_time(assumption.stable_ms))
+    } else if (take("MOVING")) {
+        if (!expect("ENDS", "behind ASSUME moving") || !expect("WITHIN", "behind ENDS") ||
+            !parse_time(assumption.move_ms))
             return false;
+        if (assumption.move_ms == 0) return fail("WITHIN takes 1 ms at the least");
+    } else {
+        if (!parse_stable(assumption)) return false;
     }
     assumption.text = text_since(first);
     if (!expect(";", "at the end of the assumption")) return false;
     reading_.assumptions.push_back(std::move(assumption));
     return true;
+}
+
+bool PropertyParser::parse_stable(Assumption& assumption) {
+    Condition input;
+    if (!parse_signal(input)) return false;
+    if (input.kind != Kind::image || input.number > 5)
+        return fail("an input is expected between ASSUME and STABLE");
+    assumption.input = input.number;
+    return expect("STABLE", "behind the input, or NEVER behind ASSUME") && expect("FOR", "behind STABLE") &&
+           parse_time(assumption.stable_ms);
 }
 
 bool PropertyParser::parse_form(Property& property) {
@@ -308,10 +316,7 @@ bool PropertyParser::parse_between(Property& property) {
 
 bool PropertyParser::parse_condition_first(Property& property) {
     if (!parse_condition(property.condition)) return false;
-    if (take("ONLY")) {
-        property.form = Form::only_after;
-        return expect("AFTER", "behind ONLY") && parse_condition(property.then);
-    }
+    if (take("ONLY")) return parse_only(property);
     if (take("CHANGES")) {
         property.form = Form::changes_only_in;
         return expect("ONLY", "behind CHANGES") && expect("IN", "behind ONLY") &&
@@ -319,6 +324,18 @@ bool PropertyParser::parse_condition_first(Property& property) {
     }
     property.form = Form::reachable;
     return expect("IS", "behind a condition that begins a property") && expect("REACHABLE", "behind IS");
+}
+
+bool PropertyParser::parse_only(Property& property) {
+    if (take("FROM")) {
+        property.form = Form::only_from;
+        return parse_condition(property.then);
+    }
+    property.form = Form::only_after;
+    if (!expect("AFTER", "or FROM behind ONLY") || !parse_condition(property.then)) return false;
+    if (!take("FOLLOWED")) return true;
+    property.form = Form::only_after_both;
+    return expect("BY", "behind FOLLOWED") && parse_condition(property.third);
 }
 
 bool PropertyParser::parse_time(std::uint32_t& milliseconds) {
@@ -402,7 +419,8 @@ bool PropertyParser::parse_primary(Condition& result) {
 bool PropertyParser::parse_step(Condition& result) {
     std::optional<std::uint8_t> number;
     const std::string_view text = token().text;
-    if (token().kind == Token::Kind::number) {
+    const bool is_name = token().kind != Token::Kind::number;
+    if (!is_name) {
         unsigned value = 0;
         const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
         if (read.ptr == text.data() + text.size() && value < names_.steps.size())
@@ -414,6 +432,11 @@ bool PropertyParser::parse_step(Condition& result) {
     if (!number) return fail(fmt::format("there is no step {}; a step is a name or 0 to 62", shown()));
     ++at_;
     result = leaf(Kind::step, *number);
+    for (std::uint8_t copy = 0; is_name && copy < names_.copy_of.size(); ++copy) {
+        if (names_.copy_of[copy] != number) continue;
+        if (result.kind == Kind::step) result = {.kind = Kind::any_of, .number = 0, .operands = {result}};
+        result.operands.push_back(leaf(Kind::step, copy));
+    }
     return true;
 }
 

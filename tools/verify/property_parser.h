@@ -32,11 +32,13 @@ class PropertyParser {
 
     bool parse_property();
     bool parse_assumption();
+    bool parse_stable(Assumption& assumption);
     std::string text_since(std::size_t first) const;
     bool parse_never(Property& property);
     bool needs_a_time(const Property& property);
     bool parse_between(Property& property);
     bool parse_whenever(Property& property);
+    bool parse_only(Property& property);
     bool parse_condition_first(Property& property);
     bool parse_form(Property& property);
     bool parse_time(std::uint32_t& milliseconds);

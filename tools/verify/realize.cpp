@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "preset_values.h"
 #include "sequencer/engine.h"
 
 namespace nplc::verify {
@@ -102,7 +103,8 @@ void bound_delays(Times& times, std::span<const CourseScan> scans) {
 }
 
 /// Repeated scans see the timer end too: they are `most_idle` apart.
-void bound_timer(Times& times, std::span<const CourseScan> scans, bool paced) {
+void bound_timer(Times& times, std::span<const CourseScan> scans, bool paced,
+                 std::span<const ChosenPreset> presets) {
     std::size_t preset_at = 0;
     std::int64_t preset = 0;
     for (std::size_t k = 0; k < scans.size(); ++k) {
@@ -118,8 +120,22 @@ void bound_timer(Times& times, std::span<const CourseScan> scans, bool paced) {
         if (paced && runs_on && scans[k].idle)
             times.at_most(preset_at, k + 1, preset - 1 + Machine::kMostIdle);
         if (scans[k].group->pending.timer_preset == 0) continue;
-        preset = scans[k].group->pending.timer_preset;
+        preset = chosen_value(presets, scans[k].group->pending.timer_preset);
         preset_at = k;
+    }
+}
+
+/// A scan that sees a move to a place neither ended nor disturbed is no later than it takes. Repeated ones
+/// are none either.
+void bound_moves(Times& times, std::span<const CourseScan> scans, std::uint32_t move_ms, bool paced) {
+    std::size_t ordered = 0;
+    for (std::size_t k = 0; k < scans.size(); ++k) {
+        const Group& group = *scans[k].group;
+        if (scans[k].place.motion == Motion::to_place && !group.in_pos && !group.disturbs) {
+            times.at_most(ordered, k, move_ms);
+            if (paced && scans[k].idle) times.at_most(ordered, k + 1, move_ms + Machine::kMostIdle);
+        }
+        if (begins_move(group.orders)) ordered = k;
     }
 }
 
@@ -191,7 +207,8 @@ std::optional<Course> realize(const Realization& how, std::span<const CourseScan
     Times times(scans.size() + 1);
     bound_delays(times, scans);
     const bool driver = how.assume == Assume::driver;
-    bound_timer(times, scans, driver);
+    bound_timer(times, scans, driver, how.presets);
+    if (how.move_ms != 0) bound_moves(times, scans, how.move_ms, driver);
     bound_inputs(times, scans, images, how.stable_ms);
     if (overdue) times.at_least(overdue->from, overdue->to, std::int64_t{overdue->more_than_ms} + 1);
     if (!times.solve()) return std::nullopt;

@@ -21,6 +21,8 @@ struct Realization {
     const sequencer::Table& table;
     Assume assume = Assume::any;
     std::array<std::uint32_t, 6> stable_ms{};  ///< how long each input keeps its level
+    std::uint32_t move_ms = 0;  ///< within which a move to a place ends; 0 for whenever it likes
+    std::span<const ChosenPreset> presets{};  ///< values of the explorer's ranges; the table has them
 };
 
 /// Chooses images and times for a course of the explorer so that timer, delays and debouncing allow it, and

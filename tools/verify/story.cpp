@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 namespace nplc::verify {
@@ -99,6 +100,28 @@ std::string stimulus_of(const Course& course) {
                             (scan.image & sequencer::kInPos) != 0 ? 1 : 0,
                             (scan.image & sequencer::kError) != 0 ? 1 : 0);
     }
+    return text;
+}
+
+std::string trace_of(const Course& course) {
+    std::string text = "time_ms,step,timer,counter,inputs,outputs,inpos,error,command,p_ist,v_ist\n";
+    const auto row = [&text](std::uint64_t time, const PlayedScan& scan, std::uint16_t timer,
+                             std::string_view orders) {
+        text += fmt::format("{},{},{},{},{},{},{},{},{},,\n", time, scan.after.step, timer,
+                            scan.after.counter, scan.image & sequencer::kInputsMask, scan.after.outputs,
+                            (scan.image & sequencer::kInPos) != 0 ? 1 : 0,
+                            (scan.image & sequencer::kError) != 0 ? 1 : 0, orders);
+    };
+    std::uint64_t time = 0;
+    for (const PlayedScan& scan : course) {
+        const std::string orders = orders_text(scan.orders);
+        row(time, scan, scan.after.timer, orders.empty() ? orders : orders.substr(1));
+        time += scan.dt_ms;
+    }
+    if (course.empty()) return text;
+    const PlayedScan& last = course.back();
+    const std::uint32_t left = last.after.timer > last.dt_ms ? last.after.timer - last.dt_ms : 0;
+    row(time + (last.dt_ms == 0 ? 1 : 0), last, static_cast<std::uint16_t>(left), "");
     return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace nplc::verify {
@@ -26,71 +27,157 @@ constexpr std::size_t kAges = 3;
 constexpr std::size_t kSteady = 2;
 constexpr std::uint32_t kSteadyMs = 3;
 
-struct Choice {
+/// What a scan can be, wherever it begins.
+struct ScanKind {
     Levels levels = 0;  ///< with which it can be made
     Levels hits = 0;
-    bool idle = false;
+    Levels wanted = 0;  ///< scans outside of the target that can be
     bool error = false;
     bool sends = false;
     std::uint32_t least = 0;   ///< time of the orders
-    std::uint32_t preset = 0;  ///< of the timer
+    std::uint32_t preset = 0;  ///< of the timer, the least
+    std::uint32_t preset_most = 0;
+};
+
+/// Where the next scan begins, with the timer running or not.
+struct Landing {
     Explorer::Node running = Explorer::kNone;
     Explorer::Node zero = Explorer::kNone;
-    Levels wanted = 0;  ///< scans outside of the target that can be
+};
+
+struct Choice {
+    std::uint32_t kind = 0;
+    std::uint32_t group = 0;
+    bool idle = false;
+    bool unsure = false;  ///< it may come too late: a move has ended by then
+    Landing landing{};
+    std::uint32_t others = 0;  ///< the first of the further counts of a range, and 1; 0 for none
+};
+
+/// The same with another count of the counter's range.
+struct OtherCount {
+    Landing landing{};
+    std::uint32_t next = 0;
 };
 
 class Search {
   public:
-    Search(const Explorer& ways, const Target& target) : can_(ways.size()) {
-        choices_.reserve(ways.size());
+    Search(const Explorer& ways, const Target& target)
+        : ways_(ways),
+          target_(target),
+          kind_numbers_(2 * Explorer::kSurroundings * ways.machine().all_groups().size()),
+          can_(ways.size()) {
+        choices_.reserve(ways.edges().size());
         for (Explorer::Node node = 0; node < ways.size(); ++node) {
-            std::vector<Choice>& own = choices_.emplace_back();
-            for (const auto& option : ways.options(node, target)) {
-                for (const auto& next : option.next) own.push_back(choice_of(option, next));
-            }
+            first_choice_.push_back(choices_.size());
+            add_choices(node);
         }
+        first_choice_.push_back(choices_.size());
     }
 
-    bool all_can() {
+    /// Whatever the levels at power-up are, a course can begin with others.
+    bool can_from_power_up() {
         while (sweep()) {
         }
-        for (const auto& own : choices_) {
-            for (const Choice& choice : own) {
-                if ((choice.wanted & ~after(choice, 0)) != 0) return false;
+        return can_[0][kSteady] != 0;
+    }
+
+    bool all_can(const Explorer::Scans* only) {
+        while (sweep()) {
+        }
+        for (Explorer::Node node = 0; node < ways_.size(); ++node) {
+            for (std::size_t i = first_choice_[node]; i < first_choice_[node + 1]; ++i) {
+                const Choice& choice = choices_[i];
+                if (only != nullptr && !only->contains(Explorer::scan_key(ways_.place(node), choice.group)))
+                    continue;
+                if ((kinds_[choice.kind].wanted & ~after(choice, 0)) != 0) return false;
             }
         }
         return true;
     }
 
   private:
-    static Choice choice_of(const Explorer::Option& option, const Explorer::Option::Next& next) {
-        const unsigned first = static_cast<unsigned>(option.images._Find_first());
-        return {.levels = levels_of(option.images, next.lost),
-                .hits = levels_of(option.hits, next.lost),
-                .idle = option.idle,
-                .error = (first & sequencer::kError) != 0,
-                .sends = option.group->sends,
-                .least = option.group->delay.least,
-                .preset = option.group->pending.timer_preset,
-                .running = next.running,
-                .zero = next.zero,
-                .wanted = levels_of(option.other, next.lost)};
+    /// Edges of a group stand together; those of a lost link are a choice of their own.
+    void add_choices(Explorer::Node node) {
+        const Place& here = ways_.place(node);
+        const Explorer::Edge* before = nullptr;
+        std::array<std::size_t, 2> open{};
+        std::array<std::uint16_t, 2> counter{};
+        for (const Explorer::Edge& edge : ways_.edges_from(node)) {
+            const Place& to = ways_.place(edge.to);
+            if (to.motor == Place::Motor::cut) continue;
+            if (before == nullptr || before->group != edge.group) open = {kNone, kNone};
+            before = &edge;
+            const bool lost = to.motor == Place::Motor::lost;
+            std::size_t& choice = open[lost ? 1 : 0];
+            const bool is_other = choice != kNone && counter[lost ? 1 : 0] != to.counter;
+            counter[lost ? 1 : 0] = to.counter;
+            if (choice == kNone) {
+                choice = choices_.size();
+                const Group& group = ways_.group_of(edge);
+                const bool sees_no_end = here.motion == Motion::to_place && !group.in_pos && !group.disturbs;
+                choices_.push_back({.kind = kind_of(here, group, lost),
+                                    .group = edge.group,
+                                    .idle = ways_.is_idle(here, group),
+                                    .unsure = sees_no_end && ways_.machine().move_ms() != 0});
+            }
+            if (is_other) {
+                others_.push_back({.landing = {}, .next = choices_[choice].others});
+                choices_[choice].others = static_cast<std::uint32_t>(others_.size());
+            }
+            Landing& landing =
+                choices_[choice].others != 0 ? others_.back().landing : choices_[choice].landing;
+            (to.runs ? landing.running : landing.zero) = edge.to;
+        }
+    }
+
+    std::uint32_t kind_of(const Place& here, const Group& group, bool lost) {
+        const View view = ways_.view_after(here, group);
+        const std::size_t surroundings = Explorer::surroundings_of(here, group, view);
+        std::uint32_t& number =
+            kind_numbers_[2 * (group.number * Explorer::kSurroundings + surroundings) + (lost ? 1U : 0U)];
+        if (number != 0) return number - 1;
+        const ImageSet images = group.images & ways_.allowed(here);
+        const ImageSet hits = images & target_.images(view);
+        ImageSet other = images & ~hits;
+        if (target_.from != nullptr) other &= images_where(*target_.from, view);
+        const PresetRange times = ways_.machine().times_of(group.pending.timer_preset);
+        kinds_.push_back({.levels = levels_of(images, lost),
+                          .hits = levels_of(hits, lost),
+                          .wanted = levels_of(other, lost),
+                          .error = group.error,
+                          .sends = group.sends,
+                          .least = group.delay.least,
+                          .preset = times.least,
+                          .preset_most = times.most});
+        number = static_cast<std::uint32_t>(kinds_.size());
+        return number - 1;
     }
 
     Levels can(Explorer::Node node, std::size_t age) const {
         return node == Explorer::kNone ? 0 : can_[node][age];
     }
 
-    /// The levels, kept since `age`, from which the target can be reached after the scan.
-    Levels after(const Choice& c, std::size_t age) const {
-        if (c.idle) return can(c.zero, kSteady);
-        const bool runs = c.running != Explorer::kNone;
+    /// The levels, kept since `age`, from which the target can be reached after the scan, whatever count a
+    /// range has.
+    Levels after(const Choice& choice, std::size_t age) const {
+        const ScanKind& c = kinds_[choice.kind];
+        Levels levels = after(c, choice.idle, choice.landing, age);
+        for (std::uint32_t other = choice.others; other != 0 && levels != 0; other = others_[other - 1].next)
+            levels &= after(c, choice.idle, others_[other - 1].landing, age);
+        return levels;
+    }
+
+    Levels after(const ScanKind& c, bool idle, const Landing& landing, std::size_t age) const {
+        if (idle) return can(landing.zero, kSteady);
+        const bool runs = landing.running != Explorer::kNone;
         const auto later = [&](std::uint32_t delay, std::size_t then, bool sure) {
-            if (!runs) return can(c.zero, then);
-            if (sure && c.preset > delay) return can(c.running, then);
-            if (sure && c.preset != 0) return can(c.zero, then);
-            if (sure && delay == 0) return can(c.running, then);
-            return can(c.running, then) & can(c.zero, then);
+            if (!runs) return can(landing.zero, then);
+            if (sure && c.preset > delay) return can(landing.running, then);
+            if (sure && c.preset != 0 && c.preset_most <= delay) return can(landing.zero, then);
+            if (sure && c.preset != 0) return can(landing.running, then) & can(landing.zero, then);
+            if (sure && delay == 0) return can(landing.running, then);
+            return can(landing.running, then) & can(landing.zero, then);
         };
         if (c.sends) {
             if (c.error) return later(c.least, age, c.preset > c.least);
@@ -104,13 +191,18 @@ class Search {
 
     bool sweep() {
         bool changed = false;
-        for (std::size_t node = choices_.size(); node-- > 0;) {
+        for (std::size_t node = can_.size(); node-- > 0;) {
+            const auto own = std::span(choices_).subspan(first_choice_[node],
+                                                         first_choice_[node + 1] - first_choice_[node]);
             for (std::size_t age = 0; age < kAges; ++age) {
                 Levels levels = can_[node][age];
-                for (const Choice& choice : choices_[node]) {
-                    levels |= choice.hits | (choice.levels & after(choice, age));
+                if (levels == kAll) continue;
+                for (const Choice& choice : own) {
+                    if (choice.unsure) continue;
+                    const ScanKind& kind = kinds_[choice.kind];
+                    levels |= kind.hits | (kind.levels & after(choice, age));
                     const bool free = age == kSteady;
-                    if (free && (choice.hits != 0 || (choice.levels & after(choice, 0)) != 0)) levels = kAll;
+                    if (free && (kind.hits != 0 || (kind.levels & after(choice, 0)) != 0)) levels = kAll;
                     if (levels == kAll) break;
                 }
                 if (levels == can_[node][age]) continue;
@@ -121,14 +213,26 @@ class Search {
         return changed;
     }
 
-    std::vector<std::vector<Choice>> choices_;
+    static constexpr std::size_t kNone = ~std::size_t{0};
+
+    const Explorer& ways_;
+    const Target& target_;
+    std::vector<std::uint32_t> kind_numbers_;  ///< and 1, by group, surroundings and lost; 0 for none yet
+    std::vector<ScanKind> kinds_;
+    std::vector<Choice> choices_;
+    std::vector<OtherCount> others_;
+    std::vector<std::size_t> first_choice_;  ///< by node, and the end
     std::vector<std::array<Levels, kAges>> can_;
 };
 
 }  // namespace
 
-bool surely_possible(const Explorer& ways, const Target& target) {
-    return Search(ways, target).all_can();
+bool surely_possible(const Explorer& ways, const Target& target, const Explorer::Scans* only) {
+    return Search(ways, target).all_can(only);
+}
+
+bool surely_reached(const Explorer& ways, const Target& target) {
+    return Search(ways, target).can_from_power_up();
 }
 
 }  // namespace nplc::verify

@@ -7,6 +7,9 @@ namespace nplc::verify {
 /// Whether from every scan that `ways` knows, outside of `target`, a course of the gateway's surely leads to
 /// `target`: with inputs that keep their levels for the debounce time, and a timer of which is known only
 /// that it runs. True is a proof; false says nothing. `ways` must be complete and know lost links.
-bool surely_possible(const Explorer& ways, const Target& target);
+/// From each scan, or from `only` these.
+bool surely_possible(const Explorer& ways, const Target& target, const Explorer::Scans* only = nullptr);
+/// The same from power-up.
+bool surely_reached(const Explorer& ways, const Target& target);
 
 }  // namespace nplc::verify

@@ -44,6 +44,10 @@ const char* reason_of(Form form) {
             return "it holds after the last scan, and WHILE's condition has held for that time";
         case Form::only_after:
             return "it holds after the last scan, and AFTER's condition never held before";
+        case Form::only_after_both:
+            return "it holds after the last scan, and these two never held one after the other before";
+        case Form::only_from:
+            return "it holds after the last scan, and FROM's condition never held when a scan began";
         case Form::stays:
             return "after the last scan it is otherwise";
         case Form::changes_only_in:
@@ -59,6 +63,15 @@ const char* reason_of(Form form) {
 /// Under `any` the next scan may come after any time: a deadline is missed as soon as it begins.
 void make_late(Course& course, std::uint32_t within_ms) {
     course.back().dt_ms = within_ms + 1;
+}
+
+constexpr const char* kWithSome =
+    "with some values of the ranges it is; whether it is with all of them was not found";
+
+void keep(Result& result, std::optional<Played> played) {
+    if (!played) return;
+    result.course = std::move(played->course);
+    result.presets = std::move(played->presets);
 }
 
 Result judged(Decider& decider, const Property& property, std::size_t target, Assume assume) {
@@ -78,7 +91,11 @@ Result judged(Decider& decider, const Property& property, std::size_t target, As
     const bool can_be = finding.answer == Answer::can_be;
     result.verdict = can_be == wanted ? Verdict::proved : Verdict::broken;
     if (result.verdict == Verdict::broken) result.reason = reason_of(property.form);
-    result.course = std::move(finding.course);
+    if (result.verdict == Verdict::proved && wanted && !decider.is_reached_with_all(target)) {
+        result.verdict = Verdict::undecided;
+        result.reason = kWithSome;
+    }
+    keep(result, std::move(finding.played));
     if (late && result.course && assume == Assume::any) make_late(*result.course, property.within_ms);
     return result;
 }
@@ -101,7 +118,7 @@ Result found(const Decider& decider, const Check& check, const Finding& finding,
         result.severity = Severity::advice;
     }
     if (!finding.way.empty()) {
-        result.course = decider.realized(finding.way);
+        keep(result, decider.realized(finding.way));
         if (!result.course) {
             result.verdict = Verdict::undecided;
             result.reason += fmt::format(" ({})", kNotShown);
@@ -117,7 +134,9 @@ void drop_what_errors_explain(std::vector<Finding>& findings) {
         if (finding.code == "V004" || finding.code == "V005") steps |= std::uint64_t{1} << finding.step;
     }
     std::erase_if(findings, [&](const Finding& finding) {
-        const bool follows = finding.code == "V002" || finding.code == "V003" || finding.code == "V013";
+        const bool is_round_in_error =
+            finding.code == "V013" && (finding.way.back().images & images_with_bit(7)).any();
+        const bool follows = finding.code == "V002" || finding.code == "V003" || is_round_in_error;
         return follows && ((steps >> finding.step) & 1U) != 0;
     });
 }
@@ -129,7 +148,8 @@ void judge_checks(const Decider& decider, const Names& names, const Options& opt
     std::vector<Finding> findings;
     if (explorer.has_all_edges()) {
         for (auto* const check : {&check_steps, &check_errors, &check_zeros, &check_motor}) {
-            for (Finding& finding : check({explorer, names})) findings.push_back(std::move(finding));
+            for (Finding& finding : check({explorer, names, options.may_be_zero}))
+                findings.push_back(std::move(finding));
         }
     }
     drop_what_errors_explain(findings);
@@ -154,13 +174,22 @@ ImageSet permitted_by(const std::vector<Assumption>& assumptions) {
     return images;
 }
 
+/// 0 for whenever the motor likes.
+std::uint32_t move_ms_of(const std::vector<Assumption>& assumptions) {
+    std::uint32_t least = 0;
+    for (const Assumption& assumption : assumptions) {
+        if (assumption.move_ms != 0 && (least == 0 || assumption.move_ms < least)) least = assumption.move_ms;
+    }
+    return least;
+}
+
 /// What the orders do to the motor is no matter of `any`: checks take what the gateway and a motor can do.
-void judge_checks_of_driver(const sequencer::Table& table, const Decider& decider, const Names& names,
-                            const Options& options, std::vector<Result>& results) {
-    if (options.assume == Assume::driver) return judge_checks(decider, names, options, results);
+void judge_checks_of_driver(const sequencer::Table& table, const Names& names, const Options& options,
+                            std::vector<Result>& results) {
     Options driver = options;
     driver.assume = Assume::driver;
-    const Machine machine(table, driver.assume, driver.order_time, permitted_by(options.assumptions));
+    const Machine machine(table, driver.assume, driver.order_time, permitted_by(options.assumptions), false,
+                          move_ms_of(options.assumptions), options.ranges);
     judge_checks(Decider(table, machine, driver, {}), names, driver, results);
 }
 
@@ -180,13 +209,14 @@ bool contradict(const std::vector<Assumption>& assumptions) {
 Report verify(const sequencer::Table& table, const Names& names, const std::vector<Property>& properties,
               const Options& options) {
     const Machine machine(table, options.assume, options.order_time, permitted_by(options.assumptions),
-                          name_moving(properties));
+                          name_moving(properties), move_ms_of(options.assumptions), options.ranges);
     std::vector<Target> targets;
     targets.reserve(properties.size());
     for (const Property& property : properties) targets.push_back(target_of(property));
-    Decider decider(table, machine, options, std::move(targets));
-
     Report report;
+    if (options.checks && options.assume == Assume::any)
+        judge_checks_of_driver(table, names, options, report.results);
+    Decider decider(table, machine, options, std::move(targets));
     report.assumptions = options.assumptions;
     report.states = decider.coarse().size();
     report.complete = decider.coarse().complete();
@@ -195,7 +225,8 @@ Report verify(const sequencer::Table& table, const Names& names, const std::vect
         if (report.complete && is_there && ((decider.coarse().steps_begun() >> step) & 1U) == 0)
             report.unreachable.push_back(step);
     }
-    judge_checks_of_driver(table, decider, names, options, report.results);
+    if (options.checks && options.assume == Assume::driver)
+        judge_checks(decider, names, options, report.results);
     for (std::size_t i = 0; i < properties.size(); ++i)
         report.results.push_back(judged(decider, properties[i], i, options.assume));
     return report;

@@ -16,57 +16,90 @@ struct Bounds {
     bool operator==(const Bounds&) const = default;
     bool empty() const { return least > most; }
     bool within(const Bounds& other) const { return least >= other.least && most <= other.most; }
+    Bounds operator-() const { return {-most, -least}; }
+    friend Bounds operator+(const Bounds& a, const Bounds& b) { return {a.least + b.least, a.most + b.most}; }
+    friend Bounds operator-(const Bounds& a, const Bounds& b) { return a + -b; }
+    void narrow(const Bounds& other) {
+        least = std::max(least, other.least);
+        most = std::min(most, other.most);
+    }
 };
 
-/// All pairs of what is left of the timer and what has passed of a deadline that can be at one place, in
-/// whole milliseconds. Both run with the same time, so their sum says how they belong together. What is not
-/// in use is 0, and all bounds are as tight as they can be.
+/// All that can be at one place of what is left of the timer, what has passed of a deadline and for how long
+/// a move has lasted, in whole milliseconds. All run with the same time, so sums and differences say how they
+/// belong together. What is not in use is 0, and all bounds are as tight as they can be.
 struct Zone {
     Bounds left;
     Bounds passed;
-    Bounds sum;
+    Bounds sum;     ///< left + passed
+    Bounds moved;   ///< 0 where moves are not timed
+    Bounds rest;    ///< left + moved
+    Bounds sooner;  ///< moved - passed
     bool operator==(const Zone&) const = default;
 
-    bool empty() const { return left.empty() || passed.empty() || sum.empty(); }
+    bool empty() const {
+        return left.empty() || passed.empty() || sum.empty() || moved.empty() || rest.empty() ||
+               sooner.empty();
+    }
     bool within(const Zone& other) const {
-        return left.within(other.left) && passed.within(other.passed) && sum.within(other.sum);
+        return left.within(other.left) && passed.within(other.passed) && sum.within(other.sum) &&
+               moved.within(other.moved) && rest.within(other.rest) && sooner.within(other.sooner);
     }
 
-    void preset(std::int32_t milliseconds) {
-        left = {milliseconds, milliseconds};
-        sum = {passed.least + milliseconds, passed.most + milliseconds};
-    }
+    /// Any time between the two, in milliseconds.
+    void preset(std::int32_t least, std::int32_t most) { set_left({least, most}); }
+    void stop_timer() { set_left({}); }
+    void begin_deadline() { set_passed({}); }
     /// What has passed beyond `limit` makes no difference.
-    void cut_passed(std::int32_t limit) {
-        passed = {limit, limit};
-        sum = {left.least + limit, left.most + limit};
-    }
-    void begin_deadline() {
-        passed = {};
-        sum = left;
-    }
-    void stop_timer() {
-        left = {};
-        sum = passed;
-    }
-    /// Time passes; a deadline that is not `pending` stays 0.
-    void elapse(const Bounds& delay, bool pending) {
-        left = {left.least - delay.most, left.most - delay.least};
+    void cut_passed(std::int32_t limit) { set_passed({limit, limit}); }
+    void begin_move() { set_moved({}); }
+    /// Nor does for how long a move has lasted beyond it.
+    void cut_moved(std::int32_t limit) { set_moved({limit, limit}); }
+
+    /// Time passes; what is not in use stays 0.
+    void elapse(const Bounds& delay, bool pending, bool moving) {
+        left = left - delay;
         if (pending) {
-            passed = {passed.least + delay.least, passed.most + delay.most};
+            passed = passed + delay;
         } else {
             sum = left;
         }
+        if (moving) moved = moved + delay;
+        if (moving != pending) sooner = moving ? moved : -passed;
+        if (!moving) rest = left;
     }
-    void tighten() {
-        for (int i = 0; i < 2; ++i) {
-            left = {std::max(left.least, sum.least - passed.most),
-                    std::min(left.most, sum.most - passed.least)};
-            passed = {std::max(passed.least, sum.least - left.most),
-                      std::min(passed.most, sum.most - left.least)};
-            sum = {std::max(sum.least, left.least + passed.least),
-                   std::min(sum.most, left.most + passed.most)};
+    void tighten(bool times_moves) {
+        for (int i = 0; i < 2; ++i) tighten(left, passed, sum);
+        if (!times_moves) return;
+        for (int i = 0; i < 4; ++i) {
+            tighten(left, moved, rest);
+            tighten(passed, sooner, moved);
+            tighten(sum, sooner, rest);
+            tighten(left, passed, sum);
         }
+    }
+
+  private:
+    void set_left(const Bounds& value) {
+        left = value;
+        sum = passed + value;
+        rest = moved + value;
+    }
+    void set_passed(const Bounds& value) {
+        passed = value;
+        sum = left + value;
+        sooner = moved - value;
+    }
+    void set_moved(const Bounds& value) {
+        moved = value;
+        rest = left + value;
+        sooner = value - passed;
+    }
+    /// a + b = c.
+    static void tighten(Bounds& a, Bounds& b, Bounds& c) {
+        a.narrow(c - b);
+        b.narrow(c - a);
+        c.narrow(a + b);
     }
 };
 

@@ -12,7 +12,7 @@ using hal_mcu::EndCause;
 namespace {
 
 [[gnu::section(".noinit")]] hal_mcu::CrashRecord kept_crash;
-[[gnu::section(".noinit")]] hal_mcu::SafeLevels kept_levels;
+[[gnu::section(".noinit.levels")]] hal_mcu::SafeLevels kept_levels;
 [[gnu::section(".noinit")]] hal_mcu::RunMarker kept_run;
 
 }  // namespace

@@ -30,13 +30,13 @@ gateway::StartCause start_cause(bool for_service) {
 
 void note_crash(gateway::Gateway& sequence) {
     if (!crash_record().valid()) return;
-    sequence.note(gateway::Event::gave_up, static_cast<std::uint16_t>(crash_record().cause()));
-    sequence.note(gateway::Event::gave_up_at, static_cast<std::uint16_t>(crash_record().code_address()));
+    sequence.note(gateway::Event::crashed, static_cast<std::uint16_t>(crash_record().cause()));
+    sequence.note(gateway::Event::crashed_at, static_cast<std::uint16_t>(crash_record().code_address()));
     crash_record().clear();
 }
 
 /// Longer than a scan may wait for the motor, which a user can change.
-base::Milliseconds watchdog_time(const gateway::SettingsKeeper& settings) {
+base::Milliseconds watchdog_time(const gateway::SettingsManager& settings) {
     return base::Milliseconds(settings.get(store::Setting::longest_wait)) + kBeyondLongestWait;
 }
 
@@ -70,19 +70,19 @@ union StartedObject {
     T object;
 };
 
-StartedObject<gateway::SettingsKeeper> settings_memory;
+StartedObject<gateway::SettingsManager> settings_memory;
 StartedObject<gateway::Controller> controller_memory;
 StartedObject<motor::AnyDriver> driver_memory;
 
 // Apart from the loop, these need no stack while it runs.
 
-[[gnu::noinline]] gateway::SettingsKeeper& read_settings(const Parts& parts) {
-    gateway::SettingsKeeper& settings = settings_memory.make(parts.storage, parts.settings_area);
+[[gnu::noinline]] gateway::SettingsManager& read_settings(const Parts& parts) {
+    gateway::SettingsManager& settings = settings_memory.make(parts.storage, parts.settings_area);
     settings.start({});
     return settings;
 }
 
-[[gnu::noinline]] gateway::Controller& start(const Parts& parts, gateway::SettingsKeeper& settings) {
+[[gnu::noinline]] gateway::Controller& start(const Parts& parts, gateway::SettingsManager& settings) {
     motor::Motor& drive = driver_memory.make().start({.serial = &parts.motor_line},
                                                      gateway::driver_settings_of(settings.values()));
     const gateway::Controller::Ports ports{
@@ -93,9 +93,12 @@ StartedObject<motor::AnyDriver> driver_memory;
         .storage = parts.storage,
         .user_line = parts.user_line,
         .motor_mactalk_line = parts.motor_mactalk_line,
-        .shown_lines = {parts.user_line, &parts.motor_line, parts.motor_mactalk_line}};
+        .shown_lines = {parts.user_line, &parts.motor_line, parts.motor_mactalk_line},
+        .set_points = parts.set_point_area};
     gateway::Controller& controller = controller_memory.make(ports, parts.table_area, parts.table, settings,
                                                              start_cause(parts.for_service));
+    if constexpr (gateway::FirmwarePart::kIsThere)
+        controller.registers().firmware().attach(firmware_receiver());
     note_crash(controller.sequence());
     controller.tables().start(parts.clock.now());
     return controller;
@@ -104,7 +107,7 @@ StartedObject<motor::AnyDriver> driver_memory;
 }  // namespace
 
 void run(const Parts& parts) {
-    gateway::SettingsKeeper& settings = read_settings(parts);
+    gateway::SettingsManager& settings = read_settings(parts);
     begin_lines(settings.get(store::Setting::user_baud), settings.get(store::Setting::motor_baud));
     base::Milliseconds bites_after = kStartUp;
     begin_watchdog(bites_after);

@@ -5,11 +5,15 @@ install(FILES "${CMAKE_CURRENT_LIST_DIR}/nanoplc.toml" DESTINATION /etc/nanoplc 
 install(FILES "${package}/nanoplc.service" DESTINATION /lib/systemd/system COMPONENT nanoplc)
 install(FILES "${package}/70-nanoplc.rules" DESTINATION /lib/udev/rules.d COMPONENT nanoplc)
 install(FILES "${CMAKE_CURRENT_LIST_DIR}/nanoplc.toml" DESTINATION share/doc/nanoplc/examples COMPONENT nanoplc)
+install(FILES "${package}/lintian-overrides" DESTINATION share/lintian/overrides RENAME nanoplc COMPONENT nanoplc)
 install(FILES "${CMAKE_CURRENT_LIST_DIR}/FIRST_START.md" DESTINATION share/doc/nanoplc COMPONENT nanoplc)
+
+include(NplcPackage)
+nplc_package_documents(nanoplc)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME nanoplc)
-set(CPACK_PACKAGE_CONTACT "NanoPLC Gateway <nanoplc@localhost>")
+set(CPACK_PACKAGE_CONTACT "${NPLC_PACKAGE_CONTACT}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Sequence controller for JVL MAC servo motors")
 set(CPACK_PACKAGE_DESCRIPTION "Runs the sequence tables of JVL's MAC00-R1, R3 and R4
 modules on a Linux board with GPIO lines, a FastMAC line to each
@@ -17,6 +21,8 @@ motor and a MacTalk port for each axis, as a service.")
 set(CPACK_SET_DESTDIR ON)
 set(CPACK_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+  OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_COMPONENTS_ALL nanoplc nanoctl)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
@@ -33,7 +39,6 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA "${package}/postinst;${package}/prerm;${package}/postrm;${package}/conffiles")
 include(CPack)
 
-add_custom_target(debian_package
-  COMMAND ${CMAKE_CPACK_COMMAND} -G DEB --config "${CMAKE_BINARY_DIR}/CPackConfig.cmake" -B "${CMAKE_BINARY_DIR}/package"
-  VERBATIM)
-add_dependencies(debian_package nanoplc nanoplc_generated nanoctl nanoctl_generated)
+nplc_debian_package(debian_package nanoplc CONFIG CPackConfig.cmake FOLDER package PROGRAMS usr/sbin/nanoplc usr/bin/nanoctl
+  NPM "usr/sbin/nanoplc=${PROJECT_SOURCE_DIR}/firmware/faces/panel/page" "${PROJECT_SOURCE_DIR}/firmware/faces/panel/bundle/README.md" -)
+add_dependencies(debian_package nanoplc_generated nanoctl_generated)

@@ -3,22 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
-#include <utility>
 
-#include "host/endpoint.h"
-#include "log_messages.h"
+#include "stored.h"
 
 namespace nplc::boards {
 namespace {
 
+using gateway::SafeReason;
 using store::Setting;
 
 /// Marks of what is watched; serial lines have the first.
 constexpr std::uint32_t kSerialLines = 0;
 constexpr std::uint32_t kUserServer = 1;
-constexpr std::uint32_t kFirstLine = 2;
+constexpr std::uint32_t kFaces = 2;
+constexpr std::uint32_t kFirstLine = 3;
 
+constexpr base::Milliseconds kBetweenTries{500};
+constexpr base::Microseconds kPace{250};
 /// Between two reads of the motor's status while nothing is under way.
 constexpr base::Milliseconds kUnwatched{5};
 /// Until the store is done, for a reset.
@@ -28,11 +29,149 @@ constexpr base::Milliseconds kBetweenLooks{1};
 
 /// The levels may have been set anew since the start.
 Axis::~Axis() {
-    if (outputs_ && controller_) outputs_->set_safe(controller_->sequence().settings().safe_outputs);
+    if (controller_) pins_.set_safe(controller_->sequence().settings().safe_outputs);
 }
 
-void Axis::tell(LogLevel level, const std::string& text) {
-    journal_.write(level, config_.name + ": " + text);
+void Axis::open(const std::string& state_directory, const BoardStart& board, base::Instant now) {
+    board_ = board;
+    folder_ = state_directory + "/" + config_.name;
+    begin(now);
+}
+
+/// Outputs first, at their safe levels, as far as the settings that tell them are to be had.
+void Axis::begin(base::Instant now) {
+    missing_ = {};
+    open_store(now);
+    settings_.emplace(store_.storage(), kSettingsArea);
+    settings_->start(config_.settings);
+    impose_motor(*settings_, config_);
+    open_pins();
+    open_motor();
+    open_user_port();
+    tell_stored_settings();
+    start(now);
+    if (!is_complete()) {
+        controller_->sequence().withdraw(missing_reason(), now);
+        try_at_ = now + kBetweenTries;
+    } else {
+        try_at_ = base::kNever;
+        if (!reported_missing_.empty()) journal_.write(LogLevel::notice, "has all that it needs");
+        reported_missing_.clear();
+    }
+    watch_all();
+}
+
+/// Only what is missing. Whatever comes makes a new start, since settings, safe levels or the port depend on
+/// it.
+void Axis::try_again(base::Instant now) {
+    try_at_ = now + kBetweenTries;
+    const Missing before = missing_;
+    if (!missing_.store.empty()) open_store(now);
+    if (!missing_.lines.empty()) open_pins();
+    if (!missing_.port.empty()) open_user_port();
+    const auto came = [](const std::string& then, const std::string& now_is) {
+        return !then.empty() && now_is.empty();
+    };
+    if (came(before.store, missing_.store) || came(before.lines, missing_.lines) ||
+        came(before.port, missing_.port))
+        begin(now);
+}
+
+SafeReason Axis::missing_reason() const {
+    if (!missing_.lines.empty()) return SafeReason::no_lines;
+    return missing_.store.empty() ? SafeReason::no_port : SafeReason::no_store;
+}
+
+/// Once for each reason, however often it is tried.
+void Axis::note_missing(std::string& what, const std::string& why) {
+    what = why;
+    if (why.empty() || !reported_missing_.insert(why).second) return;
+    journal_.write(LogLevel::error, why + "; the axis is stopped, and tries again until it can have it");
+}
+
+void Axis::open_store(base::Instant now) {
+    if (store_.is_open()) return;
+    note_missing(missing_.store, store_.open(folder_));
+    if (!store_.is_open()) return;
+    using gateway::StartCause;
+    if (!cause_) cause_ = store_.is_after_crash(board_) ? StartCause::watchdog : StartCause::power_up;
+    if (is_running_) note_running(now);
+}
+
+void Axis::open_pins() {
+    missing_.lines.clear();
+    for (const std::string& error :
+         pins_.open(config_, static_cast<std::uint8_t>(setting(Setting::safe_outputs))))
+        note_missing(missing_.lines, error);
+}
+
+/// A line that cannot be had is a lost link, and looked for by itself.
+void Axis::open_motor() {
+    motor_.open(config_.name, config_.motor, setting(Setting::motor_baud));
+    if (!config_.motor.mactalk_port.is_there()) return;
+    static_cast<void>(mactalk_port_.emplace().open(
+        config_.name, {.path = config_.motor.mactalk_port.text, .baud = 19'200}));
+}
+
+void Axis::open_user_port() {
+    note_missing(missing_.port, user_.open(config_, setting(Setting::user_baud), is_running_, faces_.seat()));
+}
+
+void Axis::start(base::Instant now) {
+    reporter_.start(now);
+    pins_.inputs().look();
+    gateway::Controller::Ports ports{pins_.inputs(), pins_.outputs(), watchdog_,
+                                     motor_.start(settings_->values()), store_.storage()};
+    ports.user_line = user_.start();
+    if (mactalk_port_) ports.motor_mactalk_line = &mactalk_port_->uart();
+    ports.set_points = &kSetPointArea;
+    controller_.emplace(ports, kTableArea, table_memory_, *settings_,
+                        is_complete() ? *cause_ : gateway::StartCause::service);
+    faces_.restarted();
+    gateway::Gateway& sequence = controller_->sequence();
+    sequence.pace(kPace);
+    if (store_.take_bad_marker()) sequence.block_start(SafeReason::bad_run_mark);
+    if (missing_.store.empty()) load_table(now);
+    if (!store_.is_marked()) sequence.withdraw(SafeReason::bad_run_mark, now);
+}
+
+/// A table that cannot run leaves the axis stopped, and its port open for another one.
+void Axis::load_table(base::Instant now) {
+    const LoadedTable loaded = load_first_table(controller_->tables(), *settings_, config_, now);
+    if (!loaded.fault.empty()) {
+        controller_->sequence().block_start(SafeReason::bad_table);
+        return journal_.write(LogLevel::error, loaded.fault);
+    }
+    journal_.write(LogLevel::info, loaded.where_from);
+}
+
+void Axis::tell_stored_settings() {
+    for (const StoredSetting& other : stored_settings(*settings_, config_))
+        journal_.write(
+            LogLevel::notice,
+            fmt::format(
+                "setting {} is {}, as stored over the user's port; the configuration's {} is not used",
+                other.name, other.stored, other.configured));
+}
+
+/// As after a power-up.
+void Axis::reset(base::Instant now) {
+    journal_.write(LogLevel::notice, "reset over the user's port");
+    if (store_.is_open()) cause_ = gateway::StartCause::power_up;
+    begin(now);
+}
+
+void Axis::note_running(base::Instant now) {
+    is_running_ = true;
+    const std::string error = store_.mark_running();
+    if (error.empty()) return;
+    journal_.write(LogLevel::error, error + "; make room, or mend it, and restart the service");
+    controller_->sequence().withdraw(SafeReason::bad_run_mark, now);
+}
+
+void Axis::note_orderly_end() {
+    if (const std::string error = store_.mark_ended(); !error.empty())
+        journal_.write(LogLevel::warning, error + "; the next start waits for `nanoctl run`");
 }
 
 void Axis::watch(hal_linux::EventLoop& loop, std::uint32_t mark) {
@@ -43,80 +182,59 @@ void Axis::watch(hal_linux::EventLoop& loop, std::uint32_t mark) {
 
 void Axis::watch_all() {
     if (loop_ == nullptr) return;
-    std::uint32_t line_mark = mark_ + kFirstLine;
-    edges_ = 0;
-    for (const int descriptor : input_bits_.descriptors()) loop_->watch(descriptor, line_mark++);
+    pins_.watch(*loop_, mark_ + kFirstLine);
     watch_ports();
-    if (!user_server_) return;
-    const bool is_terminal = host::Endpoint(config_.user_port.text).kind == host::Endpoint::Kind::pty;
-    loop_->watch(
-        user_server_->descriptor(), mark_ + kUserServer,
-        is_terminal ? hal_linux::EventLoop::Wakes::at_news : hal_linux::EventLoop::Wakes::while_readable);
+    loop_->watch(faces_.descriptor(), mark_ + kFaces);
+    user_.watch_server(*loop_, mark_ + kUserServer);
 }
 
-/// The motor's own MacTalk port is not among them: it is read when a person's message waits for its answer.
+/// The motor's own MacTalk port is not among them: it is read when a client's message waits for its answer.
 void Axis::watch_ports() {
     unwatched_until_ = base::kNever;
     motor_.watch(*loop_, mark_);
-    if (user_uart_) loop_->watch(user_uart_->uart().descriptor(), mark_);
+    user_.watch_serial_port(*loop_, mark_);
 }
 
 void Axis::note_readable(std::uint32_t mark) {
     const std::uint32_t which = mark - mark_;
-    if (which >= kFirstLine) edges_ |= 1U << (which - kFirstLine);
-    if (which == kUserServer) user_readable_ = true;
+    if (which >= kFirstLine) pins_.note_edge(which - kFirstLine);
+    if (which == kUserServer) user_.note_readable();
     if (which == kSerialLines) line_readable_ = true;
-}
-
-/// An edge tells its line's new level, and nothing else is asked for then. All lines are looked at whenever
-/// something else is the cause, so an edge that a chip has missed is seen a little later.
-void Axis::look_at_inputs() {
-    std::uint32_t edges = std::exchange(edges_, 0);
-    if (edges == 0) return inputs_->look();
-    for (; edges != 0; edges &= edges - 1)
-        inputs_->look_at(static_cast<std::size_t>(std::countr_zero(edges)));
 }
 
 /// While the motor's line was read a moment ago, as it is when nothing is under way.
 bool Axis::is_edge_alone(base::Instant now) const {
-    return edges_ != 0 && !line_readable_ && motor_.was_read_since(now - kUnwatched);
+    return pins_.has_edges() && !line_readable_ && motor_.was_read_since(now - kUnwatched);
 }
 
 void Axis::look_at_user(base::Instant now) {
     const auto address = [this](Setting which) { return static_cast<std::uint8_t>(setting(which)); };
-    if (user_server_ && (std::exchange(user_readable_, false) || user_server_->next_turn(now) <= now))
-        user_server_->look(now, {address(Setting::gateway_address), address(Setting::motor_address)});
-    if (user_line_) user_line_->look(now, address(Setting::gateway_address));
+    user_.look(now, {address(Setting::gateway_address), address(Setting::motor_address)});
 }
 
 /// After an edge the scan comes first, and its orders leave before the motor's status is read.
 void Axis::poll_controller(base::Instant now) {
     const bool hurries = is_edge_alone(now);
     line_readable_ = false;
-    look_at_inputs();
+    pins_.read_inputs();
     look_at_user(now);
     motor_.open_line(now);
     hurries ? controller_->poll_after_edge(now) : controller_->poll(now);
 }
 
 void Axis::serve(base::Instant now) {
-    if (now >= try_at_) try_again(now);
+    const bool is_storing = store_.is_busy() || controller_->set_points().stores();
+    if (now >= try_at_ && !is_storing) try_again(now);
     poll_controller(now);
-    bool is_back = motor_.look(journal_, now);
-    if (mactalk_port_) mactalk_port_->look(journal_, now);
-    if (user_uart_) is_back = user_uart_->look(journal_, now) || is_back;
+    faces_.poll(*controller_, motor_.any_driver(), now, now);
+    bool is_back = motor_.look(journal_.journal(), now);
+    if (mactalk_port_) mactalk_port_->look(journal_.journal(), now);
+    is_back = user_.look_for_serial_port(now) || is_back;
     if (is_back) watch_ports();
     watch_or_wait(now);
     watch_pins(now);
-    tell_news(now);
-    if (controller_->reset_asked() && !stores()) reset(now);
-}
-
-/// As after a power-up.
-void Axis::reset(base::Instant now) {
-    tell(LogLevel::notice, "reset over the user's port");
-    if (storage_) cause_ = gateway::StartCause::power_up;
-    begin(now);
+    reporter_.report(*controller_, motor_, faces_.seat().holder(), now);
+    if (controller_->reset_asked() && !store_.is_busy()) reset(now);
 }
 
 /// A JVL motor repeats its status without pause, 1920 bytes a second. While nothing is under way it is read
@@ -129,29 +247,23 @@ void Axis::watch_or_wait(base::Instant now) {
     if (!is_quiet && rested) watch_ports();
 }
 
-/// Its descriptors are readable all the time then, and are left alone.
-void Axis::note_lost_pins() {
-    told_pins_lost_ = true;
-    for (const int descriptor : input_bits_.descriptors()) loop_->ignore(descriptor);
-    tell(
+void Axis::watch_pins(base::Instant now) {
+    if (!pins_.is_newly_lost(*loop_)) return;
+    journal_.write(
         LogLevel::error,
         "SAFE: a GPIO chip is gone; its lines read 0 and nothing can be switched; `nanoctl reset` when it is "
         "back");
-}
-
-void Axis::watch_pins(base::Instant now) {
-    if (told_pins_lost_ || (!inputs_->lost() && !outputs_->lost())) return;
-    note_lost_pins();
-    controller_->sequence().withdraw(gateway::SafeReason::no_lines, now);
+    controller_->sequence().withdraw(SafeReason::no_lines, now);
 }
 
 base::Instant Axis::next(base::Instant now) {
     if (controller_->reset_asked()) return now + kBetweenLooks;
     base::Instant next = controller_->next_poll(now, motor_.next_poll(now));
-    next = std::min({next, unwatched_until_, tell_silence_at_, try_at_, motor_.next_look()});
+    next = std::min(
+        {next, unwatched_until_, reporter_.next_report(), try_at_, motor_.next_look(), user_.next_look(now)});
+    next = std::min(next, faces_.next(*controller_));
     if (mactalk_port_) next = std::min(next, mactalk_port_->next_look());
-    if (user_uart_) next = std::min({next, user_uart_->next_look(), user_line_->next_look()});
-    if (user_server_) next = std::min(next, user_server_->next_turn(now));
+    controller_->sequence().expect_poll(next, now);
     return next;
 }
 
@@ -164,37 +276,12 @@ bool Axis::has_stopped() const {
 }
 
 void Axis::write_safe_outputs() {
-    if (!outputs_) return;
-    outputs_->write(controller_ ? controller_->sequence().settings().safe_outputs : std::uint8_t{0});
-}
-
-void Axis::tell_news(base::Instant now) {
-    const gateway::EventLog& log = controller_->sequence().log();
-    if (log.count() < told_events_) told_events_ = 0;  // it was cleared
-    if (log.count() - told_events_ > gateway::EventLog::kSlots)
-        told_events_ = log.count() - static_cast<std::uint32_t>(gateway::EventLog::kSlots);
-    for (; told_events_ != log.count(); ++told_events_) {
-        const LogMessage said = in_words(log.slot(told_events_ % gateway::EventLog::kSlots));
-        tell(said.level, said.text);
-    }
-    for (const LogMessage& said : motor_.news()) tell(said.level, said.text);
-    const motor::Link link = motor_.driver().link();
-    if (motor::delivers(link)) tell_silence_at_ = base::kNever;
-    if (now >= tell_silence_at_) {
-        tell_silence_at_ = base::kNever;
-        tell(LogLevel::warning, motor_.silence_in_words());
-    }
-    if (motor::delivers(link) == motor::delivers(told_link_)) return;
-    told_link_ = link;
-    if (motor::delivers(link))
-        tell(LogLevel::notice, "the motor answers on " + config_.motor.line_in_words());
-    else
-        tell(LogLevel::warning, motor_.loss_in_words());
+    pins_.write(controller_ ? controller_->sequence().settings().safe_outputs : std::uint8_t{0});
 }
 
 std::string Axis::state_in_words() const {
     using gateway::RunState;
-    const bool is_safe = controller_->sequence().safe_reason() != gateway::SafeReason::none;
+    const bool is_safe = controller_->sequence().safe_reason() != SafeReason::none;
     const char* const link = motor::delivers(motor_.driver().link()) ? "" : ", no motor";
     switch (controller_->sequence().run_state()) {
         case RunState::stopped:

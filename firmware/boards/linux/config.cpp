@@ -9,6 +9,8 @@
 
 #include "drive_support.h"
 #include "host/endpoint.h"
+#include "panel_config.h"
+#include "protocol/modbus_rtu.h"
 #include "section.h"
 
 namespace nplc::boards {
@@ -36,11 +38,17 @@ bool is_mode(const std::string& text) {
 class Reader {
   public:
     ReadConfig read(std::string_view text) {
-        TomlFile file = read_toml(text);
-        findings_.mistakes = std::move(file.mistakes);
-        if (!findings_.mistakes.empty()) return std::move(result_);
+        const toml_files::File file = toml_files::read_toml(text);
+        if (!file.error.empty()) {
+            findings_.mistakes.push_back({file.line, "", file.error});
+            return std::move(result_);
+        }
         Section root(&file.root, "", findings_);
         read_service(root);
+        result_.config.panel = read_panel(root, findings_);
+        result_.config.modbus = read_modbus(root, findings_);
+        result_.config.metrics = read_metrics(root, findings_);
+        result_.config.mqtt = read_mqtt(root, findings_);
         read_axes(root);
         root.finish();
         find_doubles();
@@ -113,6 +121,7 @@ class Reader {
         else if (has_name && !is_name(axis.name))
             section.complain("name", "may have small letters, digits, - and _, 32 at the most");
         axis.table = located_text(section, "table");
+        axis.symbols = located_text(section, "symbols");
         axis.motor = read_motor(section, axis.line, findings_);
         Section user(section.table("user"), path + ".user", findings_);
         axis.user_port = located_text(user, "port");
@@ -121,6 +130,8 @@ class Reader {
         user.finish();
         read_lines(section, "inputs", "IN", axis.inputs, axis);
         read_lines(section, "outputs", "OUT", axis.outputs, axis);
+        read_control(section, axis.faces, findings_);
+        axis.scaling = read_scale(section, findings_);
         read_settings(section, axis);
         section.finish();
         result_.config.axes.push_back(std::move(axis));
@@ -134,6 +145,12 @@ class Reader {
         else if (mode)
             axis.socket_mode = static_cast<unsigned>(std::stoul(*mode, nullptr, 8));
         const bool is_socket = host::Endpoint(axis.user_port.text).kind == host::Endpoint::Kind::unix_socket;
+        axis.password_file = located_text(user, "password_file");
+        if (axis.password_file.is_there() && !host::Endpoint(axis.user_port.text).is_socket())
+            user.complain(
+                "password_file",
+                "is for a port unix:PATH or tcp:ADDRESS:PORT: elsewhere clients cannot be told apart; "
+                "leave it out, or name such a port");
         for (const char* key : {"socket_mode", "socket_group"}) {
             if (!is_socket && user.any(key) != nullptr)
                 user.complain(key, "is for a port unix:PATH; leave it out, or name such a port");
@@ -225,6 +242,12 @@ class Reader {
                              is_line ? "; a motor's serial line is its axis's alone (a CAN bus can be shared)"
                                      : "")});
         };
+        const ModbusConfig& modbus = result_.config.modbus;
+        if (modbus.rtu_port.is_there()) take("port " + port_id(modbus.rtu_port.text), modbus.rtu_port);
+        if (modbus.rtu.unit + result_.config.axes.size() - 1 > protocol::modbus::kHighestUnit)
+            findings_.mistakes.push_back(
+                {modbus.rtu_port.line, "modbus.rtu_unit",
+                 "leaves no address up to 247 for the last axis; write a lower one"});
         for (const AxisConfig& axis : result_.config.axes) {
             if (!axis.name.empty()) take("name " + axis.name, {axis.name, axis.line, "axis.name"});
             for (const LocatedText& line : axis.gpio) take("line " + line_id(line.text), line);

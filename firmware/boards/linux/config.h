@@ -6,13 +6,14 @@
 #include <string_view>
 #include <vector>
 
+#include "faces_config.h"
 #include "hal_linux/gpio.h"
 #include "hal_linux/real_time.h"
 #include "journal.h"
 #include "motor_config.h"
+#include "mqtt_config.h"
 #include "section.h"
 #include "store/settings.h"
-#include "toml_file.h"
 
 namespace nplc::boards {
 
@@ -22,16 +23,32 @@ using Lines = std::array<std::optional<hal_linux::GpioLine>, count>;
 /// One sequencer with its motor.
 struct AxisConfig {
     std::string name;
-    LocatedText table;  ///< a file whose table runs while none is stored
+    LocatedText table;    ///< a file whose table runs while none is stored
+    LocatedText symbols;  ///< a file with a table's names, for people
     MotorConfig motor;
     LocatedText user_port;        ///< a device, or an endpoint pty:, unix: or tcp:
     unsigned socket_mode = 0660;  ///< of a unix: endpoint
     LocatedText socket_group;
+    LocatedText password_file;  ///< of a socket
+    faces::LoopSettings faces{};
+    faces::Scaling scaling{};
     Lines<6> inputs;
     Lines<4> outputs;
     std::vector<LocatedText> gpio;    ///< every line that is named
     store::SettingValues settings{};  ///< where none are stored
     int line = 0;
+};
+
+inline constexpr std::size_t kMostPanelSecret = 4096;
+
+/// The panel in a browser; none where `listen` is not there.
+struct PanelConfig {
+    LocatedText listen;  ///< as it is written
+    std::string address;
+    std::uint16_t port = 0;
+    std::vector<std::string> hosts;
+    LocatedText token_file;
+    LocatedText password_file;
 };
 
 struct Config {
@@ -41,6 +58,10 @@ struct Config {
     LocatedText watchdog_device;
     int watchdog_seconds = 10;
     bool power_cut_waits = false;  ///< else the settings' autostart decides
+    PanelConfig panel;
+    ModbusConfig modbus;
+    MetricsConfig metrics;
+    MqttConfig mqtt;
     std::vector<AxisConfig> axes;
 };
 

@@ -12,6 +12,8 @@
 
 #include "config.h"
 #include "hal_linux/group.h"
+#include "registers/gateway.h"
+#include "seat/secret.h"
 
 namespace nplc::boards {
 namespace {
@@ -88,6 +90,12 @@ void check_group(const LocatedText& group, std::vector<Mistake>& missing) {
             {group.line, group.key, fmt::format("there is no group {}; name one of /etc/group", group.text)});
 }
 
+void check_secret(const LocatedText& file, std::size_t most, std::vector<Mistake>& missing) {
+    if (!file.is_there()) return;
+    if (const std::string error = faces::read_secret(file.text, most).error; !error.empty())
+        missing.push_back({file.line, file.key, error});
+}
+
 /// One line by two names is seen here only: the kernel knows which line a name is.
 class LineCheck {
   public:
@@ -129,8 +137,12 @@ std::vector<Mistake> missing_devices(const Config& config) {
             check_serial(port, missing);
         check_can(axis.motor.can, missing);
         check_group(axis.socket_group, missing);
+        check_secret(axis.password_file, registers::gateway::kMostPassword, missing);
         for (const LocatedText& line : axis.gpio) lines.check(line);
     }
+    check_serial(config.modbus.rtu_port, missing);
+    for (const LocatedText& file : {config.panel.token_file, config.panel.password_file})
+        check_secret(file, kMostPanelSecret, missing);
     if (const LocatedText& device = config.watchdog_device;
         device.is_there() && !is_character_device(device.text))
         missing.push_back({device.line, device.key,

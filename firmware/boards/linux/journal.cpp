@@ -1,11 +1,14 @@
 #include "journal.h"
 
 #include <fmt/format.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
 
 namespace nplc::boards {
 namespace {
@@ -18,13 +21,61 @@ bool stderr_is_journal() {
     return fmt::format("{}:{}", status.st_dev, status.st_ino) == stream;
 }
 
+int open_socket(std::string_view path) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    if (path.size() >= sizeof address.sun_path) return -1;
+    path.copy(address.sun_path, path.size());
+    const int socket = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    if (socket < 0) return -1;
+    if (::connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return socket;
+    ::close(socket);
+    return -1;
+}
+
+/// A value with a line feed has its length before it, 8 bytes, the low one first.
+void put_field(std::string& message, std::string_view name, const std::string& value) {
+    message += name;
+    if (value.find('\n') == std::string::npos) {
+        message += '=';
+    } else {
+        message += '\n';
+        for (unsigned byte = 0; byte < 8; ++byte)
+            message += static_cast<char>(value.size() >> 8 * byte & 0xFF);
+    }
+    message += value;
+    message += '\n';
+}
+
+/// As the journal's own protocol has it.
+std::string journal_message(LogLevel level, const std::string& text, const JournalFields& fields) {
+    std::string message;
+    put_field(message, "MESSAGE", text);
+    put_field(message, "PRIORITY", std::to_string(static_cast<int>(level)));
+    put_field(message, "SYSLOG_IDENTIFIER", "nanoplc");
+    for (const JournalField& field : fields) put_field(message, "NANOPLC_" + field.name, field.value);
+    return message;
+}
+
 }  // namespace
 
-Journal::Journal(LogLevel most) : most_(most), with_levels_(stderr_is_journal()) {}
+Journal::Journal(LogLevel most) : most_(most), is_journal_(stderr_is_journal()) {
+    const char* other = std::getenv("NANOPLC_JOURNAL_SOCKET");
+    if (is_journal_) socket_ = open_socket(other != nullptr ? other : "/run/systemd/journal/socket");
+}
 
-void Journal::write(LogLevel level, const std::string& text) {
+Journal::~Journal() {
+    if (socket_ >= 0) ::close(socket_);
+}
+
+void Journal::write(LogLevel level, const std::string& text, const JournalFields& fields) {
     if (!writes(level)) return;
-    const std::string prefix = with_levels_ ? fmt::format("<{}>", static_cast<int>(level)) : "";
+    if (socket_ >= 0) {
+        const std::string message = journal_message(level, text, fields);
+        const ssize_t sent = ::send(socket_, message.data(), message.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (sent == static_cast<ssize_t>(message.size())) return;
+    }
+    const std::string prefix = is_journal_ ? fmt::format("<{}>", static_cast<int>(level)) : "";
     const std::string line = prefix + text + "\n";
     // One write a line: nothing is held back, and lines of other programs do not mix in.
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());

@@ -31,17 +31,7 @@ void JvlSupport::read(MotorConfig& motor, Section& section, int axis_line) const
     motor.mactalk_port = located_text(section, "mactalk_port");
     check_port(section, motor.port, false);
     check_port(section, motor.mactalk_port, false);
-    const auto mode = section.choice("rs485", {"off", "rts_on_send", "rts_after_send"});
-    const auto before = section.number("rs485_before_ms", 0, 1000);
-    const auto after = section.number("rs485_after_ms", 0, 1000);
-    if (mode.value_or(0) != 0) {
-        motor.rs485 = {.rts_on_send = mode == 1U,
-                       .before_ms = static_cast<std::uint32_t>(before.value_or(0)),
-                       .after_ms = static_cast<std::uint32_t>(after.value_or(0))};
-    } else if (before || after) {
-        section.complain(before ? "rs485_before_ms" : "rs485_after_ms",
-                         "has no meaning while rs485 is \"off\"; write \"rts_on_send\" or leave it out");
-    }
+    motor.rs485 = read_rs485(section);
 }
 
 std::vector<WiringRow> JvlSupport::wiring(const MotorConfig& motor, std::uint32_t baud) const {

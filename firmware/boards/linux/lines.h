@@ -85,7 +85,7 @@ class GatedPort final : public ports::SerialPort {
     base::Instant opened_{};
 };
 
-/// The serial line of one person's program. Of what may have waited longer than 1 s to be read, because the
+/// The serial line of one client program. Of what may have waited longer than 1 s to be read, because the
 /// process was halted, only reads and the commands stop, safe and hold are passed on.
 class TimelyPort final : public ports::SerialPort {
   public:

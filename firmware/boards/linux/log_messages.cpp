@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "gateway/outcome.h"
+#include "gateway/command_result.h"
 
 namespace nplc::boards {
 namespace {
@@ -40,6 +40,9 @@ LogMessage of_reason(SafeReason reason, unsigned step) {
             return {
                 LogLevel::warning,
                 fmt::format("SAFE: the enable input is off (step {}); start again with `nanoctl run`", step)};
+        case SafeReason::bad_set_points:
+            return {LogLevel::error,
+                    "SAFE: stored set-points are damaged; set them anew, then `nanoctl run`"};
         case SafeReason::bad_settings:
             return {
                 LogLevel::error,
@@ -68,7 +71,44 @@ LogMessage of_reason(SafeReason reason, unsigned step) {
     return {LogLevel::error, "SAFE: for an unknown reason"};
 }
 
+std::string by_whom(std::uint16_t detail) {
+    return std::string(registers::gateway::name_of(static_cast<registers::gateway::Origin>(detail >> 8)));
+}
+
+/// Which ones, and from what to what, AxisReporter adds.
+LogMessage of_set_points(Event event, std::uint16_t detail) {
+    const unsigned number = detail & 0xFF;
+    switch (event) {
+        case Event::set_points_changed:
+            return {LogLevel::notice, fmt::format("set-points: {} set over {}", number, by_whom(detail))};
+        case Event::set_points_taken:
+            return {LogLevel::notice, fmt::format("set-points: the sequence goes by {} changed one{} now",
+                                                  detail, detail == 1 ? "" : "s")};
+        case Event::set_points_dropped:
+            return {LogLevel::warning,
+                    "set-points: with their defaults, because what was kept has another name, unit or range"};
+        case Event::recipe_loaded:
+            return {LogLevel::notice, fmt::format("recipe {} loaded over {}", number, by_whom(detail))};
+        case Event::recipe_saved:
+            return {LogLevel::notice, fmt::format("recipe {} saved over {}", number, by_whom(detail))};
+        case Event::recipe_deleted:
+            return {LogLevel::notice, fmt::format("recipe {} deleted over {}", number, by_whom(detail))};
+        default:
+            return {LogLevel::warning, fmt::format("event {}", static_cast<unsigned>(event))};
+    }
+}
+
 }  // namespace
+
+JournalFields fields_of(const gateway::EventLog::Entry& entry) {
+    constexpr std::uint8_t kFirstEvent = static_cast<std::uint8_t>(Event::started);
+    const std::string key(registers::gateway::key_of_log_code(entry.event));
+    JournalFields fields{{"EVENT", key.empty() ? std::to_string(entry.event) : key},
+                         {"STEP", std::to_string(entry.step)}};
+    if (entry.event < kFirstEvent && entry.event != 0) fields.push_back({"CAUSE", key});
+    if (entry.detail != 0) fields.push_back({"DETAIL", std::to_string(entry.detail)});
+    return fields;
+}
 
 LogMessage in_words(const gateway::EventLog::Entry& entry) {
     if (entry.event < 16) return of_reason(static_cast<SafeReason>(entry.event), entry.step);
@@ -101,16 +141,30 @@ LogMessage in_words(const gateway::EventLog::Entry& entry) {
             return {LogLevel::notice, "the settings are stored"};
         case Event::store_damaged:
             return {LogLevel::error,
-                    "a stored table or the stored settings are damaged; upload, or set and keep, again"};
-        case Event::gave_up:
+                    "a stored table, the stored settings or set-points are damaged; upload, or set and keep, "
+                    "again"};
+        case Event::crashed:
             return {LogLevel::error,
-                    fmt::format("the firmware gave up before this start, cause {}", entry.detail)};
-        case Event::gave_up_at:
-            return {LogLevel::error, fmt::format("it gave up at code address {}", entry.detail)};
+                    fmt::format("the firmware crashed before this start, cause {}", entry.detail)};
+        case Event::crashed_at:
+            return {LogLevel::error, fmt::format("it crashed at code address {}", entry.detail)};
+        case Event::polled_late:
+            return {
+                LogLevel::warning,
+                fmt::format("polled {} ms late, beyond the setting poll_limit; give the service real-time "
+                            "priority, or the machine less to do",
+                            entry.detail)};
         case Event::motor_fault:
             return {LogLevel::debug, fmt::format("the driver's fault {}", entry.detail)};
-        case Event::upload_given_up:
-            return {LogLevel::warning, fmt::format("an upload was given up after {} bytes", entry.detail)};
+        case Event::set_points_changed:
+        case Event::set_points_taken:
+        case Event::set_points_dropped:
+        case Event::recipe_loaded:
+        case Event::recipe_saved:
+        case Event::recipe_deleted:
+            return of_set_points(static_cast<Event>(entry.event), entry.detail);
+        case Event::upload_aborted:
+            return {LogLevel::warning, fmt::format("an upload was aborted after {} bytes", entry.detail)};
     }
     return {LogLevel::warning, fmt::format("event {}", entry.event)};
 }

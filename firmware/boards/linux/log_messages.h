@@ -12,7 +12,9 @@ struct LogMessage {
     LogLevel level;
     std::string text;
 };
-/// An entry of the gateway's log for a person: what happened, and for a fault what to do.
+/// What the journal can be searched by: EVENT, CAUSE of a safe state, STEP, DETAIL.
+JournalFields fields_of(const gateway::EventLog::Entry& entry);
+/// An entry of the gateway's log for the user: what happened, and for a fault what to do.
 LogMessage in_words(const gateway::EventLog::Entry& entry);
 
 }  // namespace nplc::boards

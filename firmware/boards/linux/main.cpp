@@ -9,6 +9,7 @@
 #include "config.h"
 #include "exit_codes.h"
 #include "host/files.h"
+#include "plant_part.h"
 #include "service.h"
 #include "stored.h"
 #include "wiring.h"
@@ -45,6 +46,7 @@ struct Options {
     std::string file;
     bool no_devices = false;
     bool keys = false;
+    bool markdown = false;
 };
 
 struct Loaded {
@@ -101,6 +103,7 @@ int check(const Options& options) {
         return kDone;
     }
     for (const std::string& note : found.notes) fmt::print("{}\n", note);
+    for (const std::string& line : faces_in_words(loaded.config)) fmt::print("{}\n", line);
     const std::size_t axes = loaded.config.axes.size();
     fmt::print("{}: in order, {} {}\n", options.file, axes, axes == 1 ? "axis" : "axes");
     return kDone;
@@ -110,6 +113,21 @@ int print_wiring(const std::string& file) {
     const Loaded loaded = load(file);
     if (!loaded.is_whole) return kWrong;
     fmt::print("{}", wiring(loaded.config));
+    return kDone;
+}
+
+int print_modbus_map(const std::string& file, bool markdown) {
+    faces::Scaling scaling;
+    registers::Model model = registers::Model::mac140;
+    if (!file.empty()) {
+        const Loaded loaded = load(file);
+        if (!loaded.is_whole) return kWrong;
+        const AxisConfig& axis = loaded.config.axes.front();
+        scaling = axis.scaling;
+        const bool is_800 = axis.settings.get(store::Setting::motor_is_mac800) != 0;
+        if (is_800) model = registers::Model::mac800;
+    }
+    fmt::print("{}", markdown ? modbus::map_as_markdown() : modbus::map_as_csv(scaling, model));
     return kDone;
 }
 
@@ -128,6 +146,11 @@ int main(int argc, char** argv) {
     check_config.add_flag("--no-devices", options.no_devices,
                           "Of another machine: look for no device and no store");
     check_config.add_flag("--keys", options.keys, "Print every key that may stand in it");
+    arguments::App& modbus_map =
+        *app.add_subcommand("modbus-map", "Print the map of the Modbus server as CSV, for a PLC's tools");
+    modbus_map.add_option("file", options.file, "The configuration, for its first axis's unit and motor");
+    modbus_map.add_flag("--markdown", options.markdown,
+                        "A table for documents, without the motor's registers");
     app.add_subcommand("wiring", "Print what is to be joined to what")
         ->add_option("file", options.file, "The configuration")
         ->required();
@@ -137,7 +160,7 @@ int main(int argc, char** argv) {
                                 {.version = NPLC_VERSION,
                                  .title = "the gateway firmware on a Linux board",
                                  .section = 8,
-                                 .file_commands = {"check-config", "wiring"},
+                                 .file_commands = {"check-config", "modbus-map", "wiring"},
                                  .file_options = {"--config"}});
     const arguments::ParseResult outcome = app.parse(argc, argv);
     if (outcome.kind == arguments::ParseResult::Kind::told) return outcome.exit_code;
@@ -146,6 +169,7 @@ int main(int argc, char** argv) {
         return kWrong;
     }
     if (app.got_subcommand("check-config")) return check(options);
+    if (app.got_subcommand("modbus-map")) return print_modbus_map(options.file, options.markdown);
     if (app.got_subcommand("wiring")) return print_wiring(options.file);
     if (app.got_subcommand("completion") || app.got_subcommand("man")) return common.exit_code;
     return run_service(options.config);

@@ -155,7 +155,7 @@ std::optional<LogMessage> MidiSupport::fault_in_words(const motor::AnyDriver& dr
     const MidiFault fault = motor.fault();
     if (fault == MidiFault::none || fault == MidiFault::link_lost) return std::nullopt;
     std::string text = fmt::format("ERROR: {}", motor::text_of(fault));
-    if (fault == MidiFault::bad_value) text += fmt::format(": {}", midi::text_of(motor.lack()));
+    if (fault == MidiFault::bad_value) text += fmt::format(": {}", midi::text_of(motor.limitation()));
     const std::uint32_t shown = fault == MidiFault::tripped ? midi::kTrips : ~midi::kTrips;
     if (fault != MidiFault::tripped && fault != MidiFault::end_stop) return LogMessage{LogLevel::error, text};
     std::string bits;

@@ -97,6 +97,20 @@ std::string MotorConfig::line_in_words() const {
     return fmt::format("address {} on {}", drive_address, is_on_can() ? can.text : port.text);
 }
 
+std::optional<hal_linux::Rs485> read_rs485(Section& section) {
+    const auto mode = section.choice("rs485", {"off", "rts_on_send", "rts_after_send"});
+    const auto before = section.number("rs485_before_ms", 0, 1000);
+    const auto after = section.number("rs485_after_ms", 0, 1000);
+    if (mode.value_or(0) != 0)
+        return hal_linux::Rs485{.rts_on_send = mode == 1U,
+                                .before_ms = static_cast<std::uint32_t>(before.value_or(0)),
+                                .after_ms = static_cast<std::uint32_t>(after.value_or(0))};
+    if (before || after)
+        section.complain(before ? "rs485_before_ms" : "rs485_after_ms",
+                         "has no meaning while rs485 is \"off\"; write \"rts_on_send\" or leave it out");
+    return std::nullopt;
+}
+
 MotorConfig read_motor(Section& axis, int axis_line, Findings& findings) {
     Section section(axis.table("motor"), axis.path() + ".motor", findings);
     const std::vector<MotorKind> all = kinds();

@@ -36,4 +36,7 @@ MotorConfig read_motor(Section& axis, int axis_line, Findings& findings);
 /// Settings that here are keys of table `motor`.
 inline constexpr std::array kOfTheMotor{store::Setting::motor_kind, store::Setting::midi_address};
 
+/// Keys rs485, rs485_before_ms and rs485_after_ms of a port's table.
+std::optional<hal_linux::Rs485> read_rs485(Section& section);
+
 }  // namespace nplc::boards

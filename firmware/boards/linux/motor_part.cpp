@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "drive_support.h"
-#include "gateway/settings_keeper.h"
+#include "gateway/settings_manager.h"
 
 namespace nplc::boards {
 

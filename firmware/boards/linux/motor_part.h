@@ -24,6 +24,7 @@ class MotorPart {
     bool has_driver() const { return motor_ != nullptr; }
     motor::Motor& driver() { return *motor_; }
     const motor::Motor& driver() const { return *motor_; }
+    const motor::AnyDriver& any_driver() const { return driver_; }
     /// The driver's.
     base::Instant next_poll(base::Instant now) const { return driver_.next_poll(now); }
 
@@ -32,6 +33,7 @@ class MotorPart {
     /// After the driver's poll: says what has happened to the line. True if it has another descriptor.
     bool look(Journal& journal, base::Instant now);
     base::Instant next_look() const { return uart_ ? uart_->next_look() : can_->next_look(); }
+    std::string line_in_words() const { return config_.line_in_words(); }
     /// Why the link has not come up, and that it was lost.
     std::string silence_in_words() const;
     std::string loss_in_words() const;

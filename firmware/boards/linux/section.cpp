@@ -17,7 +17,9 @@ std::string_view in_words(Kind kind) {
         case Kind::boolean:
             return "true or false";
         case Kind::integer:
-            return "a number";
+            return "a whole number";
+        case Kind::real:
+            return "a number with a point";
         case Kind::text:
             return "a text";
         case Kind::list:

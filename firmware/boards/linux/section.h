@@ -6,9 +6,24 @@
 #include <string_view>
 #include <vector>
 
-#include "toml_file.h"
+#include "toml_files/toml_file.h"
 
 namespace nplc::boards {
+
+using TomlValue = toml_files::Value;
+
+/// Something in a configuration that cannot be used.
+struct Mistake {
+    int line = 0;
+    std::string key;   ///< "axis[x].motor.port"; empty where no key is to blame
+    std::string text;  ///< what is wrong and what to do
+};
+
+/// What came out of reading a configuration beside its values.
+struct Findings {
+    std::vector<Mistake> mistakes{};
+    std::set<std::string> keys{};  ///< all that may stand in it: "axis.motor.port"
+};
 
 /// Of the words the one that is most like `word`; empty if none is.
 std::string nearest(std::string_view word, const std::set<std::string>& words);

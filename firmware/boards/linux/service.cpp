@@ -54,6 +54,7 @@ void CommonWatchdog::look() {
 }
 
 Service::~Service() {
+    plant_.close();
     last_resort.fill(nullptr);
 }
 
@@ -89,6 +90,10 @@ std::string Service::open() {
     for (std::size_t i = 0; i < axes_.size(); ++i)
         axes_[i]->watch(*loop_, static_cast<std::uint32_t>(i) * Axis::kMarks);
     next_.assign(axes_.size(), base::Instant{});
+    panel_.open(axes_);
+    faces::Axes models;
+    for (const auto& axis : axes_) models.push_back(&axis->model());
+    plant_.open(std::move(models), now);
     return {};
 }
 
@@ -117,13 +122,14 @@ base::Instant Service::wanted_by_watchdog() const {
     return watchdog_time_ ? all_served_ + *watchdog_time_ / 3 : base::kNever;
 }
 
-void Service::round(base::Instant latest) {
-    base::Instant deadline = std::min(latest, wanted_by_watchdog());
+void Service::wait_and_serve(base::Instant latest) {
+    base::Instant deadline = std::min({latest, wanted_by_watchdog(), plant_.next()});
     for (const base::Instant next : next_) deadline = std::min(deadline, next);
     const auto marks = loop_->wait(deadline);
     const base::Instant now = clock_.now();
     const bool all = now >= wanted_by_watchdog();
     if (all) all_served_ = now;
+    if (now >= plant_.next()) plant_.look(now);
     for (const std::uint32_t mark : marks) {
         next_[mark / Axis::kMarks] = now;
         axes_[mark / Axis::kMarks]->note_readable(mark);
@@ -146,7 +152,7 @@ void Service::show_status() {
 
 void Service::serve_until_signal() {
     for (;;) {
-        round(base::kNever);
+        wait_and_serve(base::kNever);
         show_status();
         if (const auto signal = loop_->signal()) {
             journal_.write(LogLevel::notice, fmt::format("ends: {}", ::strsignal(*signal)));
@@ -169,7 +175,7 @@ void Service::end_in_order() {
     const base::Instant limit = now + kLongestEnd;
     const auto stopped = [](const auto& axis) { return axis->has_stopped(); };
     do {
-        round(limit);
+        wait_and_serve(limit);
     } while (clock_.now() < limit && !std::all_of(axes_.begin(), axes_.end(), stopped));
     for (const auto& axis : axes_) {
         if (!axis->motor_answers())
@@ -179,6 +185,8 @@ void Service::end_in_order() {
         axis->note_orderly_end();
     }
     last_resort.fill(nullptr);
+    panel_.close();
+    plant_.close();
     axes_.clear();
     if (!device_) return;
     if (const std::string error = device_->disarm(); !error.empty()) journal_.write(LogLevel::warning, error);

@@ -8,6 +8,8 @@
 #include "config.h"
 #include "hal_linux/steady_clock.h"
 #include "hal_linux/watchdog.h"
+#include "panel_part.h"
+#include "plant_part.h"
 
 namespace nplc::boards {
 
@@ -34,7 +36,8 @@ class CommonWatchdog {
 /// The process: axes, their event loop, signals, watchdogs. `run` answers the exit code.
 class Service {
   public:
-    Service(const Config& config, Journal& journal) : config_(config), journal_(journal) {}
+    Service(const Config& config, Journal& journal)
+        : config_(config), journal_(journal), panel_(config, journal), plant_(config, journal) {}
     ~Service();
     Service(const Service&) = delete;
     Service& operator=(const Service&) = delete;
@@ -47,7 +50,7 @@ class Service {
     void serve_until_signal();
     void end_in_order();
     void tell_unstopped(const Axis& axis, const std::string& why);
-    void round(base::Instant latest);
+    void wait_and_serve(base::Instant latest);
     void show_status();
     base::Instant wanted_by_watchdog() const;
 
@@ -59,6 +62,8 @@ class Service {
     std::unique_ptr<hal_linux::DeviceWatchdog> device_;
     std::unique_ptr<CommonWatchdog> watchdog_;
     std::vector<std::unique_ptr<Axis>> axes_;
+    PanelPart panel_;  ///< ends before the axes
+    PlantPart plant_;  ///< likewise
     std::vector<base::Instant> next_;
     std::optional<base::Microseconds> watchdog_time_;
     base::Instant all_served_{};

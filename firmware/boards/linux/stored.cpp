@@ -64,7 +64,12 @@ class Rehearsal {
         impose_motor(settings_, config);
         motor::Motor& motor =
             driver_.start({.serial = &line_}, gateway::driver_settings_of(settings_.values()));
-        controller_.emplace(gateway::Controller::Ports{inputs_, outputs_, watchdog_, motor, store},
+        controller_.emplace(gateway::Controller::Ports{.inputs = inputs_,
+                                                       .outputs = outputs_,
+                                                       .watchdog = watchdog_,
+                                                       .motor = motor,
+                                                       .storage = store,
+                                                       .set_points = &kSetPointArea},
                             kTableArea, memory_, settings_, gateway::StartCause::service);
     }
 
@@ -96,13 +101,13 @@ class Rehearsal {
     NoOutputs outputs_;
     NoWatchdog watchdog_;
     std::array<std::uint8_t, gateway::kTableMemory> memory_{};
-    gateway::SettingsKeeper settings_;
+    gateway::SettingsManager settings_;
     motor::AnyDriver driver_;
     std::optional<gateway::Controller> controller_;
 };
 
 std::string fault_of(const std::string& which, unsigned term, Result why,
-                     const gateway::SettingsKeeper& settings) {
+                     const gateway::SettingsManager& settings) {
     const bool may_be_setting =
         why == Result::not_for_motor && settings.values().is_on(Setting::motor_is_mac800);
     return fmt::format("{}: term {}: {}; upload another with `nanoctl upload`{}", which, term,
@@ -116,11 +121,11 @@ std::string store_file(const std::string& folder) {
     return folder + "/store.bin";
 }
 
-void impose_motor(gateway::SettingsKeeper& settings, const AxisConfig& config) {
+void impose_motor(gateway::SettingsManager& settings, const AxisConfig& config) {
     for (const Setting setting : kOfTheMotor) settings.impose(setting, config.settings.get(setting));
 }
 
-std::vector<StoredSetting> stored_settings(const gateway::SettingsKeeper& settings,
+std::vector<StoredSetting> stored_settings(const gateway::SettingsManager& settings,
                                            const AxisConfig& config) {
     std::vector<StoredSetting> differing;
     for (const registers::gateway::SettingInfo& info : registers::gateway::all_settings()) {
@@ -131,7 +136,7 @@ std::vector<StoredSetting> stored_settings(const gateway::SettingsKeeper& settin
     return differing;
 }
 
-LoadedTable load_first_table(gateway::TableKeeper& tables, const gateway::SettingsKeeper& settings,
+LoadedTable load_first_table(gateway::TableManager& tables, const gateway::SettingsManager& settings,
                              const AxisConfig& config, base::Instant now) {
     const bool has_stored = !tables.is_readable() || tables.stored().length != 0 || tables.fell_back();
     if (has_stored || !config.table.is_there()) {
@@ -141,7 +146,7 @@ LoadedTable load_first_table(gateway::TableKeeper& tables, const gateway::Settin
         if (result == Result::done) return {.where_from = "has a stored table"};
         return {.fault = fault_of("the stored table", word >> 16, result, settings)};
     }
-    const TableFile file = read_table(config.table.text);
+    const TableFile file = read_table(config.table.text, config.symbols.text);
     if (!file.error.empty()) {
         tables.start(now);
         return {.fault = file.error, .is_configured = true};

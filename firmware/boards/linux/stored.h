@@ -5,23 +5,25 @@
 #include <vector>
 
 #include "config.h"
-#include "gateway/settings_keeper.h"
-#include "gateway/table_keeper.h"
+#include "gateway/settings_manager.h"
+#include "gateway/table_manager.h"
 #include "ports/storage.h"
 #include "store/layout.h"
 
 /// What is stored for an axis, which goes before its configuration.
 namespace nplc::boards {
 
-/// A store as flash pages of 2 KiB: two table slots of five, two settings slots of one.
+/// A store as flash pages of 2 KiB: two table slots of five, two settings slots and two
+/// slots of set-points of one.
 inline constexpr ports::StorageGeometry kMemory{
     .size = 32 * 1024, .erase_block = 2048, .program_page = 256, .program_unit = 8};
 inline constexpr store::Area kTableArea{.begin = 0, .slot_bytes = 5 * 2048};
 inline constexpr store::Area kSettingsArea{.begin = 10 * 2048, .slot_bytes = 2048};
+inline constexpr store::Area kSetPointArea{.begin = 12 * 2048, .slot_bytes = 2048};
 std::string store_file(const std::string& folder);
 
 /// Which motor there is stands in the configuration, whatever was stored.
-void impose_motor(gateway::SettingsKeeper& settings, const AxisConfig& config);
+void impose_motor(gateway::SettingsManager& settings, const AxisConfig& config);
 
 struct StoredSetting {
     std::string_view name;
@@ -29,7 +31,8 @@ struct StoredSetting {
     std::uint32_t configured;
 };
 /// Those that are not as configured.
-std::vector<StoredSetting> stored_settings(const gateway::SettingsKeeper& settings, const AxisConfig& config);
+std::vector<StoredSetting> stored_settings(const gateway::SettingsManager& settings,
+                                           const AxisConfig& config);
 
 /// What became of the first table: the stored one, or the configured one while none is stored.
 struct LoadedTable {
@@ -38,7 +41,7 @@ struct LoadedTable {
     bool is_configured = false;
 };
 /// As an axis starts with it.
-LoadedTable load_first_table(gateway::TableKeeper& tables, const gateway::SettingsKeeper& settings,
+LoadedTable load_first_table(gateway::TableManager& tables, const gateway::SettingsManager& settings,
                              const AxisConfig& config, base::Instant now);
 
 struct StoredFindings {

@@ -7,9 +7,13 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
+#include "base/crc32.h"
 #include "intel_hex/intel_hex.h"
+#include "panel/names.h"
 #include "sequencer/table.h"
+#include "set_points/symbol_record.h"
 
 namespace nplc::boards {
 namespace {
@@ -17,6 +21,7 @@ namespace {
 constexpr std::size_t kLongest = (sequencer::kMaxTerms + 1) * sequencer::kTermBytes;
 /// In Intel HEX a byte is two digits, and a record of one byte has twelve more and the end of its line.
 constexpr std::size_t kLongestFile = kLongest * 16;
+constexpr std::size_t kLongestSymbols = std::size_t{4} * 1024 * 1024;
 
 std::string too_long(const std::string& path) {
     return fmt::format("{}: is longer than a table of {} terms; make it with `seqc build`", path,
@@ -35,9 +40,30 @@ std::string fault_of(const std::string& path, std::span<const std::uint8_t> byte
                        loaded.table.size(), bytes.size() - whole);
 }
 
+std::string content_of(const std::string& path) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error) ||
+        std::filesystem::file_size(path, error) > kLongestSymbols)
+        return {};
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// What a symbol file for this table has of set-points goes behind the table; one line if it does not fit.
+std::string add_record(std::vector<std::uint8_t>& table, const std::string& symbols) {
+    const std::string text = content_of(symbols);
+    if (text.empty() || !panel::is_for_table(text, base::crc32(table))) return {};
+    const auto record = set_points::record_in(nlohmann::json::parse(text, nullptr, false), table);
+    if (!record)
+        return fmt::format("{}: its set-points do not fit the table; build both anew with `seqc build`",
+                           symbols);
+    table.insert(table.end(), record->begin(), record->end());
+    return {};
+}
+
 }  // namespace
 
-TableFile read_table(const std::string& path) {
+TableFile read_table(const std::string& path, const std::string& symbols) {
     std::error_code missing;
     if (!std::filesystem::is_regular_file(path, missing))
         return {.error = fmt::format("there is no file {}; make it with `seqc build`", path)};
@@ -56,6 +82,9 @@ TableFile read_table(const std::string& path) {
         table.bytes = std::move(image.bytes);
     }
     if (std::string error = fault_of(path, table.bytes); !error.empty()) return {.error = std::move(error)};
+    const std::string beside = std::filesystem::path(path).replace_extension(".sym").string();
+    if (std::string error = add_record(table.bytes, symbols.empty() ? beside : symbols); !error.empty())
+        return {.error = std::move(error)};
     return table;
 }
 

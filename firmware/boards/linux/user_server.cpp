@@ -14,11 +14,12 @@ SharedLine::Time line_time(base::Instant now) {
 
 }  // namespace
 
-std::string UserServer::open(const std::string& endpoint, hal_linux::ByteServer::Settings settings) {
+std::string UserServer::open(const std::string& endpoint, hal_linux::ByteServer::Settings settings,
+                             faces::Seat* operators, const std::string& password) {
     settings.seats = kMostClients;
     auto opened = hal_linux::ByteServer::open(endpoint, settings);
     server_ = std::move(opened.server);
-    if (server_) line_ = std::make_unique<SharedLine>(*server_);
+    if (server_) line_ = std::make_unique<SharedLine>(*server_, operators, password);
     return opened.error;
 }
 

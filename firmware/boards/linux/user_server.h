@@ -16,10 +16,13 @@ namespace nplc::boards {
 /// of their own.
 class UserServer final : public ports::SerialPort {
   public:
-    /// With seats of its own number. Empty, or one line.
-    std::string open(const std::string& endpoint, hal_linux::ByteServer::Settings settings);
+    /// With seats of its own number. Empty, or one line. `operators`: who may operate, of all clients.
+    /// `password`: empty, none is asked for.
+    std::string open(const std::string& endpoint, hal_linux::ByteServer::Settings settings,
+                     faces::Seat* operators, const std::string& password);
     const std::string& name() const { return server_->name(); }
     int descriptor() const { return server_->descriptor(); }
+    unsigned wrong_passwords() const { return line_->wrong_passwords(); }
 
     /// What has come by `now` is taken in by the next read().
     void look(base::Instant now, const SharedLine::Addresses& addresses) {

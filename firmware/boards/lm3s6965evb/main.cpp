@@ -1,12 +1,15 @@
 // The gateway on a Stellaris LM3S6965: which pins, ports and areas it has.
 
 #include "bare_metal/fault_reset.h"
+#include "bare_metal/loader.h"
 #include "bare_metal/run.h"
-#include "gateway/table_keeper.h"
+#include "flash_map.h"
+#include "gateway/table_manager.h"
 #include "hal_mcu/cortex_m/core.h"
 #include "hal_mcu/cortex_m/start.h"
 #include "hal_mcu/cortex_m/systick_clock.h"
 #include "hal_mcu/i2c_memory.h"
+#include "hal_mcu/stellaris/flash.h"
 #include "hal_mcu/stellaris/i2c_master.h"
 #include "hal_mcu/stellaris/pins.h"
 #include "hal_mcu/stellaris/system_clock.h"
@@ -20,14 +23,15 @@ namespace {
 namespace core = hal_mcu::cortex_m;
 namespace chip = hal_mcu::stellaris;
 
-/// Of the 32 KiB: the settings behind the table.
+/// Of the 32 KiB: the settings behind the table, set-points and their recipes behind both.
 constexpr store::Area kTableArea{.begin = 0, .slot_bytes = 8 * 1024};
 constexpr store::Area kSettingsArea{.begin = 16 * 1024, .slot_bytes = 256};
+constexpr store::Area kSetPointArea{.begin = 17 * 1024, .slot_bytes = 1024};
 constexpr std::uint32_t kMactalkBaud = 19'200;  ///< of the motor's own MacTalk port
 
 core::SysTickClock board_clock;
 chip::InputPins inputs(chip::kPortD, {0, 1, 4, 5, 6, 7});
-chip::OutputPins outputs(chip::kPortB, {0, 1, 5, 6});
+chip::OutputPins outputs(chip::kPortB, kOutputs);
 chip::Watchdog watchdog;
 chip::Uart user_line(chip::Uart::kUart0);
 chip::Uart motor_line(chip::Uart::kUart1);
@@ -46,7 +50,8 @@ constinit const bare_metal::Parts kParts{.clock = board_clock,
                                          .motor_mactalk_line = &motor_mactalk_line,
                                          .table_area = kTableArea,
                                          .settings_area = kSettingsArea,
-                                         .table = table};
+                                         .table = table,
+                                         .set_point_area = &kSetPointArea};
 
 /// Outputs first.
 void begin_chip() {
@@ -82,6 +87,15 @@ void on_i2c0() {
 }  // namespace nplc::board
 
 namespace nplc::bare_metal {
+
+#if NPLC_UPDATE
+update::Receiver& firmware_receiver() {
+    using namespace board;
+    static chip::Flash slots(chip::chip_flash(), kSlotsBegin, 2 * kSlotBytes);
+    static update::Receiver receiver(slots, kSlots, kBoardId, running_slot(kSlots));
+    return receiver;
+}
+#endif
 
 void begin_lines(std::uint32_t user_baud, std::uint32_t motor_baud) {
     board::user_line.begin(user_baud);

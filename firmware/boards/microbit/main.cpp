@@ -1,8 +1,10 @@
 // The gateway on a BBC micro:bit v1: which pins and areas it has, and whom its one UART serves.
 
 #include "bare_metal/fault_reset.h"
+#include "bare_metal/loader.h"
 #include "bare_metal/run.h"
-#include "gateway/table_keeper.h"
+#include "flash_map.h"
+#include "gateway/table_manager.h"
 #include "hal_mcu/cortex_m/core.h"
 #include "hal_mcu/cortex_m/start.h"
 #include "hal_mcu/no_line.h"
@@ -20,9 +22,6 @@ namespace {
 namespace core = hal_mcu::cortex_m;
 namespace chip = hal_mcu::nrf51;
 
-/// The last 20 pages: two tables of nine, two sets of settings of one.
-constexpr std::uint32_t kStorageBegin = 236 * 1024;
-constexpr std::uint32_t kStoragePages = 20;
 constexpr store::Area kTableArea{.begin = 0, .slot_bytes = 9 * chip::Flash::kPage};
 constexpr store::Area kSettingsArea{.begin = 18 * chip::Flash::kPage, .slot_bytes = chip::Flash::kPage};
 
@@ -31,7 +30,6 @@ constexpr std::uint8_t kButtonA = 17;
 constexpr chip::Uart::Pins kUsb{.receive = 25, .transmit = 24};         // of the interface chip
 constexpr chip::Uart::Pins kMotor{.receive = 2, .transmit = 3};         // [1, 0]
 constexpr std::array<std::uint8_t, 6> kInputs{18, 20, 23, 22, 21, 16};  // [8, 12 to 16]
-constexpr std::array<std::uint8_t, 4> kOutputs{4, 5, 12, 11};           // [3, 4, 6, 7]
 
 chip::TimerClock board_clock;
 chip::InputPins inputs(kInputs);
@@ -66,6 +64,15 @@ void on_uart0() {
 }  // namespace nplc::board
 
 namespace nplc::bare_metal {
+
+#if NPLC_UPDATE
+update::Receiver& firmware_receiver() {
+    using namespace board;
+    static chip::Flash slots(kSlotsBegin, 2 * kSlotBytes);
+    static update::Receiver receiver(slots, kSlots, kBoardId, running_slot(kSlots));
+    return receiver;
+}
+#endif
 
 void begin_lines(std::uint32_t user_baud, std::uint32_t motor_baud) {
     if (board::serves_person) {

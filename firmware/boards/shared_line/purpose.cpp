@@ -23,4 +23,10 @@ Purpose purpose_of(const protocol::mactalk::Request& request, std::uint8_t gatew
     }
 }
 
+bool needs_seat(const protocol::mactalk::Request& request, std::uint8_t gateway_address) {
+    const bool prepares =
+        request.kind == Kind::write && request.address == gateway_address && gw::only_prepares(request.reg);
+    return !prepares && purpose_of(request, gateway_address) == Purpose::operates;
+}
+
 }  // namespace nplc::boards

@@ -6,6 +6,7 @@
 
 #include "base/bytes.h"
 #include "registers/gateway.h"
+#include "seat/secret.h"
 
 namespace nplc::boards {
 
@@ -28,8 +29,17 @@ bool is_for_somebody(std::uint8_t address, const SharedLine::Addresses& addresse
     return address == addresses.gateway || address == addresses.motor || address == mactalk::kEveryone;
 }
 
+std::uint32_t result_word(gw::Result result, std::uint8_t reg, std::uint16_t detail = 0) {
+    return static_cast<std::uint32_t>(result) | std::uint32_t{reg} << 8 | std::uint32_t{detail} << 16;
+}
+
 bool is_hold(std::uint32_t command) {
     return command == static_cast<std::uint32_t>(gw::Command::hold);
+}
+
+/// The gateway ends it as it ends, and tells how (REGISTERS.md, Set-points).
+bool is_for_set_points(const mactalk::Request& request, std::uint8_t gateway) {
+    return request.address == gateway && request.reg == gw::SET_POINT_WRITE;
 }
 
 std::vector<std::uint8_t> bytes_of(const mactalk::Request& request, std::span<const std::uint8_t> data) {
@@ -43,12 +53,34 @@ std::vector<std::uint8_t> bytes_of(const mactalk::Request& request, std::span<co
 
 }  // namespace
 
-SharedLine::SharedLine(hal_linux::ByteServer& server)
-    : server_(server), seats_(server.seats()), last_(seats_.size() - 1) {}
+SharedLine::SharedLine(hal_linux::ByteServer& server, faces::Seat* operators, std::string password)
+    : server_(server),
+      operators_(operators),
+      password_(std::move(password)),
+      seats_(server.seats()),
+      last_(seats_.size() - 1) {
+    for (Seat& seat : seats_) seat.sitter = faces::Seat::new_number();
+}
+
+SharedLine::~SharedLine() {
+    if (operators_ == nullptr) return;
+    for (const Seat& seat : seats_) operators_->leave(seat.sitter);
+}
+
+/// Who has left operates no more.
+void SharedLine::let_go() {
+    if (operators_ == nullptr || operators_->holder() == nullptr) return;
+    for (std::size_t i = 0; i < seats_.size(); ++i) {
+        if (seats_[i].sitter == operators_->holder()->number && server_.has_left(i))
+            return operators_->leave(seats_[i].sitter);
+    }
+}
 
 void SharedLine::welcome(Seat& seat, std::size_t number, std::uint64_t visit) {
+    if (operators_ != nullptr) operators_->leave(seat.sitter);
     seat = Seat{};
     seat.visit = visit;
+    seat.sitter = faces::Seat::new_number();
     if (asking_ != number) return;
     asker_is_gone_ = true;
     until_ = std::min(until_, sent_ + kBriefly);
@@ -72,11 +104,39 @@ void SharedLine::take_byte(std::size_t number, std::uint8_t byte, std::uint8_t g
     const auto request = seat.decoder.receive(byte);
     if (!request) return;
     server_.note_message(number);
+    if (!password_.empty() && is_about_password(number, *request, gateway_address)) return;
     Frame frame{*request, purpose_of(*request, gateway_address), seat.drained,
-                bytes_of(*request, seat.decoder.data())};
+                bytes_of(*request, seat.decoder.data()), needs_seat(*request, gateway_address)};
     std::erase_if(seat.frames, [](const Frame& waiting) { return waiting.purpose == Purpose::reads; });
     if (frame.purpose == Purpose::stops) return take_stop(number, std::move(frame));
     if (seat.frames.size() < kMostWaiting) seat.frames.push_back(std::move(frame));
+}
+
+/// True: it is answered, and does not go onto the line.
+bool SharedLine::is_about_password(std::size_t number, const mactalk::Request& request,
+                                   std::uint8_t gateway_address) {
+    using enum gw::PasswordState;
+    if (request.address != gateway_address) return false;
+    Seat& seat = seats_[number];
+    if (request.kind == mactalk::Kind::read && request.reg == gw::PASSWORD_STATE) {
+        const std::uint8_t state[4]{static_cast<std::uint8_t>(seat.has_password ? given : wanted)};
+        server_.write_seat(number, mactalk::encode_registers(gw::PASSWORD_STATE, state).view());
+        return true;
+    }
+    if (request.kind != mactalk::Kind::write || request.reg != gw::PASSWORD) return false;
+    take_password(number, seat.decoder.data());
+    return true;
+}
+
+void SharedLine::take_password(std::size_t number, std::span<const std::uint8_t> given) {
+    Seat& seat = seats_[number];
+    std::string text(given.begin(), given.end());
+    text.erase(std::min(text.find_last_not_of('\0') + 1, text.size()));
+    seat.has_password = faces::same_secret(text, password_);
+    seat.refused.reset();
+    if (seat.has_password) return server_.write_seat(number, mactalk::encode_accept().view());
+    seat.refused = result_word(gw::Result::no_password, gw::PASSWORD);
+    ++wrong_passwords_;
 }
 
 /// What its client sent before is over with it.
@@ -116,10 +176,12 @@ std::optional<SharedLine::Stop> SharedLine::next_stop() {
 
 std::vector<std::uint8_t> SharedLine::begin_stop(const Stop& stop, Time now, const Addresses& addresses) {
     const auto refuse = [](Seat& seat, const Frame& frame) {
-        if (frame.purpose == Purpose::operates) seat.refused = frame.request.reg;
+        if (frame.purpose == Purpose::operates)
+            seat.refused = result_word(gw::Result::too_late, frame.request.reg);
         return frame.purpose == Purpose::operates;
     };
-    if (asking_ && !asker_is_gone_) refuse(seats_[*asking_], asked_);
+    if (asking_ && !asker_is_gone_ && !is_for_set_points(asked_.request, addresses.gateway))
+        refuse(seats_[*asking_], asked_);
     asking_.reset();
     for (std::size_t i = 0; i < seats_.size(); ++i) {
         Seat& seat = seats_[i];
@@ -132,20 +194,31 @@ std::vector<std::uint8_t> SharedLine::begin_stop(const Stop& stop, Time now, con
     return stop.frame.bytes;
 }
 
+/// What RESULT reads then.
+std::optional<std::uint32_t> SharedLine::refusal(std::size_t number, const Frame& frame, Time now) {
+    if (frame.needs_seat && !password_.empty() && !seats_[number].has_password)
+        return result_word(gw::Result::no_password, frame.request.reg);
+    if (now - frame.since > kLongestUnread || server_.has_left(number))
+        return result_word(gw::Result::too_late, frame.request.reg);
+    if (!frame.needs_seat || operators_ == nullptr) return std::nullopt;
+    const base::Instant instant{std::chrono::duration_cast<base::Microseconds>(now)};
+    const auto verdict = operators_->take(
+        {seats_[number].sitter, faces::Side::person, "client of " + server_.name()}, instant);
+    if (verdict == faces::Seat::Verdict::granted) return std::nullopt;
+    return result_word(gw::Result::seat_taken, frame.request.reg, faces::detail_of(verdict));
+}
+
 /// True: it is dealt with, and does not go onto the line.
 bool SharedLine::refuses(std::size_t number, const Frame& frame, Time now) {
     Seat& seat = seats_[number];
     const mactalk::Request& request = frame.request;
     if (frame.purpose == Purpose::operates) {
-        seat.refused.reset();
-        const bool too_late = now - frame.since > kLongestUnread || server_.has_left(number);
-        if (too_late) seat.refused = request.reg;
-        return too_late;
+        seat.refused = refusal(number, frame, now);
+        return seat.refused.has_value();
     }
     if (!seat.refused || request.kind != mactalk::Kind::read || request.reg != gw::RESULT) return false;
     std::array<std::uint8_t, mactalk::kReadBytes> result{};
-    base::store_u32(result.data(), static_cast<std::uint32_t>(gw::Result::too_late) |
-                                       (static_cast<std::uint32_t>(*seat.refused) << 8));
+    base::store_u32(result.data(), *seat.refused);
     server_.write_seat(number, mactalk::encode_registers(gw::RESULT, result).view());
     return true;
 }
@@ -153,6 +226,7 @@ bool SharedLine::refuses(std::size_t number, const Frame& frame, Time now) {
 std::vector<std::uint8_t> SharedLine::to_line(Time now, const Addresses& addresses) {
     static_cast<void>(server_.has_client());  // lets them in
     for (std::size_t number = 0; number < seats_.size(); ++number) listen(number, now, addresses.gateway);
+    let_go();
     looked_ = now;
     if (asking_ && now >= until_) end_turn(samples_);
     if (const auto stop = next_stop()) return begin_stop(*stop, now, addresses);

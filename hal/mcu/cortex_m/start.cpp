@@ -42,12 +42,6 @@ void run_constructors() {
 
 }  // namespace
 
-std::uint32_t stack_used() {
-    const volatile std::uint32_t* word = &link_stack_begin;
-    while (word != &link_stack_top && *word == kPaint) ++word;
-    return reinterpret_cast<std::uint32_t>(&link_stack_top) - reinterpret_cast<std::uint32_t>(word);
-}
-
 extern "C" {
 
 void nplc_reset() {

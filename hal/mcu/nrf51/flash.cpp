@@ -23,7 +23,7 @@ ports::StorageGeometry Flash::geometry() const {
 
 base::Status Flash::read(std::uint32_t address, std::span<std::uint8_t> out) {
     if (state() == StorageState::busy) return base::Error::busy;
-    if (address > size_ || size_ - address < out.size()) return base::Error::bad_geometry;
+    if (!geometry().can_read(address, out.size())) return base::Error::bad_geometry;
     const auto* const bytes = reinterpret_cast<const volatile std::uint8_t*>(begin_ + address);
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = bytes[i];
     return {};
@@ -31,9 +31,7 @@ base::Status Flash::read(std::uint32_t address, std::span<std::uint8_t> out) {
 
 base::Status Flash::program(std::uint32_t address, std::span<const std::uint8_t> bytes) {
     if (state() == StorageState::busy) return base::Error::busy;
-    const bool aligned = address % kWord == 0 && bytes.size() % kWord == 0;
-    if (!aligned || address >= size_ || bytes.size() > kPage - address % kPage)
-        return base::Error::bad_geometry;
+    if (!geometry().can_program(address, bytes.size())) return base::Error::bad_geometry;
     at_ = begin_ + address;
     to_program_ = bytes;
     return {};
@@ -41,7 +39,7 @@ base::Status Flash::program(std::uint32_t address, std::span<const std::uint8_t>
 
 base::Status Flash::erase(std::uint32_t address) {
     if (state() == StorageState::busy) return base::Error::busy;
-    if (address >= size_ || address % kPage != 0) return base::Error::bad_geometry;
+    if (!geometry().can_erase(address)) return base::Error::bad_geometry;
     flash_controller().CONFIG = kFlashErases;
     flash_controller().ERASEPAGE = begin_ + address;
     return {};

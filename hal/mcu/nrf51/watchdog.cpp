@@ -9,10 +9,18 @@ namespace nplc::hal_mcu::nrf51 {
 void Watchdog::begin(base::Milliseconds time) {
     set_time(time);
     cortex_m::enable_interrupt(kInterrupt);
+    begin_chip();
+}
+
+void Watchdog::begin_chip() {
     watchdog().CONFIG = kWatchdogRunsInSleep;
     watchdog().CRV = static_cast<std::uint32_t>(kWithoutTicks.count()) * kWatchdogHertz / 1000 - 1;
     watchdog().RREN = 1;
     watchdog().TASKS_START = 1;
+    feed_chip();
+}
+
+void Watchdog::feed_chip() {
     watchdog().RR[0] = kWatchdogReload;
 }
 
@@ -26,7 +34,7 @@ void Watchdog::on_tick(std::uint32_t now) {
     if (fed_) fed_at_ = now;
     fed_ = false;
     if (now - fed_at_ > time_) return cortex_m::pend_interrupt(kInterrupt);
-    watchdog().RR[0] = kWatchdogReload;
+    feed_chip();
 }
 
 }  // namespace nplc::hal_mcu::nrf51

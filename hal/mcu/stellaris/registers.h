@@ -13,9 +13,12 @@ struct SystemControl {
     Register reserved_054[2];
     Register RESC;  // 05Ch
     Register RCC;   // 060h
-    Register reserved_064[40];
+    Register reserved_064[39];
+    Register RCGC0;  // 100h
     Register RCGC1;  // 104h
     Register RCGC2;  // 108h
+    Register reserved_10C[13];
+    Register USECRL;  // 140h
 };
 inline constexpr std::uint32_t kRisPllLocked = 1U << 6;
 inline constexpr std::uint32_t kRescWatchdog = 1U << 3;
@@ -112,7 +115,7 @@ inline SystemControl& system_control() {
     return block<SystemControl>(0x400F'E000U);
 }
 
-static_assert(sizeof(SystemControl) == 0x10C && sizeof(UartRegisters) == 0x48 &&
+static_assert(sizeof(SystemControl) == 0x144 && sizeof(UartRegisters) == 0x48 &&
               sizeof(GpioRegisters) == 0x520);
 static_assert(sizeof(I2cRegisters) == 0x24 && sizeof(WatchdogRegisters) == 0xC04);
 

@@ -5,6 +5,7 @@
 namespace nplc::hal_mcu::stellaris {
 namespace {
 
+constexpr std::uint32_t kWatchdog = 1U << 3;
 constexpr std::uint32_t kUart0To2AndI2c0 = 7U << 0 | 1U << 12;
 constexpr std::uint32_t kPortsAToG = 0x7F;
 constexpr int kLongestLock = 100'000;  // turns; the data sheet says 0.5 ms
@@ -21,6 +22,7 @@ void use_pll(std::uint32_t& rcc) {
 
 bool begin_clock() {
     auto& control = system_control();
+    control.RCGC0 = kWatchdog;
     control.RCGC1 = kUart0To2AndI2c0;
     control.RCGC2 = kPortsAToG;
     std::uint32_t rcc = (control.RCC | kRccBypass) & ~kRccUseDivider;

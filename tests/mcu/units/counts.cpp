@@ -195,13 +195,14 @@ void count_user_bytes() {
     static ReadyMotor drive;
     static BlankStorage storage;
     static Line line;
-    static gateway::SettingsKeeper settings(storage, {.begin = 16 * 1024, .slot_bytes = 256});
+    static gateway::SettingsManager settings(storage, {.begin = 16 * 1024, .slot_bytes = 256});
     settings.start({});
     static gateway::Gateway sequence({pins, pins, pins, drive}, {}, gateway::StartCause::power_up);
     settings.attach(sequence);
-    static gateway::TableKeeper tables(sequence, drive, storage, {.begin = 0, .slot_bytes = 8 * 1024},
-                                       table_bytes);
-    static gateway::OwnRegisters registers(sequence, tables, settings, {});
+    static gateway::SetPointsPart set_points(sequence, storage, nullptr);
+    static gateway::TableManager tables(sequence, drive, set_points, storage,
+                                        {.begin = 0, .slot_bytes = 8 * 1024}, table_bytes);
+    static gateway::OwnRegisters registers(sequence, tables, set_points, settings, {});
     static gateway::UserPort port(&line, nullptr, sequence, drive, registers, settings);
     tables.mount();
     base::Instant now{base::Milliseconds(1000)};

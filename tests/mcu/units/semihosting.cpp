@@ -54,7 +54,7 @@ void* _sbrk(std::ptrdiff_t bytes) {
 
 /// After abort(), which is what an exception comes to here.
 void _exit(int) {
-    nplc::mcu_units::print("the library gave up\n");
+    nplc::mcu_units::print("the library aborted\n");
     nplc::mcu_units::exit(false);
 }
 

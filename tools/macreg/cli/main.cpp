@@ -39,6 +39,7 @@ std::string footer_of_modules() {
 
 void add_common(nplc::arguments::App& app, nplc::macreg::cli::Common& common) {
     nplc::command_line::add_line_options(app, common, "the motor");
+    nplc::command_line::add_password_option(app, common);
     app.add_option("--address", common.address,
                    "Address of the motor, 1 to 254; 255 is every motor on the line")
         ->in_range(1, 255);
@@ -55,10 +56,11 @@ std::vector<std::string> register_names() {
 }
 
 nplc::command_line::About about() {
-    nplc::command_line::About about{.version = NPLC_VERSION,
-                                    .title = "the registers of a MAC motor from a terminal",
-                                    .file_commands = {"load", "diff", "plot", "midi path"},
-                                    .file_options = {"-o", "--output"}};
+    nplc::command_line::About about{
+        .version = NPLC_VERSION,
+        .title = "the registers of a MAC motor from a terminal",
+        .file_commands = {"load", "diff", "plot", "fit", "midi path"},
+        .file_options = {"-o", "--output", "--password-file", "--picture", "--response", "--against"}};
     for (const char* command : {"get", "list", "record", "set", "watch"})
         about.words[command] = register_names();
     for (const auto& parameter : nplc::macreg::midi::parameters()) {
@@ -97,7 +99,9 @@ int main(int argc, char** argv) {
     add_service(app, common);
     add_find(app, common);
     add_record(app, common);
+    add_samples(app, common);
     add_plot(app, common);
+    add_fit(app, common);
     add_monitor(app, common);
     add_ui(app, common);
     app.footer(footer_of_modules());

@@ -193,10 +193,13 @@ void poll(Session& session, const RecordArguments& options, const RecordOptions&
         {{"incomplete", true}, {"read", count}, {"of", how.samples}, {"file", file.empty() ? "" : part}});
 }
 
-void record_and_save(Session& session, const RecordArguments& options, const RecordOptions& how) {
+using FromBuffer = Recording(Motor& motor, const RecordOptions& how, Recording* broken);
+
+void record_and_save(Session& session, const RecordArguments& options, const RecordOptions& how,
+                     FromBuffer* from_buffer) {
     Recording broken;
     try {
-        const Recording recording = record_buffer(session.motor(), how, &broken);
+        const Recording recording = from_buffer(session.motor(), how, &broken);
         session.progress("");
         save(session, options, recording);
     } catch (const command_line::Failure&) {
@@ -247,7 +250,7 @@ void record(Session& session, const RecordArguments& options) {
         how.then = [&] { carry_out(motor, move); };
     }
     try {
-        options.poll ? poll(session, options, how) : record_and_save(session, options, how);
+        options.poll ? poll(session, options, how) : record_and_save(session, options, how, record_buffer);
     } catch (const mactalk_client::Ended& error) {
         session.progress("");
         const auto* failure = dynamic_cast<const command_line::Failure*>(&error);
@@ -255,6 +258,21 @@ void record(Session& session, const RecordArguments& options) {
         if (move.reg != nullptr) details["moved"] = move.state >= Move::State::sent;
         throw command_line::Failure(error.exit_code(), error.what() + move.words(motor.model()), details);
     }
+}
+
+/// What TESTU_MODE and TESTA_MODE leave in the buffer, or another program.
+void samples(Session& session, const RecordArguments& options) {
+    const std::string file = output_file(options.output, options.force);
+    if (const std::string why = whole_files::why_not_made(file); !file.empty() && !why.empty())
+        throw UserError(why);
+    RecordOptions how;
+    how.model_name = session.model_name();
+    how.samples = options.samples;
+    how.progress = [&session](const RecordProgress& progress) {
+        session.progress(phase_words(progress));
+        look_for_interruption();
+    };
+    record_and_save(session, options, how, fetch_buffer);
 }
 
 struct PlotArguments {
@@ -318,6 +336,15 @@ void add_record(arguments::App& app, Common& common) {
                      "register, through a gateway too");
     command.add_option("--for", options.lasts, "With --poll: seconds; until Ctrl-C if not said")
         ->in_range(0.001, 1e6);
+}
+
+void add_samples(arguments::App& app, Common& common) {
+    auto [command, options] =
+        add_command(app, common, "samples", "Fetch what the motor's sample buffer holds, as CSV", samples);
+    command.add_option("-o,--output", options.output, "The file; standard output if not said, or -");
+    command.add_flag("--force", options.force, "Replace a file that is there");
+    command.add_option("--samples", options.samples, "How many; REC_CNT if not said")
+        ->in_range(1, kMostSamples);
 }
 
 void add_plot(arguments::App& app, Common& common) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 
 #include "host/terminal.h"
@@ -18,13 +19,36 @@ namespace {
 
 constexpr std::uint8_t kEveryone = 255;
 
-/// The only motor on the line says its address itself; it keeps 255 if it says none that can be used.
+constexpr unsigned kBriefAttempts = 2;
+constexpr unsigned kBriefPatience = 150;  ///< ms
+
+bool answers(mactalk_client::Master& master, std::uint8_t address, const Common& common) {
+    mactalk_client::Master brief(
+        master.wire(), {.baud = common.baud,
+                        .patience = base::Milliseconds{std::min(common.patience_ms, kBriefPatience)},
+                        .attempts = kBriefAttempts});
+    try {
+        static_cast<void>(brief.read(address, registers::PROG_VERSION));
+        return true;
+    } catch (const LineError& error) {
+        if (error.kind() != LineError::Kind::no_answer) throw;
+        return false;
+    }
+}
+
+/// The only motor on the line says its address itself; it keeps 255 if it says none that can be used. Behind
+/// a gateway it has the one that the gateway's setting says.
 std::uint8_t find_address(mactalk_client::Master& master, const Common& common) {
     if (common.address != 0) return static_cast<std::uint8_t>(common.address);
     const Model model = Motor::find_model(master, kEveryone);
     Motor everyone(master, kEveryone, model);
     const std::int64_t own = everyone.read(address_register(model));
-    return own >= 1 && own <= 254 ? static_cast<std::uint8_t>(own) : kEveryone;
+    if (own < 1 || own > 254) return kEveryone;
+    if (answers(master, static_cast<std::uint8_t>(own), common) || !everyone.is_behind_gateway())
+        return static_cast<std::uint8_t>(own);
+    namespace gw = registers::gateway;
+    return static_cast<std::uint8_t>(
+        master.read(gw::kDefaultAddress, gw::register_of(gw::Setting::motor_address)));
 }
 
 Model find_model(mactalk_client::Master& master, std::uint8_t address, const Common& common) {
@@ -70,7 +94,7 @@ Model find_model(mactalk_client::Master& master, std::uint8_t address, const Com
 /// What is wrong in the command line is told before anybody is asked.
 std::unique_ptr<host::ByteClient> open(const Common& common) {
     static_cast<void>(model_option(common));
-    return command_line::open_port(common);
+    return command_line::open_with_password(common, registers::gateway::kDefaultAddress);
 }
 
 }  // namespace

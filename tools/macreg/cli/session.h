@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "command_line/program.h"
-#include "macreg/finding.h"
+#include "macreg/causes.h"
 #include "macreg/motor.h"
 #include "macreg/parameters.h"
 
@@ -138,7 +138,7 @@ class Search {
 void add_speed_options(arguments::App& command, Search::Speeds& speeds);
 
 /// From a file of its own each; `add_service`: flash, safe, reset, prepare; `add_midi`: cli/midi.h.
-command_line::Subcommand<Common> add_diff, add_dump, add_find, add_get, add_list, add_load, add_midi,
-    add_monitor, add_plot, add_record, add_service, add_set, add_ui, add_watch, add_why;
+command_line::Subcommand<Common> add_diff, add_dump, add_find, add_fit, add_get, add_list, add_load, add_midi,
+    add_monitor, add_plot, add_record, add_samples, add_service, add_set, add_ui, add_watch, add_why;
 
 }  // namespace nplc::macreg::cli

@@ -5,9 +5,20 @@
 #include <stdexcept>
 
 #include "cli/session.h"
+#include "registers/gateway.h"
 
 namespace nplc::macreg::cli {
 namespace {
+
+constexpr std::uint8_t kGateway = registers::gateway::kDefaultAddress;
+
+host::ByteClient::Opened reopen(const Common& common) {
+    try {
+        return {command_line::open_with_password(common, kGateway), {}};
+    } catch (const mactalk_client::Ended& error) {
+        return {nullptr, error.what()};
+    }
+}
 
 void ui(Common& common) {
     if (common.json) throw UserError("ui is for people and knows no --json; see get, set and watch");
@@ -23,9 +34,9 @@ void ui(Common& common) {
     options.line = {
         .baud = common.baud, .patience = base::Milliseconds{common.patience_ms}, .attempts = kAttempts};
     options.title = fmt::format("macreg {} {} at {}", options.model_name, options.address, common.port);
-    options.reopen = [&] { return host::ByteClient::open(common.port, common.baud); };
+    options.reopen = [&] { return reopen(common); };
     try {
-        run_ui(command_line::open_port(common), options);
+        run_ui(command_line::open_with_password(common, kGateway), options);
     } catch (const mactalk_client::LineError&) {
         throw;
     } catch (const std::runtime_error& error) {

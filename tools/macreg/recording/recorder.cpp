@@ -73,21 +73,44 @@ Recording empty_recording(const Motor& motor, const RecordOptions& options) {
 
 class BufferRecorder {
   public:
-    BufferRecorder(Motor& motor, const RecordOptions& options)
+    /// With its registers planned, or those that the motor is set to found.
+    enum class What : std::uint8_t { record, fetch };
+
+    BufferRecorder(Motor& motor, const RecordOptions& options, What what)
         : motor_(motor),
           options_(options),
+          fast_(options.fast),
           record_(mask("RECORDBIT")),
           rewind_(mask("REWINDBIT")),
           inner_(mask("RECINNERBIT")),
           momentary_(record_ | rewind_ | mask(motor.model() == Model::mac800 ? "SYNCPOSMAN" : "MAN_RESYNC")) {
-        plan();
+        if (what == What::record) plan();
+    }
+
+    Recording fetch(Recording* broken) {
+        refuse_gateway();
+        const std::int64_t bits = control();
+        if ((bits & record_) != 0)
+            throw CannotRecord(
+                "the motor is recording; wait until it is done, or stop it (`macreg set MODE_REG "
+                "INIT_MODE`)");
+        fast_ = (bits & inner_) != 0;
+        find_parts();
+        const std::int64_t there =
+            options_.samples != 0 ? static_cast<std::int64_t>(options_.samples) : counted();
+        if (there < 1 || there > static_cast<std::int64_t>(kMostSamples))
+            throw CannotRecord(
+                "the motor has recorded nothing (REC_CNT is 0); or name how many with --samples");
+        try {
+            return read(static_cast<std::size_t>(there));
+        } catch (...) {
+            if (broken != nullptr) *broken = put_together(got_);
+            throw;
+        }
     }
 
     Recording run(Recording* broken) {
-        if (motor_.is_behind_gateway())
-            throw CannotRecord(
-                "the motor is behind a gateway, whose line to it carries no sample buffer; use macreg record "
-                "--poll");
+        refuse_gateway();
         save();
         try {
             arrange();
@@ -118,11 +141,58 @@ class BufferRecorder {
     }
     std::int64_t wanted_inner() const { return options_.fast ? inner_ : 0; }
 
+    /// Words of a register that a sample has; null: the map has no such number.
+    struct Part {
+        const Register* reg;
+        std::uint8_t number;
+        unsigned words;
+        std::size_t slot;  ///< of its first word
+    };
+
+    void refuse_gateway() {
+        if (motor_.is_behind_gateway())
+            throw CannotRecord(
+                "the motor is behind a gateway, whose line to it carries no sample buffer; use macreg record "
+                "--poll");
+    }
+
+    bool is_whole(const Part& part) const {
+        return part.reg != nullptr && part.words == registers::cells_of(motor_.model(), *part.reg).count;
+    }
+
+    /// Two numbers in a row that are one register are its value.
+    void find_parts() {
+        std::array<std::uint8_t, kSlots> numbers{};
+        for (std::size_t i = 0; i < kSlots; ++i)
+            numbers[i] = static_cast<std::uint8_t>(motor_.read(fmt::format("SAMPLE{}", i + 1)));
+        for (std::size_t i = 0; i < kSlots;) {
+            const Register* reg = motor_.find(numbers[i]);
+            const unsigned cells = reg != nullptr ? registers::cells_of(motor_.model(), *reg).count : 1;
+            if (numbers[i] == 0) {  // nothing
+                ++i;
+                continue;
+            }
+            const bool both = cells == 2 && i + 1 < kSlots && numbers[i + 1] == numbers[i] + 1;
+            parts_.push_back({reg, numbers[i], both ? 2U : 1U, i});
+            i += both ? 2 : 1;
+        }
+    }
+
+    Recording::Column column_for(const Part& part) const {
+        if (is_whole(part)) return column_of(*part.reg);
+        const char* const half = part.reg != nullptr ? " low word" : "";
+        return {.name = part.reg != nullptr ? std::string(part.reg->name) + half
+                                            : fmt::format("register {}", part.number),
+                .unit = {},
+                .values = {}};
+    }
+
     void plan() {
         std::string words;
         for (const Register* reg : options_.registers) {
             // R: a sampled number yields the word that lies there (001 §3.2).
             const unsigned count = registers::cells_of(motor_.model(), *reg).count;
+            parts_.push_back({reg, reg->number, count, slots_.size()});
             for (unsigned i = 0; i < count; ++i) slots_.push_back(static_cast<std::uint8_t>(reg->number + i));
             words += fmt::format("{}{} takes {}", words.empty() ? "" : ", ", reg->name, count);
         }
@@ -250,21 +320,26 @@ class BufferRecorder {
 
     Recording put_together(const std::vector<std::optional<Sample>>& samples) const {
         Recording recording = empty_recording(motor_, options_);
+        recording.columns.clear();
+        for (const Part& part : parts_) recording.columns.push_back(column_for(part));
         recording.rate_hz = rate();
         for (std::size_t i = 0; i < samples.size(); ++i) {
             if (!samples[i]) continue;  // of a recording that broke off
             recording.time_s.push_back(static_cast<double>(i) / recording.rate_hz);
-            std::size_t slot = 0;
-            for (std::size_t c = 0; c < options_.registers.size(); ++c) {
-                const Register& reg = *options_.registers[c];
-                std::uint32_t bits = (*samples[i])[slot++];
-                if (registers::cells_of(motor_.model(), reg).count == 2) bits |= (*samples[i])[slot++] << 16;
-                const auto format = registers::format_on_line(motor_.model(), reg);
-                recording.columns[c].values.push_back(
-                    shown_value(reg, motor_.model(), registers::value_of(format, bits)));
+            for (std::size_t c = 0; c < parts_.size(); ++c) {
+                const std::size_t slot = parts_[c].slot;
+                std::uint32_t bits = (*samples[i])[slot];
+                if (parts_[c].words == 2) bits |= (*samples[i])[slot + 1] << 16;
+                recording.columns[c].values.push_back(value_of(parts_[c], bits));
             }
         }
         return recording;
+    }
+
+    double value_of(const Part& part, std::uint32_t bits) const {
+        if (!is_whole(part)) return bits;
+        const auto format = registers::format_on_line(motor_.model(), *part.reg);
+        return shown_value(*part.reg, motor_.model(), registers::value_of(format, bits));
     }
 
     /// 001 §3.2.36: the current loop's rate is 15 times the position loop's.
@@ -272,15 +347,17 @@ class BufferRecorder {
         constexpr double kInnerSamples = 15;
         const registers::Ratio outer = registers::exact_scale_of(motor_.model()).samples_per_second;
         const double rate = static_cast<double>(outer.numerator) / static_cast<double>(outer.denominator);
-        return options_.fast ? kInnerSamples * rate : rate;
+        return fast_ ? kInnerSamples * rate : rate;
     }
 
     Motor& motor_;
     const RecordOptions& options_;
+    bool fast_;
     std::int64_t record_;
     std::int64_t rewind_;
     std::int64_t inner_;
     std::int64_t momentary_;
+    std::vector<Part> parts_;
     std::vector<std::uint8_t> slots_;
     std::array<const Register*, kSlots> samples_{};
     std::array<std::int64_t, kSlots> saved_{};
@@ -313,7 +390,11 @@ std::string condition_words(const Comparison& condition, registers::Model model)
 }
 
 Recording record_buffer(Motor& motor, const RecordOptions& options, Recording* broken) {
-    return BufferRecorder(motor, options).run(broken);
+    return BufferRecorder(motor, options, BufferRecorder::What::record).run(broken);
+}
+
+Recording fetch_buffer(Motor& motor, const RecordOptions& options, Recording* broken) {
+    return BufferRecorder(motor, options, BufferRecorder::What::fetch).fetch(broken);
 }
 
 void record_polling(Motor& motor, const RecordOptions& options, Recording& into) {

@@ -217,7 +217,7 @@ class App {
             model_.set_progress("");
         } catch (const GivenUp&) {
             model_.set_progress("");
-            model_.tell("given up; the sample registers are as they were");
+            model_.tell("aborted; the sample registers are as they were");
         } catch (const LineError&) {
             model_.set_progress("");
             model_.tell(

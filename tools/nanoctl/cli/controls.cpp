@@ -4,7 +4,7 @@
 
 #include "cli/session.h"
 #include "nanoctl/stopping.h"
-#include "nanoctl/words.h"
+#include "nanoctl/texts.h"
 
 namespace nplc::nanoctl::cli {
 namespace {

@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "cli/session.h"
-#include "nanoctl/words.h"
+#include "nanoctl/set_points.h"
+#include "nanoctl/texts.h"
 
 namespace nplc::nanoctl::cli {
 namespace {
@@ -32,7 +35,7 @@ std::uint64_t steps_mask(Session& session, const std::vector<std::string>& texts
         if (!step)
             throw UserError(
                 fmt::format("'{}' is no step: write 0..62, or a name of the program with --sym", text));
-        mask |= std::uint64_t{1} << *step;
+        mask |= session.right_names().with_copies(*step);
     }
     return mask;
 }
@@ -144,7 +147,36 @@ void force(Session& session, const ForceOptions& options) {
     if (options.keep || options.seconds > 0) keep_forces(session, options.seconds);
 }
 
-std::string detail_text(const LogEntry& entry) {
+bool is_of_set_points(const LogEntry& entry) {
+    const auto event = static_cast<gw::Event>(entry.event);
+    return event == gw::Event::set_points_changed || event == gw::Event::recipe_loaded ||
+           event == gw::Event::recipe_saved || event == gw::Event::recipe_deleted;
+}
+
+bool is_of_drop(const LogEntry& entry) {
+    return static_cast<gw::Event>(entry.event) == gw::Event::set_points_dropped;
+}
+
+/// By whom, and the values with what they were.
+std::string set_point_text(const LogEntry& entry, const KnownChanges& known) {
+    const std::string by(gw::name_of(static_cast<gw::Origin>(entry.detail >> 8)));
+    const bool of_recipe = static_cast<gw::Event>(entry.event) != gw::Event::set_points_changed;
+    std::string text = fmt::format(" by {}", by);
+    if (of_recipe) text += fmt::format(", {}", entry.detail & 0xFF);
+    if (of_recipe && static_cast<gw::Event>(entry.event) != gw::Event::recipe_loaded) return text;
+    const std::string changes = set_points::changes_text(known.changes, known.record, entry.uptime);
+    return changes.empty() ? text : text + ": " + changes;
+}
+
+/// Bits of another table's set-points have no names any more.
+std::string dropped_text(const LogEntry& entry, const KnownChanges& known) {
+    return entry.number >= known.record_since ? set_points::names_of(known.record, entry.detail)
+                                              : fmt::format("{}", std::popcount(entry.detail));
+}
+
+std::string detail_text(const LogEntry& entry, const KnownChanges& known) {
+    if (is_of_set_points(entry)) return set_point_text(entry, known);
+    if (is_of_drop(entry)) return ": " + dropped_text(entry, known);
     switch (static_cast<gw::Event>(entry.event)) {
         case gw::Event::forced:
             return entry.detail == gw::FORCE_OUT ? ", outputs" : ", inputs";
@@ -164,17 +196,30 @@ std::string detail_text(const LogEntry& entry) {
 
 void log(Session& session, const bool& clear) {
     const auto entries = read_log(session.gateway());
+    KnownChanges known;
+    const auto has = [&](auto what) { return std::any_of(entries.begin(), entries.end(), what); };
+    if (has(is_of_set_points) || has(is_of_drop)) known = read_changes(session.gateway());
+    for (const LogEntry& entry : entries) {
+        const auto event = static_cast<gw::Event>(entry.event);
+        if (event == gw::Event::table_activated || event == gw::Event::started)
+            known.record_since = entry.number;
+    }
     std::string text;
     Json list = Json::array();
     for (const LogEntry& entry : entries) {
         text +=
             fmt::format("{:>14}  step {}  {}{}\n", time_text(entry.uptime), session.names().step(entry.step),
-                        gw::name_of_log_code(entry.event), detail_text(entry));
+                        gw::name_of_log_code(entry.event), detail_text(entry, known));
         list.push_back({{"number", entry.number},
                         {"uptime_ms", entry.uptime},
                         {"event", gw::name_of_log_code(entry.event)},
                         {"step", entry.step},
                         {"detail", entry.detail}});
+        if (is_of_set_points(entry)) {
+            list.back()["by"] = gw::name_of(static_cast<gw::Origin>(entry.detail >> 8));
+            list.back()["changes"] = set_points::changes_text(known.changes, known.record, entry.uptime);
+        }
+        if (is_of_drop(entry)) list.back()["dropped"] = dropped_text(entry, known);
     }
     if (clear) session.gateway().command(gw::Command::clear_log);
     if (!text.empty()) text.pop_back();

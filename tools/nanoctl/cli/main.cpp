@@ -17,6 +17,7 @@ constexpr const char* kFooter =
 
 void add_common(nplc::arguments::App& app, nplc::nanoctl::cli::Common& common) {
     nplc::command_line::add_line_options(app, common, "the gateway");
+    nplc::command_line::add_password_option(app, common);
     app.add_option("--address", common.address, "Address of the gateway")
         ->capture_default_str()
         ->in_range(1, 254);
@@ -28,7 +29,8 @@ void add_common(nplc::arguments::App& app, nplc::nanoctl::cli::Common& common) {
 int main(int argc, char** argv) {
     using namespace nplc::nanoctl::cli;
     nplc::arguments::App app(
-        "A NanoPLC gateway from a terminal: tables, running, looking on, stepping, settings.", "nanoctl");
+        "A NanoPLC gateway from a terminal: tables, running, looking on, stepping, settings, set-points.",
+        "nanoctl");
     app.require_subcommand(1);
     app.set_version_flag("--version", std::string("nanoctl ") + NPLC_VERSION);
     app.footer(kFooter);
@@ -44,10 +46,13 @@ int main(int argc, char** argv) {
     add_force(app, common);
     add_log(app, common);
     add_settings(app, common);
-    nplc::command_line::add_generated(app, common,
-                                      {.version = NPLC_VERSION,
-                                       .title = "a NanoPLC gateway from a terminal",
-                                       .file_commands = {"upload", "verify", "download"},
-                                       .file_options = {"--sym", "-o", "--output"}});
+    add_set_points(app, common);
+    add_firmware(app, common);
+    nplc::command_line::add_generated(
+        app, common,
+        {.version = NPLC_VERSION,
+         .title = "a NanoPLC gateway from a terminal",
+         .file_commands = {"upload", "verify", "download", "export", "import", "firmware"},
+         .file_options = {"--sym", "-o", "--output", "--password-file"}});
     return nplc::command_line::run(app, common, argc, argv);
 }

@@ -18,6 +18,12 @@ namespace {
 /// A whole upload of another program is waited for.
 constexpr base::Milliseconds kTurnWait{60'000};
 
+/// Who stops neither waits nor needs a password.
+std::unique_ptr<ByteClient> open(const Common& common, ByteClient::Holding holding) {
+    if (holding == ByteClient::Holding::at_once) return command_line::open_port(common, holding);
+    return command_line::open_with_password(common, static_cast<std::uint8_t>(common.address), holding);
+}
+
 }  // namespace
 
 Session::Session(const Common& common) : Session(common, ByteClient::Holding::in_turns) {
@@ -26,7 +32,7 @@ Session::Session(const Common& common) : Session(common, ByteClient::Holding::in
 
 Session::Session(const Common& common, ByteClient::Holding holding)
     : common_(common),
-      wire_(command_line::open_port(common, holding)),
+      wire_(open(common, holding)),
       master_(*wire_, {.baud = common.baud,
                        .patience = base::Milliseconds{common.patience_ms},
                        .attempts = common.attempts}),

@@ -35,6 +35,8 @@ class Session {
     /// Throws UserError where names() makes a note.
     const Names& right_names();
     bool json() const { return common_.json; }
+    /// As named by --sym; empty without.
+    const std::string& symbols() const { return common_.symbols; }
     Status status() { return Status(gateway_.read_block(gw::STATUS)); }
     /// A serial line is another program's meanwhile, if it holds it in turns too.
     void pause(base::Microseconds time);
@@ -43,7 +45,7 @@ class Session {
     /// False if it was stopped instead, or after `patience`.
     bool wait_until_held(base::Milliseconds patience);
 
-    /// A line for a person, or the same as a JSON document on one line, with "ok".
+    /// A line for the user, or the same as a JSON document on one line, with "ok".
     void tell(const std::string& text, const Json& document) const {
         command_line::tell(common_, text, document);
     }
@@ -65,8 +67,9 @@ class Session {
 void stop_work(Common& common, const std::function<void(Session&)>& what);
 
 /// `add_transfers`: upload, verify, download. `add_controls`: run, stop, safe, hold, activate, reset.
-/// `add_stepping`: step, scan. `add_status`: status, watch.
-command_line::Subcommand<Common> add_break, add_controls, add_force, add_log, add_settings, add_status,
-    add_stepping, add_transfers;
+/// `add_set_points`: set-points, recipe. `add_stepping`: step, scan. `add_status`: status, watch.
+/// `add_firmware`: firmware.
+command_line::Subcommand<Common> add_break, add_controls, add_firmware, add_force, add_log, add_set_points,
+    add_settings, add_status, add_stepping, add_transfers;
 
 }  // namespace nplc::nanoctl::cli

@@ -2,9 +2,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "causes/codes.h"
 #include "cli/certificates.h"
 #include "cli/session.h"
-#include "nanoctl/words.h"
+#include "digest/digest.h"
+#include "nanoctl/texts.h"
+#include "nanoctl/why.h"
 
 namespace nplc::nanoctl::cli {
 namespace {
@@ -74,11 +77,39 @@ std::string stored_text(const Block& about, const Status& status) {
                 : table_text(of(gw::STORED_BYTES), of(gw::STORED_CRC));
 }
 
-void show_status(Session& session) {
+/// What to mend first in front.
+std::string why_text(const Why& why) {
+    std::string text;
+    for (const causes::Finding& one : why.findings) {
+        text += fmt::format("\n{} {} ({}, {})\n    -> {}", text.empty() ? "why:" : "    ", one.sentence,
+                            one.code, causes::number_of(one.code), one.remedy);
+    }
+    if (why.motor_is_silent)
+        text += "\nthe motor's registers could not be read: the gateway's own causes alone are shown";
+    return text;
+}
+
+Json why_document(const Why& why) {
+    Json list = Json::array();
+    for (const causes::Finding& one : why.findings) {
+        list.push_back({{"code", one.code},
+                        {"number", causes::number_of(one.code)},
+                        {"severity", causes::name_of(one.severity)},
+                        {"sentence", one.sentence},
+                        {"remedy", one.remedy}});
+    }
+    return list;
+}
+
+struct StatusOptions {
+    bool why = false;
+};
+
+void show_status(Session& session, const StatusOptions& options) {
     session.right_names();
     GatewayClient& gateway = session.gateway();
     const Block about = gateway.read_block(gw::IDENTITY);
-    const std::optional<proof::Digest> digest = read_proof(gateway).digest;
+    const std::optional<digest::Digest> digest = read_proof(gateway).digest;
     const Block counters = gateway.read_block(gw::LINK_LOSSES);
     const Status status = session.status();
     const auto of = [&](gw::Number number) { return about[number - gw::IDENTITY]; };
@@ -89,29 +120,40 @@ void show_status(Session& session) {
         fmt::format("\nfirmware {}, up for {}", version_text(of(gw::FW_VERSION)), time_text(status.uptime));
     text += fmt::format("\nactive table {}; stored table {}",
                         table_text(of(gw::TABLE_BYTES), of(gw::TABLE_CRC)), stored_text(about, status));
-    if (digest) text += fmt::format("\ncertificate {}", proof::hex(*digest));
+    if (digest) text += fmt::format("\ncertificate {}", digest::hex(*digest));
     if ((flags & 1) != 0) text += "\nDAMAGED: a stored table; an older one or none is in use, upload again";
     if ((flags & 2) != 0)
         text += "\nDAMAGED: the stored settings; older or initial ones are in use, set and keep them";
+    if ((flags & 4) != 0)
+        text += "\nDAMAGED: the stored set-points; older ones or the defaults are in use, set them anew";
     text += fmt::format("\nmotor link {}, lost {} times, {} messages repeated, {} orders done, {} discarded",
                         name_of(status.link), count(gw::LINK_LOSSES), count(gw::RESENT), count(gw::ORDERS),
                         count(gw::DISCARDED));
     text += fmt::format("\n{} scans, the last {} us, the longest {} us", status.scans, status.scan_time,
                         status.scan_worst);
+    text += fmt::format("\npolls at most {} us late, {} of them beyond the limit", count(gw::POLL_WORST),
+                        count(gw::LATE_POLLS));
     if (status.has(gw::kSettingsDiffer)) text += "\nsettings differ from the stored ones";
+    const Why why = options.why ? ask_why(gateway, status) : why_of_gateway(gateway, status);
+    text += why_text(why);
     Json document = document_of(status, session.names());
     document.update({{"firmware", version_text(of(gw::FW_VERSION))},
                      {"table_bytes", of(gw::TABLE_BYTES)},
                      {"table_crc32", of(gw::TABLE_CRC)},
                      {"stored_bytes", of(gw::STORED_BYTES)},
                      {"stored_crc32", of(gw::STORED_CRC)},
-                     {"proof", digest ? proof::hex(*digest) : ""},
+                     {"proof", digest ? digest::hex(*digest) : ""},
                      {"table_damaged", (flags & 1) != 0},
                      {"settings_damaged", (flags & 2) != 0},
+                     {"set_points_damaged", (flags & 4) != 0},
                      {"link_losses", count(gw::LINK_LOSSES)},
                      {"resent", count(gw::RESENT)},
                      {"orders", count(gw::ORDERS)},
-                     {"discarded", count(gw::DISCARDED)}});
+                     {"discarded", count(gw::DISCARDED)},
+                     {"poll_worst_us", count(gw::POLL_WORST)},
+                     {"late_polls", count(gw::LATE_POLLS)},
+                     {"why", why_document(why)},
+                     {"why_of_motor", why.knows_motor}});
     session.tell(text, document);
 }
 
@@ -142,7 +184,13 @@ void watch(Session& session, const WatchOptions& options) {
 }  // namespace
 
 void add_status(arguments::App& app, Common& common) {
-    add_command(app, common, "status", "What the gateway does, has and went through", show_status);
+    auto [status, status_options] =
+        add_command(app, common, "status",
+                    "What the gateway does, has and went through, and why nothing moves", show_status);
+    status.add_flag(
+        "--why", status_options.why,
+        "Read the motor's registers too, some 3 seconds long: the causes are then those of `macreg "
+        "why`; else the gateway's own");
     auto [command, options] = add_command(
         app, common, "watch",
         "A line at every change, until Ctrl-C or until nobody reads it; with --json a document a line",

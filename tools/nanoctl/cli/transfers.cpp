@@ -4,17 +4,20 @@
 
 #include "base/crc32.h"
 #include "cli/certificates.h"
-#include "cli/files.h"
 #include "cli/session.h"
+#include "digest/digest.h"
+#include "nanoctl/set_points.h"
 #include "nanoctl/stopping.h"
+#include "nanoctl/texts.h"
 #include "nanoctl/transfer.h"
-#include "nanoctl/words.h"
+#include "uploads/uploads.h"
 #include "whole_files/whole_files.h"
 
 namespace nplc::nanoctl::cli {
 namespace {
 
 using mactalk_client::LineError;
+using namespace uploads;  // NOLINT(google-build-using-namespace): its verbs are the commands here
 
 struct UploadOptions {
     std::string file;
@@ -76,7 +79,7 @@ void look_for_room(GatewayClient& gateway) {
 }
 
 /// The active table has the digest.
-void confirm(GatewayClient& gateway, const proof::Digest& digest) {
+void confirm(GatewayClient& gateway, const digest::Digest& digest) {
     if (read_proof(gateway).digest != digest)
         throw Refused(
             gw::Result::wrong_check, gw::PROOF, 0,
@@ -86,12 +89,14 @@ void confirm(GatewayClient& gateway, const proof::Digest& digest) {
 void upload_file(Session& session, const UploadOptions& options) {
     const auto table = read_table(options.file);
     GatewayClient& gateway = session.gateway();
-    std::vector<std::uint8_t> content = table;
-    std::optional<proof::Digest> digest;
+    const set_points::Record record = read_record(options.file, session.symbols(), table);
+    const bool keeps = record.values.empty() || takes_set_points(gateway);
+    std::vector<std::uint8_t> content = keeps ? set_points::with_record(table, record) : table;
+    std::optional<digest::Digest> digest;
     if (!options.proof.empty()) {
         digest = certificate_for(options.proof, table);
         look_for_room(gateway);
-        content = with_digest(table, *digest);
+        content = with_digest(content, *digest);
     }
     double seconds = 0;
     {
@@ -99,25 +104,34 @@ void upload_file(Session& session, const UploadOptions& options) {
         upload(gateway, content, line.callback());
         seconds = line.seconds();
     }
+    std::string dropped;
     if (!options.only_store) {
         make_active(session, options);
         if (digest) confirm(gateway, *digest);
+        if (keeps && !record.values.empty()) dropped = read_dropped(gateway, record);
     }
     if (options.run) gateway.command(gw::Command::run);
     const std::uint32_t crc = base::crc32(table);
     const std::size_t terms = table.size() / 8 - 1;
-    session.tell(fmt::format("{} of {} {} in {:.1f} s, CRC {:08X}h{}{}", options.file,
-                             terms_text(table.size()), options.only_store ? "stored" : "stored and active",
-                             seconds, crc, digest ? fmt::format(", certificate {}", options.proof) : "",
-                             options.run ? ", started" : ""),
-                 {{"file", options.file},
-                  {"terms", terms},
-                  {"bytes", table.size()},
-                  {"crc32", crc},
-                  {"proof", digest ? proof::hex(*digest) : ""},
-                  {"active", !options.only_store},
-                  {"started", options.run},
-                  {"seconds", seconds}});
+    session.tell(
+        fmt::format(
+            "{} of {} {} in {:.1f} s, CRC {:08X}h{}{}{}{}", options.file, terms_text(table.size()),
+            options.only_store ? "stored" : "stored and active", seconds, crc,
+            digest ? fmt::format(", certificate {}", options.proof) : "", options.run ? ", started" : "",
+            keeps ? "" : "; its firmware keeps no set-points, the defaults stand in the table",
+            dropped.empty() ? ""
+                            : "\nwith their defaults, because what was kept has another name, unit or "
+                              "range: " +
+                                  dropped),
+        {{"file", options.file},
+         {"terms", terms},
+         {"bytes", table.size()},
+         {"crc32", crc},
+         {"proof", digest ? digest::hex(*digest) : ""},
+         {"active", !options.only_store},
+         {"started", options.run},
+         {"dropped", dropped},
+         {"seconds", seconds}});
 }
 
 struct VerifyOptions {
@@ -126,20 +140,33 @@ struct VerifyOptions {
     bool all_bytes = false;
 };
 
+/// Which table is active is known without its set-points too.
+set_points::Record record_if_readable(const std::string& file, const std::string& symbols,
+                                      std::span<const std::uint8_t> table) {
+    try {
+        return read_record(file, symbols, table);
+    } catch (const UserError&) {
+        return {};
+    }
+}
+
 void verify(Session& session, const VerifyOptions& options) {
     const auto& [file, certificate, all_bytes] = options;
     const auto table = read_table(file);
-    std::optional<proof::Digest> asked;
+    std::optional<digest::Digest> asked;
     if (!certificate.empty()) asked = certificate_for(certificate, table);
     const Block about = session.gateway().read_block(gw::IDENTITY);
-    const std::optional<proof::Digest> kept = read_proof(session.gateway()).digest;
+    const std::optional<digest::Digest> kept = read_proof(session.gateway()).digest;
     const std::uint32_t crc = base::crc32(table);
     const auto is_same = [&](std::span<const std::uint8_t> content, gw::Number crc_at, gw::Number bytes_at) {
         return about[crc_at - gw::IDENTITY] == base::crc32(content) &&
                about[bytes_at - gw::IDENTITY] == content.size();
     };
-    const auto is_stored_with = [&](const std::optional<proof::Digest>& digest) {
-        return is_same(digest ? with_digest(table, *digest) : table, gw::STORED_CRC, gw::STORED_BYTES);
+    const set_points::Record record = record_if_readable(file, session.symbols(), table);
+    const bool keeps = !record.values.empty() && takes_set_points(session.gateway());
+    const std::vector<std::uint8_t> content = keeps ? set_points::with_record(table, record) : table;
+    const auto is_stored_with = [&](const std::optional<digest::Digest>& digest) {
+        return is_same(digest ? with_digest(content, *digest) : content, gw::STORED_CRC, gw::STORED_BYTES);
     };
     bool active = is_same(table, gw::TABLE_CRC, gw::TABLE_BYTES) && (!asked || asked == kept);
     const bool stored = is_stored_with(asked) || (!asked && is_stored_with(kept));

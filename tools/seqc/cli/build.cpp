@@ -17,10 +17,10 @@ namespace {
 constexpr const char* kJsonHelp = "Print the diagnostics as JSON on standard output";
 
 std::string written(const BuildOptions& options, const BuildTargets& targets, const Compilation& compilation,
-                    const std::string& source) {
+                    const Sources& sources) {
     if (!has_room(targets, compilation.table.size()))
         return fmt::format("--base-address {}: the table would end beyond 4 GiB", options.base_address);
-    return whole_files::write_files(files_of(targets, options, compilation, source));
+    return whole_files::write_files(files_of(targets, compilation, sources));
 }
 
 int problem(const BuildOptions& options, const std::string& message) {
@@ -28,10 +28,10 @@ int problem(const BuildOptions& options, const std::string& message) {
                         : file_problem(message);
 }
 
-int report(const BuildOptions& options, const Compilation& compilation, const std::string& source) {
+int report(const BuildOptions& options, const Compilation& compilation, const Sources& sources) {
     const int exit_code = compilation.ok ? kOk : kProgramHasErrors;
-    if (options.json) return print_json(diagnostics_document(compilation, source, options.source), exit_code);
-    print_diagnostics(compilation, source, options.source);
+    if (options.json) return print_json(diagnostics_document(compilation, sources), exit_code);
+    print_diagnostics(compilation, sources);
     return exit_code;
 }
 
@@ -40,14 +40,17 @@ int build(const BuildOptions& options) {
     if (!targets.problem.empty()) return problem(options, targets.problem);
     const auto source = whole_files::read_text(options.source);
     if (!source.error.empty()) return problem(options, source.error);
-    const Compilation compilation = compile(source.text);
+    const Sources sources = read_sources(options.source, source.text);
+    const Compilation compilation = compile(sources);
+    if (const std::string overwritten = overwritten_source(targets, sources); !overwritten.empty())
+        return problem(options, overwritten);
     const std::string unwritten =
-        compilation.ok ? written(options, targets, compilation, source.text) : std::string();
+        compilation.ok ? written(options, targets, compilation, sources) : std::string();
     if (!unwritten.empty()) {
-        if (!options.json) print_diagnostics(compilation, source.text, options.source);
+        if (!options.json) print_diagnostics(compilation, sources);
         return problem(options, unwritten);
     }
-    const int exit_code = report(options, compilation, source.text);
+    const int exit_code = report(options, compilation, sources);
     if (exit_code == kOk && !options.quiet && !options.json) fmt::print("{}", summary(targets, compilation));
     return std::fflush(stdout) == 0 ? exit_code : file_problem("cannot write to standard output");
 }
@@ -55,7 +58,8 @@ int build(const BuildOptions& options) {
 int check(const BuildOptions& options) {
     const auto source = whole_files::read_text(options.source);
     if (!source.error.empty()) return problem(options, source.error);
-    return report(options, compile(source.text), source.text);
+    const Sources sources = read_sources(options.source, source.text);
+    return report(options, compile(sources), sources);
 }
 
 }  // namespace

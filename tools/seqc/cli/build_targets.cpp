@@ -114,16 +114,24 @@ BuildTargets targets_of(const BuildOptions& options) {
     return targets;
 }
 
-std::vector<whole_files::OutputFile> files_of(const BuildTargets& targets, const BuildOptions& options,
-                                              const Compilation& compilation, const std::string& source) {
+std::string overwritten_source(const BuildTargets& targets, const Sources& sources) {
+    for (const std::string* target : {&targets.table, &targets.listing, &targets.symbols}) {
+        for (const SourceFile& file : sources.files()) {
+            if (!target->empty() && is_same_file(*target, file.name))
+                return fmt::format("'{}' is a file that the program includes: name another one", *target);
+        }
+    }
+    return {};
+}
+
+std::vector<whole_files::OutputFile> files_of(const BuildTargets& targets, const Compilation& compilation,
+                                              const Sources& sources) {
     const std::vector<std::uint8_t>& table = compilation.table;
     std::vector<whole_files::OutputFile> files = {
         {targets.table, targets.hex ? intel_hex::write(table, targets.base_address)
                                     : std::string(table.begin(), table.end())}};
-    if (!targets.listing.empty())
-        files.push_back({targets.listing, listing(compilation, source, options.source)});
-    if (!targets.symbols.empty())
-        files.push_back({targets.symbols, write_symbols(compilation, source, options.source)});
+    if (!targets.listing.empty()) files.push_back({targets.listing, listing(compilation, sources)});
+    if (!targets.symbols.empty()) files.push_back({targets.symbols, write_symbols(compilation, sources)});
     return files;
 }
 

@@ -35,8 +35,11 @@ struct BuildTargets {
 BuildTargets targets_of(const BuildOptions& options);
 
 /// Everything that is written together. The compilation must be good.
-std::vector<whole_files::OutputFile> files_of(const BuildTargets& targets, const BuildOptions& options,
-                                              const Compilation& compilation, const std::string& source);
+std::vector<whole_files::OutputFile> files_of(const BuildTargets& targets, const Compilation& compilation,
+                                              const Sources& sources);
+
+/// Why nothing may be written: a target is a file that the program includes. Nothing if none is.
+std::string overwritten_source(const BuildTargets& targets, const Sources& sources);
 
 /// Whether the table ends within 32 bits of address.
 bool has_room(const BuildTargets& targets, std::size_t bytes);

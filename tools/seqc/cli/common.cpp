@@ -37,9 +37,8 @@ int file_problem(const std::string& message) {
     return kUsageOrFile;
 }
 
-void print_diagnostics(const Compilation& compilation, std::string_view source,
-                       const std::string& file_name) {
-    fmt::print(stderr, "{}", render_all(compilation, source, file_name, colour_of(stderr)));
+void print_diagnostics(const Compilation& compilation, const Sources& sources) {
+    fmt::print(stderr, "{}", render_all(compilation, sources, colour_of(stderr)));
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {

@@ -28,7 +28,7 @@ std::string painted(std::FILE* stream, std::string_view code, std::string_view t
 int file_problem(const std::string& message);
 
 /// Diagnostics and their number on standard error.
-void print_diagnostics(const Compilation& compilation, std::string_view source, const std::string& file_name);
+void print_diagnostics(const Compilation& compilation, const Sources& sources);
 
 /// Whether two names lead to the same file, which need not exist yet.
 bool is_same_file(const std::string& a, const std::string& b);

@@ -49,7 +49,7 @@ Program read_and_format(const std::string& file) {
         Compilation refused;
         refused.diagnostics = std::move(formatted.diagnostics);
         refused.more_diagnostics = formatted.more_diagnostics;
-        print_diagnostics(refused, program.before, program.name);
+        print_diagnostics(refused, Sources({program.name, program.before}));
         program.exit_code = kProgramHasErrors;
     }
     program.after = std::move(formatted.text);

@@ -69,8 +69,10 @@ int graph(const GraphArguments& options) {
     if (input.exit_code != kOk) return input.exit_code;
     if (!options.output.empty() && is_same_file(options.output, options.table.file))
         return file_problem(fmt::format("'{}' is the file to draw: name another output", options.output));
-    const std::string text =
-        graph_of(input.table, names_of(input), host::name_of(host::path_of(options.table.file).stem()));
+    const GraphSource source{input.program ? &input.program->written : nullptr,
+                             input.sources ? input.sources->text() : std::string_view()};
+    const std::string text = graph_of(input.table, names_of(input),
+                                      host::name_of(host::path_of(options.table.file).stem()), source);
     if (format == "dot") return print_or_write(text, options.output);
     const Rendering rendering = render_dot(text, format);
     return rendering.error.empty() ? print_or_write(rendering.bytes, options.output)

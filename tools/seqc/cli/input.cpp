@@ -24,15 +24,16 @@ bool is_program(const std::string& file) {
 }
 
 void compile_into(Input& input, const std::string& text) {
-    Compilation compilation = compile(text);
-    print_diagnostics(compilation, text, input.file);
+    Sources sources = read_sources(input.file, text);
+    Compilation compilation = compile(sources);
+    print_diagnostics(compilation, sources);
     if (!compilation.ok) {
         input.exit_code = kProgramHasErrors;
         return;
     }
     input.table = compilation.table;
     input.symbols = compilation.symbols;
-    input.source = text;
+    input.sources = std::move(sources);
     input.program = std::move(compilation);
 }
 

@@ -25,7 +25,7 @@ struct Input {
     std::vector<std::uint8_t> table;     ///< whole terms, the end term last
     std::optional<Symbols> symbols;      ///< nothing for a bare table without F.sym
     std::optional<Compilation> program;  ///< nothing for a table
-    std::string source;                  ///< the program's text
+    std::optional<Sources> sources;      ///< the program's text
     int exit_code = kOk;                 ///< not kOk: why was printed, and the rest is empty
 };
 

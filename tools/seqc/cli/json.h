@@ -14,8 +14,7 @@ int print_json(const nlohmann::ordered_json& document, int exit_code);
 
 /// {"file", "ok", "errors", "warnings", "more", "diagnostics": [...]}; lines and columns count from 1,
 /// columns in characters, the end is behind the last character.
-nlohmann::ordered_json diagnostics_document(const Compilation& compilation, std::string_view source,
-                                            const std::string& file_name);
+nlohmann::ordered_json diagnostics_document(const Compilation& compilation, const Sources& sources);
 
 /// The same for a file that cannot be read or written: no diagnostics, and "error" says why.
 nlohmann::ordered_json problem_document(const std::string& file_name, const std::string& problem);

@@ -7,12 +7,14 @@ namespace nplc::seqc::cli {
 
 void add_build(arguments::App& app, int& exit_code);
 void add_check(arguments::App& app, int& exit_code);
+void add_dap(arguments::App& app, int& exit_code);
 void add_decompile(arguments::App& app, int& exit_code);
 void add_diff(arguments::App& app, int& exit_code);
 void add_disasm(arguments::App& app, int& exit_code);
 void add_explain(arguments::App& app, int& exit_code);
 void add_fmt(arguments::App& app, int& exit_code);
 void add_graph(arguments::App& app, int& exit_code);
+void add_lsp(arguments::App& app, int& exit_code);
 void add_report(arguments::App& app, int& exit_code);
 void add_verify(arguments::App& app, int& exit_code);
 

@@ -3,20 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "cli/common.h"
 #include "cli/input.h"
 #include "cli/json.h"
 #include "cli/junit.h"
 #include "cli/subcommands.h"
+#include "cli/verify_courses.h"
 #include "cli/verify_emit.h"
 #include "cli/verify_proof.h"
+#include "cli/verify_set_points.h"
 #include "sequencer/table.h"
 #include "verify/story.h"
-#include "views/line_time.h"
+#include "views/verify_question.h"
 #include "whole_files/whole_files.h"
 
 namespace nplc::seqc::cli {
@@ -33,8 +36,8 @@ struct VerifyArguments {
     InputFile table;
     std::string properties;
     std::string assume = "driver";
-    std::string stimulus;
-    std::string scenario;
+    CourseFiles courses;
+    std::string set_points = "free";
     std::string junit;
     std::string emit;
     std::string output;
@@ -43,52 +46,7 @@ struct VerifyArguments {
 };
 
 verify::Names names_for(const Input& input) {
-    verify::Names names;
-    if (!input.symbols) return names;
-    names.steps = input.symbols->steps;
-    names.inputs = input.symbols->inputs;
-    names.outputs = input.symbols->outputs;
-    return names;
-}
-
-constexpr std::uint32_t kBaud = 19'200;
-
-/// On a line without faults, with the polls of driver and gateway.
-std::uint32_t most_time(std::span<const sequencer::MotorOrder> orders) {
-    const LineUse use = line_use(orders, true);
-    return static_cast<std::uint32_t>(std::ceil(milliseconds(use.at_most, kBaud))) + use.messages +
-           verify::Machine::kMostIdle;
-}
-
-/// As `seqc report` works it out. The motor's queue takes eight orders beside the one under way; a scan with
-/// more waits for those before. What a drive whose orders are translated takes is known only as the longest
-/// that a gateway waits.
-verify::Delay order_time(std::span<const sequencer::MotorOrder> orders, bool translated) {
-    constexpr std::size_t kQueue = 8;
-    constexpr std::uint32_t kLongestWait = 1'000;
-    const bool waits = orders.size() > kQueue;
-    if (translated) return {0, kLongestWait, waits ? kLongestWait : 0};
-    const LineUse use = line_use(orders, true);
-    return {static_cast<std::uint32_t>(milliseconds(use.until_done, kBaud)), most_time(orders),
-            waits ? most_time(orders.first(orders.size() - kQueue)) : 0};
-}
-
-/// The properties of a program, at their lines.
-verify::PropertyReading properties_in(const Input& input, const verify::Names& names) {
-    if (!input.program) return {};
-    std::string text = input.source;
-    std::size_t at = 0;
-    const auto blank = [&](std::size_t end) {
-        for (; at < end; ++at) {
-            if (text[at] != '\n') text[at] = ' ';
-        }
-    };
-    for (const Span& span : input.program->properties) {
-        blank(span.offset);
-        at = span.offset + span.length;
-    }
-    blank(text.size());
-    return verify::read_properties(text, names);
+    return input.symbols ? verify_names(*input.symbols) : verify::Names{};
 }
 
 const char* word_of(Verdict verdict) {
@@ -113,9 +71,14 @@ int exit_code_of(const verify::Report& report) {
     return any(Verdict::undecided) ? kUndecided : kOk;
 }
 
+/// A wait of an hour has millions of scans: those that repeat the one before them are counted there.
 Json course_object(const verify::Course& course, const verify::Names& names) {
     Json scans = Json::array();
     for (const verify::PlayedScan& scan : course) {
+        if (scan.repeats && !scans.empty() && scans.back()["dt_ms"] == scan.dt_ms) {
+            scans.back()["times"] = scans.back().value("times", 1U) + 1;
+            continue;
+        }
         Json& added = scans.emplace_back();
         added["inputs"] = scan.image & sequencer::kInputsMask;
         added["inpos"] = (scan.image & sequencer::kInPos) != 0 ? 1 : 0;
@@ -127,14 +90,27 @@ Json course_object(const verify::Course& course, const verify::Names& names) {
     return scans;
 }
 
-Json document_of(const verify::Report& report, const VerifyArguments& options, const Input& input,
-                 const verify::Names& names) {
+Json play_object(const Play& play) {
+    Json object;
+    object["file"] = play.file;
+    object["plays"] = play.played == Played::not_at_all ? Json() : Json(play.played == Played::to_the_end);
+    if (!play.why.empty()) object["why"] = play.why;
+    return object;
+}
+
+bool has_set_points(const Input& input) {
+    return input.symbols && !input.symbols->set_points.values.empty();
+}
+
+Json document_of(const verify::Report& report, const Plays& plays, const VerifyArguments& options,
+                 const Input& input, const verify::Names& names) {
     Json document;
     document["file"] = options.table.file;
     document["assume"] = options.assume;
     document["assumptions"] = Json::array();
     for (const verify::Assumption& assumption : report.assumptions)
         document["assumptions"].push_back(assumption.text);
+    if (has_set_points(input)) document["set_points"] = options.set_points;
     document["states"] = report.states;
     document["complete"] = report.complete;
     document["unreachable"] = Json::array();
@@ -156,6 +132,8 @@ Json document_of(const verify::Report& report, const VerifyArguments& options, c
         if (!result.reason.empty()) added["reason"] = result.reason;
         if (!result.allowed.empty()) added["allowed"] = result.allowed;
         if (result.course) added["course"] = course_object(*result.course, names);
+        if (const auto play = plays.find(result.name); result.code.empty() && play != plays.end())
+            added["scenario"] = play_object(play->second);
     }
     return document;
 }
@@ -165,21 +143,36 @@ struct Position {
     std::size_t column = 1;
 };
 
-Position position_of_step(const Compilation& program, std::string_view source, std::uint8_t step) {
-    Position at;
-    for (const StepOrigin& origin : program.steps) {
-        if (origin.number != step) continue;
-        const std::string_view before = source.substr(0, origin.span.offset);
-        at.line += static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
-        at.column = before.size() - (before.rfind('\n') + 1) + 1;
+/// `file:line:column`, in bytes.
+std::string place_of_step(const Input& input, std::uint8_t step) {
+    std::uint32_t offset = input.sources->program().offset;
+    for (const StepOrigin& origin : input.program->steps) {
+        if (origin.number == step) offset = origin.span.offset;
     }
-    return at;
+    const SourceFile& file = input.sources->file_at(offset);
+    const std::string_view before = input.sources->text_of(file).substr(0, offset - file.offset);
+    return fmt::format("{}:{}:{}", file.name, 1 + std::count(before.begin(), before.end(), '\n'),
+                       before.size() - (before.rfind('\n') + 1) + 1);
 }
 
-std::string assumption_text(const std::string& assume, const std::vector<verify::Assumption>& more) {
-    std::string text = assume == "any"
+/// Of a line that was counted over all files.
+std::string place_of_line(const Sources& sources, std::size_t line) {
+    std::uint32_t offset = 0;
+    for (const std::string& text = sources.text(); line > 1 && offset < text.size(); ++offset)
+        line -= text[offset] == '\n' ? 1U : 0U;
+    const ShownPlace place = Places(sources).of(offset);
+    return fmt::format("{}:{}", place.file->name, place.at.line);
+}
+
+std::string assumption_text(const VerifyArguments& options, const Input& input,
+                            const std::vector<verify::Assumption>& more) {
+    std::string text = options.assume == "any"
                            ? "inputs, INPOS, ERROR and the time between scans are free (--assume any)"
                            : "what the gateway and a real motor can do (--assume driver)";
+    if (has_set_points(input)) {
+        text += options.set_points == "free" ? "; set-points have any value of their ranges"
+                                             : "; set-points have their defaults (--set-points default)";
+    }
     for (const verify::Assumption& assumption : more) text += "; " + assumption.text;
     return text;
 }
@@ -194,8 +187,7 @@ std::string finding_text(const verify::Result& result, const VerifyArguments& op
                                                             : "advice";
     std::string place = options.table.file;
     if (input.program && result.step) {
-        const Position at = position_of_step(*input.program, input.source, *result.step);
-        place += fmt::format(":{}:{}", at.line, at.column);
+        place = place_of_step(input, *result.step);
     }
     std::string text = fmt::format(
         "{}: {} {}\n", place,
@@ -205,8 +197,8 @@ std::string finding_text(const verify::Result& result, const VerifyArguments& op
     return text;
 }
 
-std::string text_of(const verify::Report& report, const VerifyArguments& options, const Input& input,
-                    const verify::Names& names) {
+std::string text_of(const verify::Report& report, const Plays& plays, const VerifyArguments& options,
+                    const Input& input, const verify::Names& names) {
     std::string text;
     std::size_t checks_that_hold = 0;
     for (const verify::Result& result : report.results) {
@@ -222,54 +214,65 @@ std::string text_of(const verify::Report& report, const VerifyArguments& options
                         result.name, result.text);
         if (!result.reason.empty()) text += fmt::format("  {}\n", result.reason);
         if (result.verdict == Verdict::broken && result.course) text += story_of(*result.course, names);
+        if (const auto play = plays.find(result.name); play != plays.end())
+            text += fmt::format("  {}\n", told(play->second));
     }
     return text + fmt::format("{} of {} checks hold; {} states explored{}; assumed: {}\n", checks_that_hold,
                               verify::checks().size(), report.states,
                               report.complete ? ", all there are" : ", not all",
-                              assumption_text(options.assume, report.assumptions));
+                              assumption_text(options, input, report.assumptions));
 }
 
-/// OUT.scn for the first, OUT-Name.scn for the others.
-std::string file_for(const std::string& file, const std::string& name, bool is_first) {
-    if (is_first) return file;
-    const std::size_t slash = file.find_last_of("/\\");
-    std::size_t dot = file.rfind('.');
-    if (dot == std::string::npos || (slash != std::string::npos && dot < slash)) dot = file.size();
-    return file.substr(0, dot) + "-" + name + file.substr(dot);
-}
-
-int write_courses(const verify::Report& report, const VerifyArguments& options, const verify::Names& names) {
-    std::vector<whole_files::OutputFile> files;
-    bool is_first = true;
-    for (const verify::Result& result : report.results) {
-        if (result.verdict != Verdict::broken || !result.course || !result.code.empty()) continue;
-        if (!options.stimulus.empty()) {
-            files.push_back(
-                {file_for(options.stimulus, result.name, is_first), verify::stimulus_of(*result.course)});
+/// What is read, and would be written over.
+std::string clash(const VerifyArguments& options) {
+    const std::vector<std::string> read = {options.table.file, options.properties, options.table.symbols};
+    std::vector<std::string> written;
+    for (const std::string& file : {options.courses.scenario, options.courses.stimulus, options.courses.trace,
+                                    options.junit, options.proof, options.output}) {
+        if (file.empty() || file == "-") continue;
+        for (const std::string& other : read) {
+            if (!other.empty() && is_same_file(file, other))
+                return fmt::format("'{}' is what is read: name another file to write", file);
         }
-        if (!options.scenario.empty()) {
-            files.push_back(
-                {file_for(options.scenario, result.name, is_first), verify::scenario_of(result, names)});
+        for (const std::string& other : written) {
+            if (is_same_file(file, other))
+                return fmt::format("'{}' would be written twice: name another file", file);
         }
-        is_first = false;
+        written.push_back(file);
     }
-    if (!options.junit.empty()) files.push_back({options.junit, junit_of(report, options.table.file, names)});
-    const std::string error = whole_files::write_files(files);
-    return error.empty() ? kOk : file_problem(error);
+    return "";
 }
 
 /// What does not go together.
 std::string contradiction(const VerifyArguments& options) {
+    if (std::string wrong = clash(options); !wrong.empty()) return wrong;
     if (options.emit.empty()) return options.output.empty() ? "" : "-o goes with --emit";
-    if (options.json || !options.junit.empty() || !options.scenario.empty() || !options.stimulus.empty() ||
-        !options.proof.empty())
-        return "--emit decides nothing: it does not go with --json, --junit, --scenario, --stimulus or "
+    if (options.json || !options.junit.empty() || !options.courses.scenario.empty() ||
+        !options.courses.stimulus.empty() || !options.courses.trace.empty() || !options.proof.empty())
+        return "--emit decides nothing: it does not go with --json, --junit, --scenario, --stimulus, --trace "
+               "or "
                "--proof";
     if (options.assume != "any") {
-        return "--emit writes what --assume any asks, so say --assume any: the debounce time, the times of "
-               "orders and the lost link of --assume driver are not written for foreign checkers";
+        return "--emit writes what --assume any asks, so say --assume any: the clocks of --assume driver "
+               "(debouncing of six inputs, times of orders, lost links), in milliseconds, are more than a "
+               "foreign checker can explore";
     }
     return "";
+}
+
+verify::Report explored(const VerifyArguments& options, const Input& input, const sequencer::Table& table,
+                        const verify::Names& names, const std::vector<verify::Property>& properties,
+                        const verify::Options& how) {
+    const bool free = input.symbols && options.set_points == "free";
+    return free ? verify_all_values(input.table, input.symbols->set_points, names, properties, how)
+                : verify::verify(table, names, properties, how);
+}
+
+int emit(const VerifyArguments& options, const Input& input, const std::vector<verify::Property>& properties,
+         const std::vector<verify::Assumption>& assumptions) {
+    if (has_set_points(input) && options.set_points == "free")
+        return file_problem("--emit asks about the set-points' defaults alone, so say --set-points default");
+    return emit_question(options.emit, input, properties, assumptions, options.output);
 }
 
 int run(const VerifyArguments& options) {
@@ -282,9 +285,11 @@ int run(const VerifyArguments& options) {
             fmt::format("{}: {}", options.table.file, sequencer::describe(loaded.fault.error)));
     }
     const verify::Names names = names_for(input);
-    verify::PropertyReading reading = properties_in(input, names);
+    verify::PropertyReading reading;
+    if (input.program) reading = properties_in(*input.program, input.sources->text(), names);
     if (!reading.error.empty())
-        return file_problem(fmt::format("{}:{}: {}", options.table.file, reading.line, reading.error));
+        return file_problem(
+            fmt::format("{}: {}", place_of_line(*input.sources, reading.line), reading.error));
     std::vector<verify::Property> properties = std::move(reading.properties);
     std::vector<verify::Assumption> assumptions = std::move(reading.assumptions);
     if (!options.properties.empty()) {
@@ -301,30 +306,31 @@ int run(const VerifyArguments& options) {
                             ": the assumptions allow no inputs at all, so anything would be proved: "
                             "leave out one ASSUME NEVER");
     }
-    if (!options.emit.empty() && !assumptions.empty())
-        return file_problem("--emit writes what --assume any asks: leave ASSUME out");
-    if (!options.emit.empty()) return emit_question(options.emit, input, properties, options.output);
+    if (!options.emit.empty()) return emit(options, input, properties, assumptions);
     const bool translated = input.symbols && input.symbols->drive != nullptr;
     verify::Options how;
     how.assume = options.assume == "any" ? Assume::any : Assume::driver;
-    how.order_time = [translated](std::span<const sequencer::MotorOrder> orders) {
-        return order_time(orders, translated);
-    };
+    how.order_time = order_times(translated);
     how.assumptions = assumptions;
-    if (input.program) {
-        for (const Allowance& allowance : input.program->allowances)
-            how.allowances.push_back({allowance.code, allowance.step, allowance.reason});
-    }
-    const verify::Report report = verify::verify(loaded.table, names, properties, how);
-    if (const int written = write_courses(report, options, names); written != kOk) return written;
+    if (input.program) how.allowances = allowances_in(*input.program);
+    const verify::Report report = explored(options, input, loaded.table, names, properties, how);
+    Plays plays;
+    CourseFiles files = options.courses;
+    files.read = {options.table.file, options.properties, options.table.symbols, options.junit,
+                  options.proof};
+    std::erase(files.read, "");
+    std::string wrong = written_courses(report, files, options.table, names, plays);
+    if (wrong.empty() && !options.junit.empty())
+        wrong = whole_files::write_files({{options.junit, junit_of(report, options.table.file, names)}});
+    if (!wrong.empty()) return file_problem(wrong);
     const int verdict = exit_code_of(report);
     if (!options.proof.empty()) {
         const int written = write_certificate(options.proof, report, verdict == kOk, input, options.assume,
-                                              assumption_text(options.assume, report.assumptions));
+                                              assumption_text(options, input, report.assumptions));
         if (written != kOk) return written;
     }
-    if (options.json) return print_json(document_of(report, options, input, names), verdict);
-    const int printed = print_or_write(text_of(report, options, input, names), {});
+    if (options.json) return print_json(document_of(report, plays, options, input, names), verdict);
+    const int printed = print_or_write(text_of(report, plays, options, input, names), {});
     return printed == kOk ? verdict : printed;
 }
 
@@ -342,6 +348,11 @@ void add_verify(arguments::App& app, int& exit_code) {
         .add_option("--assume", options->assume,
                     "driver: what gateway and motor can do (default); any: all inputs and times are free")
         ->one_of({"driver", "any"});
+    command
+        .add_option("--set-points", options->set_points,
+                    "free: what is proved holds for every value of the ranges (default); default: for the "
+                    "table's own values alone")
+        ->one_of({"free", "default"});
     command.add_flag("--json", options->json, "JSON for other programs");
     command
         .add_option("--junit", options->junit,
@@ -349,13 +360,19 @@ void add_verify(arguments::App& app, int& exit_code) {
         ->type_name("F.xml");
     command
         .add_option(
-            "--stimulus", options->stimulus,
+            "--stimulus", options->courses.stimulus,
             "Write the course that breaks a property, for nanoplc-sim scan; of further ones OUT-Name.csv")
         ->type_name("OUT.csv");
     command
-        .add_option("--scenario", options->scenario,
-                    "The same as inputs for nanoplc-sim run; of further ones OUT-Name.scn")
+        .add_option("--scenario", options->courses.scenario,
+                    "The same as inputs for nanoplc-sim run, played with it to see whether the virtual motor "
+                    "follows; of "
+                    "further ones OUT-Name.scn")
         ->type_name("OUT.scn");
+    command
+        .add_option("--trace", options->courses.trace,
+                    "The same as a trace, for tools/plot_trace; of further ones OUT-Name.csv")
+        ->type_name("OUT.csv");
     command
         .add_option("--emit", options->emit,
                     "Decide nothing: write the question of --assume any for Spin or Z3")

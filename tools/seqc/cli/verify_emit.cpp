@@ -12,15 +12,16 @@
 namespace nplc::seqc::cli {
 
 int emit_question(const std::string& language, const Input& input,
-                  const std::vector<verify::Property>& properties, const std::string& output) {
+                  const std::vector<verify::Property>& properties,
+                  const std::vector<verify::Assumption>& assumptions, const std::string& output) {
     std::set<std::string> names;
-    const auto is_other = [](const verify::Property& p) { return !verify::is_basic(p); };
-    if (const auto other = std::find_if(properties.begin(), properties.end(), is_other);
-        other != properties.end()) {
+    const auto is_stable = [](const verify::Assumption& a) { return a.stable_ms != 0; };
+    if (const auto stable = std::find_if(assumptions.begin(), assumptions.end(), is_stable);
+        stable != assumptions.end()) {
         return file_problem(
-            fmt::format("property '{}': --emit takes NEVER, ALWAYS, IS REACHABLE, ALWAYS POSSIBLE and "
-                        "WHENEVER .. WITHIN without moving",
-                        other->name));
+            fmt::format("{}: --emit writes scans, and an input changes between them: leave "
+                        "STABLE out",
+                        stable->text));
     }
     for (const verify::Property& property : properties) {
         if (!names.insert(property.name).second)
@@ -28,12 +29,13 @@ int emit_question(const std::string& language, const Input& input,
                 fmt::format("there are two properties '{}': --emit needs one name for each", property.name));
     }
     const bool promela = language == "promela";
-    const verify::Emission emission =
-        promela ? verify::promela_of(input.table, properties) : verify::smt2_of(input.table, properties);
+    const verify::Emission emission = promela ? verify::promela_of(input.table, properties, assumptions)
+                                              : verify::smt2_of(input.table, properties, assumptions);
     if (properties.empty()) return file_problem("there is no property to emit: name a file with --property");
     if (emission.left_out.size() == properties.size()) {
-        return file_problem(fmt::format("no property can be stated in {}{}", language,
-                                        promela ? ": ALWAYS POSSIBLE can in smt2" : ""));
+        return file_problem(
+            fmt::format("no property can be stated in {}{}", language,
+                        promela ? ": ALWAYS POSSIBLE can in smt2" : ": WHILE .. FOR can in promela"));
     }
     if (!emission.left_out.empty()) {
         fmt::print(stderr, "seqc: left out, since {} cannot state them: {}\n", language,

@@ -10,6 +10,7 @@ namespace nplc::seqc::cli {
 
 /// `verify --emit`: the question of --assume any for a foreign checker, to a file or standard output.
 int emit_question(const std::string& language, const Input& input,
-                  const std::vector<verify::Property>& properties, const std::string& output);
+                  const std::vector<verify::Property>& properties,
+                  const std::vector<verify::Assumption>& assumptions, const std::string& output);
 
 }  // namespace nplc::seqc::cli

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "digest/digest.h"
 #include "host/paths.h"
 #include "proof/certificate.h"
 #include "whole_files/whole_files.h"
@@ -22,7 +23,7 @@ proof::Certificate certificate_of(const verify::Report& report, const Input& inp
     proof::Certificate certificate{.version = "seqc " NPLC_VERSION,
                                    .table = host::name_of(host::path_of(input.file).filename()),
                                    .table_bytes = input.table.size(),
-                                   .table_sha256 = proof::hex(proof::sha256(input.table)),
+                                   .table_sha256 = digest::hex(digest::sha256(input.table)),
                                    .assume = assume,
                                    .assumptions = {assumption},
                                    .states = report.states,
@@ -42,7 +43,7 @@ proof::Certificate certificate_of(const verify::Report& report, const Input& inp
 
 int write_certificate(const std::string& file, const verify::Report& report, bool all_proved,
                       const Input& input, const std::string& assume, const std::string& assumption) {
-    if (!proof::is_available()) return file_problem(fmt::format("{}: {}", file, proof::kNotAvailable));
+    if (!digest::is_available()) return file_problem(fmt::format("{}: {}", file, digest::kNotAvailable));
     if (is_same_file(file, input.file))
         return file_problem(fmt::format("'{}' is what is to be proved: name another file", file));
     if (report.results.empty())

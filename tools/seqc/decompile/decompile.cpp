@@ -38,7 +38,24 @@ class Decompiler {
           drive_(choose_drive()),
           drafter_(layout_, motor_) {}
 
+    /// With its set-points, or without them where they would not come out as they were.
     Decompilation run() {
+        keeps_set_points_ = has_set_points();
+        if (keeps_set_points_) {
+            Decompilation whole = run_once();
+            if (compilation_.ok && kept_set_points()) return whole;
+            keeps_set_points_ = false;
+            drive_ = choose_drive();
+        }
+        return run_once();
+    }
+
+  private:
+    bool has_set_points() const {
+        return options_.symbols != nullptr && !options_.symbols->set_points.values.empty();
+    }
+
+    Decompilation run_once() {
         Exclusions exclusions;
         if (table_.size() / sequencer::kTermBytes > kTermsEverywhere) exclusions = only_terms();
         for (std::size_t i = 0; i < kMostDrafts; ++i) {
@@ -53,7 +70,6 @@ class Decompiler {
         return attempt(exclusions) || (drops_drive() && attempt(exclusions)) ? in_one_style() : bytes_alone();
     }
 
-  private:
     Model choose_motor() const {
         if (options_.motor) return *options_.motor;
         return options_.symbols != nullptr ? options_.symbols->motor : fitting_motor(layout_);
@@ -62,6 +78,7 @@ class Decompiler {
         if (options_.motor) return options_.drive;
         return options_.symbols != nullptr ? options_.symbols->drive : nullptr;
     }
+    bool kept_set_points() const { return compilation_.symbols.set_points == options_.symbols->set_points; }
     bool motor_is_sure() const { return options_.motor || options_.symbols != nullptr; }
 
     static Exclusions only_terms(Exclusions exclusions = {}) {
@@ -76,6 +93,10 @@ class Decompiler {
         draft_ = drafter_.draft(exclusions);
         Naming naming = naming_of(exclusions.given_names ? nullptr : options_.symbols, stem(), motor_);
         naming.symbols.drive = drive_;
+        if (keeps_set_points_) {
+            naming.symbols.set_points = options_.symbols->set_points;
+            naming.set_points = naming.symbols.set_points.values;
+        }
         const WriterContext context{naming, motor_, motor_is_sure(), draft_.power_up.has_value()};
         count();
         manuscript_ = write_program(layout_, draft_, context, head(naming));
@@ -207,6 +228,10 @@ class Decompiler {
         if (!why_no_drive_.empty())
             text += fmt::format("// It is written for a {}, because {}.\n", registers::name_of(motor_),
                                 printable(why_no_drive_));
+        if (has_set_points() && !keeps_set_points_)
+            text +=
+                "// Its set-points cannot be written with these branches: their defaults stand as "
+                "constants.\n";
         if (r.symbolic_terms + r.byte_terms > 0)
             text +=
                 "// A TERM is one term of the table: all that hold act in their order, and the last "
@@ -220,6 +245,7 @@ class Decompiler {
     Model motor_;
     const registers::DriveModel* drive_ = nullptr;
     std::string why_no_drive_;
+    bool keeps_set_points_ = false;
     Drafter drafter_;
     Draft draft_;
     WrittenProgram manuscript_;

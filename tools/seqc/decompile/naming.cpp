@@ -106,6 +106,22 @@ Naming naming_of(const Symbols* given, const std::string& program, registers::Mo
     return naming;
 }
 
+const set_points::SetPoint* Naming::set_point(set_points::ValueKind kind, std::uint8_t reg,
+                                              std::int32_t value) const {
+    for (const set_points::SetPoint& point : set_points) {
+        if (point.kind == kind && point.reg == reg && point.initial == value && !point.at_power_up)
+            return &point;
+    }
+    return nullptr;
+}
+
+const set_points::SetPoint* Naming::set_point_of(std::uint8_t reg) const {
+    for (const set_points::SetPoint& point : set_points) {
+        if (point.at_power_up && point.reg == reg) return &point;
+    }
+    return nullptr;
+}
+
 std::string Naming::value_name(std::string_view reg) const {
     Names signals;
     for (const std::string& name : symbols.inputs) signals.take(name);

@@ -8,7 +8,9 @@
 #include "decompile/vocabulary.h"
 #include "listing/describe.h"
 #include "semantics/commands.h"
+#include "semantics/scope.h"
 #include "syntax/parser.h"
+#include "views/table_text.h"
 
 namespace nplc::seqc {
 namespace {
@@ -63,14 +65,11 @@ SelectedText selection_at(const std::vector<Send>& sends, std::size_t at, const 
     return result;
 }
 
-std::string time_text(std::uint16_t milliseconds) {
-    const int seconds = milliseconds / 1000;
-    const int rest = milliseconds % 1000;
-    if (seconds == 0) return fmt::format("T#{}ms", rest);
-    return rest == 0 ? fmt::format("T#{}s", seconds) : fmt::format("T#{}s{}ms", seconds, rest);
-}
-
 Line write_line(const Send& send, const WriterContext& context) {
+    const auto number = static_cast<std::int32_t>(number_of_bits(send.value, send.reg->format));
+    if (const auto* point =
+            context.naming.set_point(set_points::ValueKind::motor_register, send.reg->number, number))
+        return {fmt::format("{} := {};", register_text(*send.reg, context), point->name), {}};
     const ValueText value = value_text(*send.reg, send.value, context.naming.symbols);
     return {fmt::format("{} := {};", register_text(*send.reg, context), value.text), value.comment};
 }
@@ -112,8 +111,18 @@ std::vector<Line> statements_of(const Action& action, const WriterContext& conte
     }
     if (action.clears_counter) lines.push_back({"CLEAR_COUNTER;", {}});
     if (action.counts_down) lines.push_back({"COUNT_DOWN;", {}});
-    if (action.timer) lines.push_back({fmt::format("TIMER := {};", time_text(*action.timer)), {}});
-    if (action.counter) lines.push_back({fmt::format("COUNTER := {};", *action.counter), {}});
+    const auto preset = [&](set_points::ValueKind kind, std::uint16_t value, const std::string& constant) {
+        const auto* point = context.naming.set_point(kind, 0, value);
+        return point != nullptr ? point->name : constant;
+    };
+    if (action.timer)
+        lines.push_back({fmt::format("TIMER := {};", preset(set_points::ValueKind::timer, *action.timer,
+                                                            time_text(*action.timer))),
+                         {}});
+    if (action.counter)
+        lines.push_back({fmt::format("COUNTER := {};", preset(set_points::ValueKind::counter, *action.counter,
+                                                              std::to_string(*action.counter))),
+                         {}});
     return lines;
 }
 

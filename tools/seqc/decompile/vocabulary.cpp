@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "registers/details.h"
 #include "registers/scale.h"
 #include "semantics/commands.h"
 #include "semantics/units.h"
@@ -114,6 +115,8 @@ ValueText value_text(const Register& reg, std::uint32_t bits, const Symbols& sym
     const Model model = symbols.motor;
     const std::int64_t number = number_of(reg, bits);
     if (const std::string length = length_text(reg, number, symbols); !length.empty()) return {length, {}};
+    if (const std::string_view name = registers::name_of_value(model, reg, bits); !name.empty())
+        return {std::string(name), {}};
     const double steps_in_one = raw_per_unit(reg, model, std::nullopt, {}).value_or(1);
     if (steps_in_one != 1) {
         const double value = static_cast<double>(number) / steps_in_one;

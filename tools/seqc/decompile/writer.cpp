@@ -6,6 +6,7 @@
 
 #include "decompile/vocabulary.h"
 #include "semantics/motors.h"
+#include "set_points/values.h"
 
 namespace nplc::seqc {
 namespace {
@@ -49,6 +50,7 @@ class Writer {
         end_passage(Kind::rest);
         write_signals();
         write_values();
+        write_set_points();
         if (draft_.around.fault) {
             line(0, "");
             line(0, "ON ERROR " + next_text(*draft_.around.fault->next, context_));
@@ -124,15 +126,34 @@ class Writer {
         const std::size_t values = draft_.power_up ? draft_.power_up->values : 0;
         for (std::size_t i = 0; i < values; ++i) {
             const Send& send = draft_.power_up->action.sends[i];
+            unsaid.erase(send.reg->number);
+            if (context_.naming.set_point_of(send.reg->number) != nullptr) continue;
             const ValueText value = value_text(*send.reg, send.value, names());
             lines.push_back(
                 commented({fmt::format("{} := {};", declared(*send.reg), value.text), value.comment}));
-            unsaid.erase(send.reg->number);
         }
         for (const auto& [number, name] : unsaid)
             lines.push_back(declared(*registers::find(context_.motor, number)) + ";");
         if (!draft_.power_up && lines.empty()) return;
         write_variables("VAR_MOTOR", lines);
+        end_passage(Kind::values);
+    }
+
+    void write_set_points() {
+        if (context_.naming.set_points.empty()) return;
+        line(0, "");
+        for (const set_points::SetPoint& point : context_.naming.set_points) {
+            const registers::Register* reg =
+                point.at_power_up ? registers::find(context_.motor, point.reg) : nullptr;
+            std::string text = fmt::format("SET_POINT {}", point.name);
+            if (reg != nullptr) text += " AT " + register_address(*reg, context_);
+            text += fmt::format(" := {} RANGE {} .. {}", set_points::text_of(point, point.initial),
+                                set_points::text_of(point, point.lowest),
+                                set_points::text_of(point, point.highest));
+            if (point.step > 0)
+                text += fmt::format(" STEP {:g}{}{}", point.step, point.unit.empty() ? "" : " ", point.unit);
+            line(0, text + ";");
+        }
         end_passage(Kind::values);
     }
 
@@ -175,6 +196,9 @@ class Writer {
                             part.terms.empty() ? "  // the table only names it" : ""));
         write_outputs(part, shape);
         if (!shape || shape->plan.own_error) line(1, "OWN ERROR;");
+        const bool takes =
+            !context_.naming.set_points.empty() && ((names().set_points.takes >> part.number) & 1U) != 0;
+        if (takes) line(1, "TAKES SET_POINTS;");
         end_passage(Kind::step, part.number);
         for (const Line& statement : statements_of(draft_.entries[part.number], context_))
             line(1, "ENTRY " + commented(statement));

@@ -1,4 +1,5 @@
 #include "seqc/diagnostic.h"
+#include "seqc/sources.h"
 
 #include <fmt/format.h>
 
@@ -168,25 +169,58 @@ Position Positions::of(std::uint32_t offset) const {
     return behind(marks_[mark], source_.substr(from, at - from));
 }
 
-std::string render(const Diagnostic& diagnostic, std::string_view source, std::string_view file_name,
-                   Colour colour) {
+namespace {
+
+/// The part of a text in which a place lies.
+struct Located {
+    std::string_view source;
+    std::string_view file_name;
+    Span span;
+    Position at() const { return position_of(source, span.offset); }
+};
+
+template <typename Locate>
+std::string render_with(const Diagnostic& diagnostic, const Locate& locate, Colour colour) {
     const Paint paint(colour);
-    const Position at = position_of(source, diagnostic.span.offset);
+    const Located place = locate(diagnostic.span);
+    const Position at = place.at();
     const bool is_error = diagnostic.severity == Severity::error;
     const std::string_view shade = is_error ? kError : kWarning;
     const std::string what = fmt::format("{} {}", is_error ? "error" : "warning", diagnostic.code);
-    std::string text = fmt::format("{}:{}:{}: {}: {}\n", file_name, at.line, at.column, paint(shade, what),
-                                   paint(kBold, bounded(diagnostic.message)));
-    text += excerpt(source, diagnostic.span, paint, shade);
+    std::string text = fmt::format("{}:{}:{}: {}: {}\n", place.file_name, at.line, at.column,
+                                   paint(shade, what), paint(kBold, bounded(diagnostic.message)));
+    text += excerpt(place.source, place.span, paint, shade);
     if (!diagnostic.help.empty())
         text += fmt::format("  {}: {}\n", paint(kHelp, "help"), bounded(diagnostic.help));
     for (const Note& note : diagnostic.notes) {
-        const Position other = position_of(source, note.span.offset);
-        text += fmt::format("  {}: {}:{}:{}: {}\n", paint(kNote, "note"), file_name, other.line, other.column,
-                            bounded(note.message));
-        text += excerpt(source, note.span, paint, kNote);
+        const Located other = locate(note.span);
+        text += fmt::format("  {}: {}:{}:{}: {}\n", paint(kNote, "note"), other.file_name, other.at().line,
+                            other.at().column, bounded(note.message));
+        text += excerpt(other.source, other.span, paint, kNote);
     }
     return text;
+}
+
+}  // namespace
+
+std::string render(const Diagnostic& diagnostic, std::string_view source, std::string_view file_name,
+                   Colour colour) {
+    return render_with(
+        diagnostic,
+        [&](Span span) {
+            return Located{source, file_name, span};
+        },
+        colour);
+}
+
+std::string render(const Diagnostic& diagnostic, const Sources& sources, Colour colour) {
+    return render_with(
+        diagnostic,
+        [&](Span span) {
+            const SourceFile& file = sources.file_at(span.offset);
+            return Located{sources.text_of(file), file.name, {span.offset - file.offset, span.length}};
+        },
+        colour);
 }
 
 }  // namespace nplc::seqc

@@ -34,6 +34,11 @@ bool Report::has(std::string_view code) const {
                        [&](const Diagnostic& d) { return d.code == code; });
 }
 
+bool Report::has(std::string_view code, Span span) const {
+    return std::any_of(diagnostics_.begin(), diagnostics_.end(),
+                       [&](const Diagnostic& d) { return d.code == code && d.span == span; });
+}
+
 std::vector<Diagnostic> Report::take() {
     std::stable_sort(diagnostics_.begin(), diagnostics_.end(),
                      [](const Diagnostic& a, const Diagnostic& b) { return a.span.offset < b.span.offset; });

@@ -27,6 +27,7 @@ class Report {
     bool has_more() const { return more_; }
     void note_more() { more_ = true; }
     bool has(std::string_view code) const;
+    bool has(std::string_view code, Span span) const;
     /// In source order.
     std::vector<Diagnostic> take();
 

@@ -82,7 +82,11 @@ Formatted format_program(std::string_view source) {
     }
     std::vector<Token> comments;
     Parser parser(source, tokens_of(source, report, &comments), report);
-    parser.parse();
+    if (parser.at_part()) {
+        parser.parse_part();
+    } else {
+        parser.parse();
+    }
     const bool was_read_whole = !report.full();
     result.more_diagnostics = report.has_more();
     std::vector<Diagnostic> found = report.take();

@@ -1,6 +1,7 @@
-#include "format/layout.h"
-
 #include <algorithm>
+
+#include "format/layout.h"
+#include "syntax/names.h"
 
 namespace nplc::seqc::layout {
 namespace {
@@ -10,11 +11,24 @@ bool is_any(const Item& item, std::initializer_list<std::string_view> symbols) {
            std::find(symbols.begin(), symbols.end(), item.text) != symbols.end();
 }
 
-bool is_blank_between(const Item& a, const Item& b) {
+/// Before a sign that joins two values.
+bool ends_value(const Item& item) {
+    return item.kind == Item::Kind::name || item.is_symbol(")") || item.token == TokenKind::number ||
+           item.token == TokenKind::based || item.token == TokenKind::time || item.token == TokenKind::direct;
+}
+
+bool is_part_of_rate(const Item& item) {
+    return same_name(item.text, "s") || same_name(item.text, "s2");
+}
+
+bool is_blank_between(const Item& before, const Item& a, const Item& b, const Item& after) {
     if (b.is_comment()) return !a.is_symbol("(");
-    if (is_any(b, {";", ",", ")", ".", ":", "/"})) return false;
+    if (is_any(b, {";", ",", ")", ".", ":"})) return false;
+    if (b.is_symbol("/")) return !(a.kind == Item::Kind::name && is_part_of_rate(after));
     if (a.is_comment()) return true;
-    if (is_any(a, {"(", ".", "/", "+", "-"})) return false;
+    if (is_any(a, {"(", "."})) return false;
+    if (a.is_symbol("/")) return !(before.kind == Item::Kind::name && is_part_of_rate(b));
+    if (is_any(a, {"+", "-"})) return ends_value(before);
     const bool is_call = a.kind == Item::Kind::name || a.is_keyword("REG");
     return !(b.is_symbol("(") && is_call);
 }
@@ -24,8 +38,12 @@ class Shaper {
     explicit Shaper(Document& document) : items_(document.items), tokens_(document) {}
 
     void run() {
-        for (std::size_t i = 1; i < items_.size(); ++i)
-            items_[i].blanks = is_blank_between(items_[i - 1], items_[i]) ? 1 : 0;
+        const Item none;
+        for (std::size_t i = 1; i < items_.size(); ++i) {
+            const Item& before = i > 1 ? items_[i - 2] : none;
+            const Item& after = i + 1 < items_.size() ? items_[i + 1] : none;
+            items_[i].blanks = is_blank_between(before, items_[i - 1], items_[i], after) ? 1 : 0;
+        }
         while (at_ < tokens_.size()) shape_item();
     }
 
@@ -34,7 +52,7 @@ class Shaper {
         if (at_ == tokens_.size()) return;
         Item& item = tokens_[at_];
         item.starts_line = true;
-        item.level = static_cast<std::uint8_t>(level);
+        item.level = static_cast<std::uint8_t>(level + base_);
         item.role = role;
     }
 
@@ -85,7 +103,7 @@ class Shaper {
     /// Whether tokens `first` to `last` stand on one line of the source and would fit on one here.
     bool stays_on_one_line(std::size_t first, std::size_t last, std::size_t level) const {
         if (is_end(last)) return false;
-        std::size_t sum = level * kIndent + width(tokens_[first].text);
+        std::size_t sum = (level + base_) * kIndent + width(tokens_[first].text);
         for (std::size_t i = tokens_.place(first) + 1; i <= tokens_.place(last); ++i) {
             const Item& item = items_[i];
             if (item.breaks > 0 || item.text.find('\n') != item.text.npos) return false;
@@ -105,6 +123,7 @@ class Shaper {
     }
 
     void shape_item();
+    void begin_sequence();
     void shape_block(std::string_view end_word);
     void skip_header();
     void shape_statement(std::size_t level);
@@ -114,6 +133,7 @@ class Shaper {
     std::vector<Item>& items_;
     Tokens tokens_;
     std::size_t at_ = 0;
+    std::size_t base_ = 0;  ///< levels of what stands around: a SEQUENCE
 };
 
 void Shaper::shape_item() {
@@ -123,6 +143,13 @@ void Shaper::shape_item() {
     for (std::string_view word : {"VAR_INPUT", "VAR_OUTPUT", "VAR_MOTOR"}) {
         if (item.is_keyword(word)) return shape_block("END_VAR");
     }
+    if (item.is_keyword("SEQUENCE")) return begin_sequence();
+    if (item.is_keyword("END_SEQUENCE")) {
+        base_ = 0;
+        begin_line(0, Role::closer);
+        at_ = past(at_);
+        return;
+    }
     if (item.is_keyword("PROGRAM") || item.is_keyword("END_PROGRAM")) {
         begin_line(0, Role::plain);
         ++at_;
@@ -131,6 +158,20 @@ void Shaper::shape_item() {
         return;
     }
     shape_statement(0);
+}
+
+/// SEQUENCE Name [ "(" parameters ")" ]
+void Shaper::begin_sequence() {
+    begin_line(0, Role::opener);
+    ++at_;
+    if (!is_end(at_) && tokens_[at_].kind == Item::Kind::name) ++at_;
+    if (tokens_.is_symbol(at_, "(")) {
+        while (!is_end(at_) && !tokens_.is_symbol(at_, ")") && !tokens_.is_symbol(at_, ";")) ++at_;
+    }
+    skip(")");
+    skip(":");
+    skip(";");
+    base_ = 1;
 }
 
 /// VAR_INPUT, POWER_UP [":"] or STEP Name [AT 5] ":".

@@ -5,6 +5,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "registers/details.h"
 #include "registers/mac.h"
 #include "semantics/commands.h"
 #include "semantics/motors.h"
@@ -78,7 +79,11 @@ class Speller {
             if (item.kind != Item::Kind::name || at_ == 0) continue;
             if (tokens_.is_keyword(at_ - 1, "STEP") || tokens_.is_keyword(at_ - 1, "GROUP"))
                 steps_.declare(item.text);
-            if (in_variables_ && tokens_.is_keyword(at_ + 1, "AT")) variables_.declare(item.text);
+            if (is_parameter_here()) variables_.declare(item.text);
+            const bool is_value =
+                tokens_.is_keyword(at_ - 1, "CONST") || tokens_.is_keyword(at_ - 1, "SET_POINT");
+            if (is_value || (in_variables_ && tokens_.is_keyword(at_ + 1, "AT")))
+                variables_.declare(item.text);
             if (tokens_.is_keyword(at_ - 1, "MOTOR"))
                 motor_ = motor_named(item.text).value_or(MotorChoice{motor_}).map;
             if (in_scale_ && !is_unit(item.text)) units_.declare(item.text);
@@ -87,6 +92,7 @@ class Speller {
 
     void follow_blocks() {
         const Item& item = tokens_[at_];
+        if (behind_symbol("(") || behind_symbol(",")) return;  // a parameter of a SEQUENCE
         if (item.is_keyword("SCALE")) in_scale_ = true;
         if (item.is_symbol(";")) in_scale_ = in_steps_ = false;
         if (item.is_keyword("NEXT")) in_steps_ = false;
@@ -105,6 +111,17 @@ class Speller {
     std::string place(std::string_view text) const;
     static std::string direct(std::string_view text);
     std::string name_here() const;
+    bool is_word_of_property(std::string_view text) const;
+    /// SEQUENCE Close(VAR_OUTPUT Valve, ..
+    bool is_parameter_here() const {
+        return at_ > 1 && tokens_[at_ - 1].kind == Item::Kind::keyword &&
+               (tokens_.is_symbol(at_ - 2, "(") || tokens_.is_symbol(at_ - 2, ","));
+    }
+    bool is_word_of_output(std::string_view text) const;
+    bool is_place_at(std::size_t at) const {
+        return at < tokens_.size() &&
+               (tokens_[at].kind == Item::Kind::name || tokens_[at].token == TokenKind::direct);
+    }
     std::string spelled_here() const;
     bool behind_keyword(std::string_view word) const { return at_ > 0 && tokens_.is_keyword(at_ - 1, word); }
     bool behind_symbol(std::string_view symbol) const {
@@ -158,7 +175,7 @@ std::string Speller::place(std::string_view text) const {
             return capitals;
     }
     const registers::Register* found = registers::find(motor_, text);
-    if (found == nullptr) return std::string(text);
+    if (found == nullptr) return registers::is_name_of_value(motor_, text) ? capitals : std::string(text);
     return same_name(found->name, text) ? std::string(found->name) : capitals;
 }
 
@@ -172,12 +189,38 @@ bool Speller::begins_statement() const {
     return tokens_[at_ - 1].kind == Item::Kind::keyword && contains(kBeforeStatement, tokens_[at_ - 1].text);
 }
 
+/// Words of properties that are names elsewhere.
+bool Speller::is_word_of_property(std::string_view text) const {
+    const auto is = [&](std::string_view keyword, std::string_view word) {
+        return behind_keyword(keyword) && same_name(text, word);
+    };
+    if (is("ONLY", "AFTER") || is("FOLLOWED", "BY") || is("STAYS", "OFF")) return true;
+    if (is("EVERY_SCAN", "FROM")) return !tokens_.is_symbol(at_ + 1, ":=");
+    const bool begins_claim = at_ > 2 && behind_symbol(":") && tokens_.is_keyword(at_ - 3, "PROPERTY");
+    const bool before_fact = tokens_.is_keyword(at_ + 1, "NOT") || tokens_.is_keyword(at_ + 1, "STEP") ||
+                             tokens_.is_keyword(at_ + 1, "INPOS") || tokens_.is_symbol(at_ + 1, "(") ||
+                             (at_ + 1 < tokens_.size() && tokens_[at_ + 1].kind == Item::Kind::name);
+    return begins_claim && same_name(text, "AFTER") && before_fact;
+}
+
+/// SET Clamp; OUT Lamp BLINKING T#1s; R_TRIG(Start)
+bool Speller::is_word_of_output(std::string_view text) const {
+    if (same_name(text, "SET") || same_name(text, "RESET")) return begins_statement() && is_place_at(at_ + 1);
+    if (same_name(text, "CALL")) return begins_statement() && is_place_at(at_ + 1);
+    if (same_name(text, "RETURN")) return begins_statement() && tokens_.is_symbol(at_ + 1, ";");
+    if (same_name(text, "R_TRIG") || same_name(text, "F_TRIG")) return tokens_.is_symbol(at_ + 1, "(");
+    return same_name(text, "BLINKING") && at_ > 0 && is_place_at(at_ - 1);
+}
+
 std::string Speller::name_here() const {
     const std::string_view text = tokens_[at_].text;
     const bool behind_number = at_ > 0 && tokens_[at_ - 1].token == TokenKind::number;
-    if (behind_number || behind_symbol("/")) return unit(text);
+    if (is_word_of_property(text) || is_word_of_output(text)) return upper(text);
+    if (behind_number || (behind_symbol("/") && !variables_.find(text))) return unit(text);
     if (behind_symbol(".")) return upper(text);
-    if (behind_keyword("PROGRAM") || behind_keyword("STEP")) return std::string(text);
+    if (behind_keyword("PROGRAM") || behind_keyword("STEP") || behind_keyword("CONST") ||
+        behind_keyword("SET_POINT"))
+        return std::string(text);
     const bool behind_next = at_ > 1 && behind_symbol(":=") && tokens_.is_keyword(at_ - 2, "NEXT");
     if (behind_next || in_steps_ || behind_keyword("TERM"))
         return std::string(steps_.find(text).value_or(text));

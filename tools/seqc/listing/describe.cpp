@@ -57,7 +57,10 @@ std::string flex_text(const FlexStatement& flex, const Symbols* symbols) {
         .reg = flex.reg,
         .longword = flex.longword,
         .value = flex.longword ? (std::uint32_t{flex.high_word} << 16) | flex.low_word : flex.low_word};
-    return fmt::format("{} := {}, {} bits", name, value_of(write, symbols), flex.longword ? 32 : 16);
+    const std::string number = std::to_string(value_of(write, symbols));
+    const std::string value = value_text(write, symbols);
+    return fmt::format("{} := {}{}, {} bits", name, number, value == number ? "" : " (" + value + ")",
+                       flex.longword ? 32 : 16);
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "listing/describe.h"
 #include "semantics/motors.h"
 #include "seqc/seqc.h"
 #include "sequencer/term.h"
+#include "views/set_points_text.h"
 #include "views/table_report.h"
 
 namespace nplc::seqc {
@@ -12,26 +15,51 @@ namespace {
 using sequencer::kTermBytes;
 
 std::string term_line(std::size_t index, sequencer::TermView bytes, const Compilation& compilation,
-                      const Positions& positions) {
+                      const Places& places, std::size_t width) {
     std::string hex;
     for (std::uint8_t byte : bytes) hex += fmt::format("{:02X} ", byte);
     const Span span = compilation.origins[index].span;
-    const std::string line = span.length == 0 ? "-" : std::to_string(positions.of(span.offset).line);
-    return fmt::format("{:5} {:>6}  {} {}\n", index, line, hex, describe(bytes, &compilation.symbols));
+    const std::string line = span.length == 0 ? "-" : places.line_text(span.offset);
+    return fmt::format("{:5} {:>{}}  {} {}\n", index, line, width, hex,
+                       describe(bytes, &compilation.symbols));
+}
+
+/// Of the lines' numbers, which say the file too where it is an included one.
+std::size_t width_of_lines(const Compilation& compilation, const Places& places) {
+    std::size_t width = 6;
+    for (const TermOrigin& origin : compilation.origins) {
+        if (origin.span.length > 0) width = std::max(width, places.line_text(origin.span.offset).size());
+    }
+    return width;
+}
+
+/// What stands in the files, which the terms' lines name.
+std::string files_of(const Sources& sources) {
+    std::string text;
+    for (const SourceFile& file : sources.files()) {
+        if (&file != &sources.program()) text += fmt::format("includes {}\n", file.name);
+    }
+    return text;
 }
 
 }  // namespace
 
 std::string listing(const Compilation& compilation, std::string_view source, std::string_view file_name) {
+    return listing(compilation, Sources({std::string(file_name), std::string(source)}));
+}
+
+std::string listing(const Compilation& compilation, const Sources& sources) {
     const Symbols& symbols = compilation.symbols;
-    const Positions positions(source);
+    const Places places(sources);
+    const std::size_t width = width_of_lines(compilation, places);
     const std::size_t terms = compilation.table.size() / kTermBytes;
-    std::string text = fmt::format("{}: program {}, {}, {} terms, {} bytes\n\n", file_name, symbols.program,
-                                   motor_name(symbols), terms, compilation.table.size());
-    text += " term   line  bytes                    what it does\n";
+    std::string text =
+        fmt::format("{}: program {}, {}, {} terms, {} bytes\n{}\n", sources.program().name, symbols.program,
+                    motor_name(symbols), terms, compilation.table.size(), files_of(sources));
+    text += fmt::format(" term {:>{}}  bytes                    what it does\n", "line", width);
     for (std::size_t i = 0; i < terms; ++i) {
         const auto bytes = std::span(compilation.table).subspan(i * kTermBytes).first<kTermBytes>();
-        text += term_line(i, bytes, compilation, positions);
+        text += term_line(i, bytes, compilation, places, width);
     }
     text += "\nsteps:\n";
     for (std::size_t i = 0; i < symbols.steps.size(); ++i) {
@@ -39,11 +67,12 @@ std::string listing(const Compilation& compilation, std::string_view source, std
         const std::string& why = symbols.made_for[i];
         text += fmt::format("{:5}  {}{}{}\n", i, symbols.steps[i], why.empty() ? "" : "  ", why);
     }
+    text += set_points_text(symbols);
     if (!compilation.roundings.empty())
         text += symbols.drive != nullptr ? fmt::format("\nconstants on a {}:\n", motor_name(symbols))
                                          : std::string("\nrounded constants:\n");
     for (const Rounding& rounding : compilation.roundings) {
-        text += fmt::format("{:>12}  {}\n", fmt::format("line {}", positions.of(rounding.span.offset).line),
+        text += fmt::format("{:>12}  {}\n", fmt::format("line {}", places.line_text(rounding.span.offset)),
                             rounding.text);
     }
     return text + "\n" + summary_of(report_of(compilation.table, &symbols, {}));

@@ -8,10 +8,15 @@ namespace nplc::seqc {
 
 std::string render_all(const Compilation& compilation, std::string_view source, std::string_view file_name,
                        Colour colour) {
+    return render_all(compilation, Sources({std::string(file_name), std::string(source)}), colour);
+}
+
+std::string render_all(const Compilation& compilation, const Sources& sources, Colour colour) {
+    const std::string& file_name = sources.program().name;
     const std::vector<Diagnostic>& all = compilation.diagnostics;
     if (all.empty()) return {};
     std::string text;
-    for (const Diagnostic& diagnostic : all) text += render(diagnostic, source, file_name, colour);
+    for (const Diagnostic& diagnostic : all) text += render(diagnostic, sources, colour);
     if (compilation.more_diagnostics) {
         text +=
             fmt::format("{}: there are more; only {} are shown, mend these first\n", file_name, all.size());

@@ -30,7 +30,7 @@ std::vector<Cube> minimal_cover(const Points& need, const Points& allowed);
 std::vector<Cube> disjoint_cover(const Points& need);
 
 /// Fewest products that together hold in all cases of `need` and in none outside of `allowed` (which contains
-/// `need`), each as short as possible. What a person reads: unlike a term's, they may ask for "timer not
+/// `need`), each as short as possible. What the user reads: unlike a term's, they may ask for "timer not
 /// zero". Exact up to a bound on the search, beyond it as few as a greedy choice finds.
 std::vector<Product> shortest_products(const Truth& need, const Truth& allowed);
 

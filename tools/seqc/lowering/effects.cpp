@@ -39,8 +39,7 @@ Effects effects_of(const StepPlan& step, const std::vector<std::uint8_t>& output
     }
     for (const Rule& rule : step.rules) {
         const bool leaves = rule.action.next && *rule.action.next != step.number;
-        const std::size_t next = rule.action.next.value_or(step.number);
-        const std::uint8_t entered = next < outputs_of.size() ? outputs_of[next] : std::uint8_t{0};
+        const std::uint8_t entered = outputs_entered(rule.action, outputs_of);
         const bool apart = outputs == Outputs::apart && (!rule.action.sends.empty() || rule.action.presets());
         for (std::size_t c = rule.when._Find_first(); c < kCases; c = rule.when._Find_next(c)) {
             const std::uint8_t resting = effects.resting[apart ? c & ~kZeros : c];

@@ -24,8 +24,7 @@ Behaviour behaviour_of(const StepPlan& step, const Action* action, std::uint8_t 
     result.action = action;
     result.next = action != nullptr ? action->next.value_or(step.number) : step.number;
     result.leaves = result.next != step.number;
-    const std::uint8_t entered = result.next < outputs_of.size() ? outputs_of[result.next] : std::uint8_t{0};
-    result.outputs = result.leaves ? entered : resting;
+    result.outputs = result.leaves ? outputs_entered(*action, outputs_of) : resting;
     result.writes = result.leaves || !step.conditional.empty() || (action != nullptr && action->counts());
     return result;
 }

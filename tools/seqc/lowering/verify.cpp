@@ -102,7 +102,7 @@ class Comparison {
         wanted.action = &action;
         wanted.next = action.next.value_or(step_.number);
         wanted.leaves = wanted.next != step_.number;
-        wanted.outputs = wanted.leaves ? entered(wanted.next) : std::uint8_t{0};
+        wanted.outputs = wanted.leaves ? outputs_entered(action, outputs_of_) : std::uint8_t{0};
         wanted.clears = action.clears_counter;
         wanted.counts = action.counts_down;
         wanted.timer = action.timer.value_or(0);
@@ -121,10 +121,6 @@ class Comparison {
             ++done.sent;
         }
         if (!term.is_flex) apply_fast(term.fast, done);
-    }
-
-    std::uint8_t entered(std::uint8_t next) const {
-        return next < outputs_of_.size() ? outputs_of_[next] : std::uint8_t{0};
     }
 
     std::uint8_t resting(std::size_t c) const {

@@ -13,6 +13,7 @@ namespace {
 using ast::Statement;
 using protocol::fastmac::Group;
 using protocol::fastmac::Mode;
+using set_points::ValueKind;
 
 constexpr double kLongest = 65'535;
 
@@ -31,21 +32,70 @@ void conflict(Report& report, Span span, const char* what, Span entry) {
         .notes.push_back({entry, "the ENTRY of the step that is entered does it too"});
 }
 
+/// SET and RESET: to do it again changes nothing.
+bool is_switch(const Statement& statement) {
+    return statement.kind == Statement::Kind::set_outputs || statement.kind == Statement::Kind::reset_outputs;
+}
+
 bool uses_counter(const Action& action) {
     return action.counter || action.counts();
 }
 
 }  // namespace
 
+std::optional<std::uint16_t> milliseconds_of(const ast::Value& value, Report& report) {
+    double ms = value.number;
+    const bool seconds = same_name(value.unit.text, "s");
+    if (!value.is_time && !seconds && !same_name(value.unit.text, "ms")) {
+        report.add("E043", value.span, "the timer needs a time", "write it as T#500ms");
+        return std::nullopt;
+    }
+    if (seconds) ms *= 1000;
+    const double rounded = std::round(ms);
+    if (!(rounded >= 0 && rounded <= kLongest)) {
+        report.add("E062", value.span, "the timer holds at most T#65s535ms",
+                   "for longer times let the counter count repetitions of a shorter one");
+        return std::nullopt;
+    }
+    if (rounded == 0) {
+        report.add("W007", value.span, "the timer cannot be set to 0: it becomes 1 ms", "write T#1ms");
+        return std::uint16_t{1};
+    }
+    if (std::fabs(rounded - ms) > 0.01 * ms) {
+        report.add("W002", value.span,
+                   fmt::format("the timer counts whole milliseconds: this becomes {} ms", rounded),
+                   fmt::format("write T#{}ms if that will do", rounded));
+    }
+    return static_cast<std::uint16_t>(rounded);
+}
+
 bool Action::same_effect(const Action& other) const {
     return next == other.next && timer == other.timer && counter == other.counter &&
+           timer_point == other.timer_point && counter_point == other.counter_point &&
            clears_counter == other.clears_counter && counts_down == other.counts_down &&
+           outputs == other.outputs && sets == other.sets && resets == other.resets &&
            std::equal(sends.begin(), sends.end(), other.sends.begin(), other.sends.end(),
                       [](const Send& a, const Send& b) { return a.same_effect(b); });
 }
 
+void add_switches(Action& action, const Action& more, const char* note, Report& report) {
+    if (more.switches() && ((action.sets & more.resets) != 0 || (action.resets & more.sets) != 0)) {
+        report
+            .add("E061", action.output_span, "an output is set and reset in the same scan",
+                 "keep one, here or in the ENTRY")
+            .notes.push_back({more.output_span, note});
+        return;
+    }
+    if (!action.switches()) action.output_span = more.output_span;
+    action.sets |= more.sets;
+    action.resets |= more.resets;
+}
+
 Action ActionBuilder::build(const std::vector<Statement>& statements) {
-    for (const Statement& statement : statements) add(statement);
+    for (const Statement& statement : statements) {
+        add(statement);
+        if (statement.kind != Statement::Kind::next) action_.statements.push_back(statement.span);
+    }
     if (!statements.empty()) {
         const Span first = statements.front().span;
         const Span last = statements.back().span;
@@ -55,13 +105,13 @@ Action ActionBuilder::build(const std::vector<Statement>& statements) {
 }
 
 void ActionBuilder::add(const Statement& statement) {
-    if (statement.every_scan && !marked_ && statement.kind != Statement::Kind::next)
+    if (statement.every_scan && !marked_ && statement.kind != Statement::Kind::next && !is_switch(statement))
         marked_ = statement.every_scan_span;
     const std::size_t errors_before = scope_.report().error_count() + scope_.faulty_names_met();
     add_by_kind(statement);
     const bool sound = scope_.report().error_count() + scope_.faulty_names_met() == errors_before;
-    if (sound && !statement.every_scan && !unmarked_ && statement.kind != Statement::Kind::next)
-        unmarked_ = statement.span;
+    const bool may_repeat = statement.kind == Statement::Kind::next || is_switch(statement);
+    if (sound && !statement.every_scan && !unmarked_ && !may_repeat) unmarked_ = statement.span;
 }
 
 void ActionBuilder::add_by_kind(const Statement& statement) {
@@ -86,6 +136,28 @@ void ActionBuilder::add_by_kind(const Statement& statement) {
             if (once(uses_counter(action_), statement, "the counter is changed", action_.counter_span))
                 action_.clears_counter = true;
             return;
+        case Statement::Kind::set_outputs:
+        case Statement::Kind::reset_outputs:
+            return add_switch(statement);
+        case Statement::Kind::call:
+        case Statement::Kind::go_back:
+            return;  // what is left of them was reported
+    }
+}
+
+void ActionBuilder::add_switch(const Statement& statement) {
+    if (statement.every_scan) {
+        scope_.report().add("W006", statement.every_scan_span, "an output that is set stays on by itself",
+                            "leave EVERY_SCAN out");
+    }
+    for (const ast::Name& name : statement.arguments) {
+        const auto bit = scope_.output(name);
+        if (!bit) continue;
+        Action one;
+        (statement.kind == Statement::Kind::set_outputs ? one.sets : one.resets) =
+            static_cast<std::uint8_t>(1U << *bit);
+        one.output_span = statement.span;
+        add_switches(action_, one, "the other one is here", scope_.report());
     }
 }
 
@@ -123,6 +195,13 @@ void ActionBuilder::add_next(const Statement& statement) {
 void ActionBuilder::add_assignment(const Statement& statement, const registers::Register* reg,
                                    std::string_view shown) {
     if (reg == nullptr) return;
+    if (scope_.is_set_point(statement.value)) {
+        const std::uint8_t number = scope_.set_point_for(statement.value, ValueKind::motor_register, reg);
+        if (number != 0)
+            add_send({reg, 0, bits_of(scope_.set_point(number).initial, *reg), statement.span, number});
+        return;
+    }
+    if (scope_.refuse_write(*reg, statement.span)) return;
     if (const auto bits = scope_.value(statement.value, *reg, shown.empty() ? reg->name : shown)) {
         add_send({reg, 0, *bits, statement.span});
     }
@@ -194,6 +273,33 @@ void ActionBuilder::add_use_set(const Statement& statement) {
                                        (statement.arguments[0].text[0] - '1')));
 }
 
+/// POSITION(Pitch), with CONST Pitch.
+bool ActionBuilder::refuse_constant(const ast::Name& name, Mode mode) {
+    const ast::Constant* constant = scope_.constant(name.text);
+    if (constant == nullptr || scope_.report().has("E020")) return false;  // it may be a register too
+    const std::string_view command = mode == Mode::position   ? "POSITION"
+                                     : mode == Mode::velocity ? "VELOCITY"
+                                                              : "INIT";
+    const std::string_view kind = scope_.kind_of(constant->value);
+    const std::string_view wanted = mode == Mode::position   ? "a position"
+                                    : mode == Mode::velocity ? "a velocity"
+                                                             : kind;
+    const char* place = kind == "a velocity" ? "V1" : kind == "an acceleration" ? "A1" : "P1";
+    const bool fits = kind.empty() || kind == wanted;
+    scope_.report()
+        .add(
+            "E050", name.span,
+            fmt::format("{} selects a register, and '{}' is a constant{}{}", command, name.text,
+                        kind.empty() ? "" : ", ", kind),
+            fits
+                ? fmt::format(
+                      "give a register this value in VAR_MOTOR, as in Place AT {} := {}; and write {}(Place)",
+                      place, name.text, command)
+                : fmt::format("it needs {}: name a register of VAR_MOTOR that holds one", wanted))
+        .notes.push_back({constant->name.span, "the constant is here"});
+    return true;
+}
+
 void ActionBuilder::add_selections(const Statement& statement, Mode mode) {
     if (statement.arguments.empty()) {
         scope_.report().add("E050", statement.span,
@@ -213,6 +319,7 @@ void ActionBuilder::add_selections(const Statement& statement, Mode mode) {
                                             upper(statement.name.text)));
             continue;
         }
+        if (scope_.find_register(argument.text) == nullptr && refuse_constant(argument, mode)) continue;
         const registers::Register* reg = scope_.reg(argument);
         if (reg == nullptr) continue;
         const auto selection = selection_of(reg->number);
@@ -242,41 +349,43 @@ void ActionBuilder::add_selections(const Statement& statement, Mode mode) {
     for (const Selection& selection : selections) add_send(statement, command_byte(mode, selection));
 }
 
-std::optional<std::uint16_t> ActionBuilder::milliseconds(const ast::Value& value) {
-    double ms = value.number;
-    const bool seconds = same_name(value.unit.text, "s");
-    if (!value.is_time && !seconds && !same_name(value.unit.text, "ms")) {
-        scope_.report().add("E043", value.span, "the timer needs a time", "write it as T#500ms");
-        return std::nullopt;
-    }
-    if (seconds) ms *= 1000;
-    const double rounded = std::round(ms);
-    if (!(rounded >= 0 && rounded <= kLongest)) {
-        scope_.report().add("E062", value.span, "the timer holds at most T#65s535ms",
-                            "for longer times let the counter count repetitions of a shorter one");
-        return std::nullopt;
-    }
-    if (rounded == 0) {
-        scope_.report().add("W007", value.span, "the timer cannot be set to 0: it becomes 1 ms",
-                            "write T#1ms");
-        return std::uint16_t{1};
-    }
-    if (std::fabs(rounded - ms) > 0.01 * ms) {
-        scope_.report().add("W002", value.span,
-                            fmt::format("the timer counts whole milliseconds: this becomes {} ms", rounded),
-                            fmt::format("write T#{}ms if that will do", rounded));
-    }
-    return static_cast<std::uint16_t>(rounded);
+std::optional<std::uint16_t> timer_value(const ast::Value& value, Scope& scope) {
+    const auto worked_out = scope.worked_out(value);
+    return worked_out ? milliseconds_of(*worked_out, scope.report()) : std::nullopt;
+}
+
+std::optional<std::uint16_t> ActionBuilder::preset_of(const Statement& statement, ValueKind kind,
+                                                      std::uint8_t& number) {
+    number = scope_.set_point_for(statement.value, kind, nullptr);
+    if (number == 0) return std::nullopt;
+    return static_cast<std::uint16_t>(scope_.set_point(number).initial);
 }
 
 void ActionBuilder::add_timer(const Statement& statement) {
-    const auto ms = milliseconds(statement.value);
-    if (ms && once(action_.timer.has_value(), statement, "the timer is set", action_.timer_span))
+    std::uint8_t number = 0;
+    const std::optional<std::uint16_t> ms = scope_.is_set_point(statement.value)
+                                                ? preset_of(statement, ValueKind::timer, number)
+                                                : timer_value(statement.value, scope_);
+    if (ms && once(action_.timer.has_value(), statement, "the timer is set", action_.timer_span)) {
         action_.timer = ms;
+        action_.timer_point = number;
+    }
+}
+
+void ActionBuilder::add_counter_of_set_point(const Statement& statement) {
+    std::uint8_t number = 0;
+    const auto count = preset_of(statement, ValueKind::counter, number);
+    if (!count || !once(uses_counter(action_), statement, "the counter is changed", action_.counter_span))
+        return;
+    action_.counter = count;
+    action_.counter_point = number;
 }
 
 void ActionBuilder::add_counter(const Statement& statement) {
-    const ast::Value& value = statement.value;
+    if (scope_.is_set_point(statement.value)) return add_counter_of_set_point(statement);
+    const auto worked_out = scope_.worked_out(statement.value);
+    if (!worked_out) return;
+    const ast::Value& value = *worked_out;
     const bool plain = value.unit.text.empty() && !value.is_time && std::floor(value.number) == value.number;
     if (!plain || !(value.number >= 0 && value.number <= kLongest)) {
         scope_.report().add("E063", value.span, "the counter holds whole numbers 0..65535",
@@ -294,16 +403,27 @@ void ActionBuilder::add_counter(const Statement& statement) {
 
 void append_entry(Action& action, const Action& entry, Report& report) {
     action.sends.insert(action.sends.end(), entry.sends.begin(), entry.sends.end());
-    if (action.timer && entry.timer)
+    if (action.timer && entry.timer && entry.timer_by_step) {
+        report
+            .add("E073", action.timer_span, "the one timer is in use already in the step that is entered",
+                 "leave this out, or let a step without WITHIN, FOR and BLINKING stand between")
+            .notes.push_back({entry.timer_span, "it is used here"});
+    } else if (action.timer && entry.timer) {
         conflict(report, action.timer_span, "the timer is set", entry.timer_span);
+    }
     if (uses_counter(action) && uses_counter(entry))
         conflict(report, action.counter_span, "the counter is changed", entry.counter_span);
     if (entry.timer) {
         action.timer = entry.timer;
+        action.timer_point = entry.timer_point;
         action.timer_span = entry.timer_span;
     }
+    add_switches(action, entry, "the ENTRY of the step that is entered does the other", report);
     if (uses_counter(entry)) action.counter_span = entry.counter_span;
-    if (entry.counter) action.counter = entry.counter;
+    if (entry.counter) {
+        action.counter = entry.counter;
+        action.counter_point = entry.counter_point;
+    }
     action.clears_counter = action.clears_counter || entry.clears_counter;
     action.counts_down = action.counts_down || entry.counts_down;
 }

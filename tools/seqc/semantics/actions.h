@@ -28,11 +28,15 @@ class ActionBuilder {
     void add_assignment(const ast::Statement& statement, const registers::Register* reg,
                         std::string_view shown);
     void add_command(const ast::Statement& statement);
+    bool refuse_constant(const ast::Name& name, protocol::fastmac::Mode mode);
     void add_selections(const ast::Statement& statement, protocol::fastmac::Mode mode);
     void add_use_set(const ast::Statement& statement);
     void add_timer(const ast::Statement& statement);
+    void add_switch(const ast::Statement& statement);
     void add_counter(const ast::Statement& statement);
-    std::optional<std::uint16_t> milliseconds(const ast::Value& value);
+    void add_counter_of_set_point(const ast::Statement& statement);
+    std::optional<std::uint16_t> preset_of(const ast::Statement& statement, set_points::ValueKind kind,
+                                           std::uint8_t& number);
     void add_send(const ast::Statement& statement, std::uint8_t command);
     void add_send(const Send& send);
     bool once(bool already, const ast::Statement& statement, const char* what, Span& place);
@@ -42,6 +46,14 @@ class ActionBuilder {
     std::optional<Span> unmarked_;
     std::optional<Span> marked_;
 };
+
+/// What the timer is set to; reports what it does not hold.
+std::optional<std::uint16_t> milliseconds_of(const ast::Value& value, Report& report);
+/// The same of a value that has to be worked out.
+std::optional<std::uint16_t> timer_value(const ast::Value& value, Scope& scope);
+
+/// Adds what `more` switches to what `action` does; reports an output that both switch, each its way.
+void add_switches(Action& action, const Action& more, const char* note, Report& report);
 
 /// Adds the entered step's ENTRY to a branch that enters it; reports what cannot happen in one scan.
 void append_entry(Action& action, const Action& entry, Report& report);

@@ -6,9 +6,10 @@
 #include <array>
 
 #include "semantics/actions.h"
-#include "semantics/drive.h"
 #include "semantics/motors.h"
 #include "semantics/on_conditions.h"
+#include "semantics/raw_terms.h"
+#include "semantics/remember.h"
 #include "semantics/seen_branches.h"
 #include "semantics/single_term.h"
 #include "sequencer/term.h"
@@ -59,6 +60,7 @@ class Checker {
         build_entries();
         find_fault_step();
         on_conditions_ = on_conditions(program_, scope_, fault_);
+        check_latched_outputs(program_, scope_);
         Plan plan;
         if (!raw_only) {
             if (const ast::Step* zero = scope_.step_numbered(kPowerUp)) {
@@ -72,7 +74,7 @@ class Checker {
             }
         }
         for (const ast::RawTerm& term : program_.terms) plan.terms.push_back(raw_term(term, {}));
-        check_raw_terms(plan);
+        check_raw_terms(plan, symbols_.drive, report_);
         warn_unreachable(plan, report_);
         return plan;
     }
@@ -91,7 +93,19 @@ class Checker {
                             "name the step where the sequence really goes");
                 entry.next.reset();
             }
+            preset_by_step(*scope_.steps()[i], scope_.number_of(i));
         }
+    }
+
+    /// WITHIN and BLINKING preset the timer whenever the step is entered.
+    void preset_by_step(const ast::Step& written, std::uint8_t number) {
+        const Memory& memory = memories_[number] = memory_of(written, scope_);
+        const std::uint16_t time = memory.blink_for != 0 ? memory.time_of(0) : memory.limit;
+        Action& entry = entries_[number];
+        if (time == 0 || entry.timer) return;
+        entry.timer = time;
+        entry.timer_span = *memory.timer_span;
+        entry.timer_by_step = true;
     }
 
     void find_fault_step() {
@@ -131,6 +145,7 @@ class Checker {
             const ast::Step& written = *program_.power_up;
             plan.span = written.name.span;
             refuse_in_power_up(written);
+            add_outputs(written, plan);
             ActionBuilder builder(scope_);
             if (!written.choices.empty())
                 action = builder.build(written.choices.front().branches.front().statements);
@@ -138,6 +153,9 @@ class Checker {
                 report_.add("W006", *marked, "POWER_UP happens once by itself", "leave EVERY_SCAN out");
             }
             if (!action.next || *action.next == kPowerUp) {
+                const bool has_if = std::any_of(written.choices.begin(), written.choices.end(),
+                                                [](const ast::Choice& choice) { return !choice.bare; });
+                if (has_if) return plan;  // E064 was said
                 report_.add("E085", written.name.span, "POWER_UP does not say which step comes first",
                             "end it with NEXT := Name;");
                 return plan;
@@ -159,11 +177,13 @@ class Checker {
                 "E064", span, fmt::format("{} cannot stand in POWER_UP", what),
                 "POWER_UP happens once: commands, register values and NEXT; put the rest into a step");
         };
-        if (!written.outputs.empty()) refuse(written.outputs.front().span, "OUT");
-        if (!written.conditional.empty()) refuse(written.conditional.front().span, "OUT");
+        if (!written.conditional.empty()) refuse(written.conditional.front().span, "OUT .. WHEN");
+        if (!written.blinking.empty()) refuse(written.blinking.front().span, "BLINKING");
         if (!written.entry.empty()) refuse(written.entry.front().span, "ENTRY");
         if (written.own_error) refuse(written.own_error_span, "OWN ERROR");
         if (written.no_helper) refuse(written.no_helper_span, "NO_HELPER");
+        if (written.takes_set_points)
+            refuse(written.takes_set_points_span, "TAKES SET_POINTS, which it does by itself,");
         if (!written.terms.empty()) refuse(written.terms.front().span, "TERM");
         for (std::size_t i = 0; i < written.choices.size(); ++i) {
             const ast::Choice& choice = written.choices[i];
@@ -191,17 +211,11 @@ class Checker {
         plan.number = number;
         plan.own_error = written.own_error || number == fault_;  // E081 says it
         plan.no_helper = written.no_helper;
+        plan.entry = entries_[number].statements;
+        plan.takes_set_points = written.takes_set_points;
+        if (written.takes_set_points) refuse_entry_that_acts(entries_[number], written);
         add_outputs(written, plan);
-        add_choices(written, plan);
-        if (!written.own_error) {
-            if (fault_) {
-                plan.rules.push_back(fault_rule({}));
-            } else if (!program_.on_error) {
-                report_.add("E080", written.name.span,
-                            fmt::format("'{}' does not say what happens on ERROR", plan.name),
-                            "write ON ERROR NEXT := Fault; at the top, or OWN ERROR; in the step");
-            }
-        }
+        add_rules(written, plan);
         for (const ast::RawTerm& term : written.terms) {
             plan.terms.push_back(raw_term(term, number));
             const int step = sequencer::step_of(plan.terms.back().bytes);
@@ -218,6 +232,61 @@ class Checker {
         return plan;
     }
 
+    /// Once for each state of the step's memory; what never happens is judged where everything can.
+    void add_rules(const ast::Step& written, StepPlan& plan) {
+        plan.memory = memories_[plan.number];
+        const std::size_t states = plan.memory.states();
+        plan.rules_in.resize(states);
+        for (std::size_t state = states; state-- > 0;) {
+            memory_ = &plan.memory;
+            state_ = state;
+            scope_.see_edges(&plan.memory.edges, state);
+            plan.rules.clear();
+            add_choices(written, plan);
+            add_fault_rule(written, plan);
+            plan.rules_in[state] = plan.rules;
+        }
+        plan.rules = plan.rules_in.back();
+        scope_.see_edges(nullptr, 0);
+    }
+
+    void add_fault_rule(const ast::Step& written, StepPlan& plan) {
+        if (written.own_error) return;
+        if (fault_) {
+            plan.rules.push_back(fault_rule({}));
+        } else if (!program_.on_error) {
+            report_.add("E080", written.name.span,
+                        fmt::format("'{}' does not say what happens on ERROR", plan.name),
+                        "write ON ERROR NEXT := Fault; at the top, or OWN ERROR; in the step");
+        }
+    }
+
+    /// With what FOR and WITHIN make of a branch's condition.
+    Truth truth_of(const ast::Branch& branch, bool has_limit) {
+        const Truth at_end = truth_of_bit(kTimerZero);
+        if (!branch.condition) return has_limit ? cases_without_time(at_end) : no_error_cases();
+        const Truth own = scope_.branch_truth(*branch.condition);
+        if (!branch.timing || branch.timing->is_limit) return own;
+        return memory_->runs(state_) ? own & at_end : Truth();
+    }
+
+    /// Those of the ELSE that goes with WITHIN.
+    Truth cases_without_time(const Truth& at_end) const {
+        const Limit limit = memory_->limit_of(state_);
+        if (limit == Limit::runs) return {};
+        return limit == Limit::over ? no_error_cases() : no_error_cases() & at_end;
+    }
+
+    /// ENTRY happens in the scan that leads to the step, before it takes anything.
+    void refuse_entry_that_acts(const Action& entry, const ast::Step& written) {
+        if (entry.sends.empty() && entry.timer_point == 0 && entry.counter_point == 0) return;
+        report_
+            .add("E068", entry.span,
+                 fmt::format("this happens before '{}' takes set-points", written.name.text),
+                 "put it into a branch of the step, or into the ENTRY of the step behind it")
+            .notes.push_back({written.takes_set_points_span, "the step takes them once it is active"});
+    }
+
     void add_outputs(const ast::Step& written, StepPlan& plan) {
         std::array<Span, 4> places{};
         for (const ast::Name& name : written.outputs) {
@@ -229,6 +298,7 @@ class Checker {
         for (const ast::ConditionalOutput& conditional : written.conditional) {
             ConditionalOutput output;
             output.when = scope_.branch_truth(conditional.condition);
+            output.condition = conditional.condition.span;
             for (const ast::Name& name : conditional.outputs) {
                 const auto bit = scope_.output(name);
                 if (!bit) continue;
@@ -244,7 +314,7 @@ class Checker {
         }
         // Nothing enters it at power-up, so a term of its own must write them.
         if (plan.number == kPowerUp && plan.outputs != 0)
-            plan.conditional.push_back({plan.outputs, always()});
+            plan.conditional.push_back({plan.outputs, always(), {}});
     }
 
     /// What comes before a step's own branches, or before one of them.
@@ -271,6 +341,13 @@ class Checker {
         if (action.next == plan.number) return;  // it is where the condition leads
         enter(action, *action.next);
         const Span place = on.written->condition.span;
+        if (plan.memory.timer_span && depends_on(on.when, kTimerZero)) {
+            report_
+                .add("E073", *plan.memory.timer_span,
+                     "there is one timer, and a condition for this step tests it",
+                     "leave the step out of it with EXCEPT, or test something else")
+                .notes.push_back({place, "the condition is here"});
+        }
         Rule rule{on.when & ~earlier.taken, action, place};
         earlier.taken |= on.when;
         earlier.rules.push_back({on.when, {}, place});
@@ -283,15 +360,17 @@ class Checker {
                     Earlier earlier) {
         Truth& taken = earlier.taken;
         std::vector<Rule>& before = earlier.rules;
+        const auto& timing = choice.branches.front().timing;
+        const bool has_limit = timing && timing->is_limit;
         for (const ast::Branch& branch : choice.branches) {
             const std::size_t errors_before = report_.error_count() + scope_.faulty_names_met();
-            const Truth own = branch.condition ? scope_.branch_truth(*branch.condition) : no_error_cases();
+            const Truth own = truth_of(branch, has_limit);
             const bool condition_sound = report_.error_count() + scope_.faulty_names_met() == errors_before;
             Rule rule{own & ~taken, branch_action(branch, plan.number), place_of(branch)};
             taken |= own;
             before.push_back({own, {}, rule.condition});
             if (rule.when.none()) {
-                if (condition_sound) warn_never(branch, own, before);
+                if (condition_sound && state_ + 1 == memory_->states()) warn_never(branch, own, before);
             } else if (!rule.action.is_empty()) {
                 check_error_covered(place_of(branch), rule, plan);
                 const Span place = branch.condition ? rule.condition : rule.action.span;
@@ -301,7 +380,11 @@ class Checker {
     }
 
     static Span place_of(const ast::Branch& branch) {
-        return branch.condition ? branch.condition->span : branch.span;
+        if (!branch.condition) return branch.span;
+        Span place = branch.condition->span;
+        if (branch.timing && !branch.timing->is_limit)
+            place.length = branch.timing->span.offset + branch.timing->span.length - place.offset;
+        return place;
     }
 
     /// Notes which branches take its cases, each case once.
@@ -378,7 +461,8 @@ class Checker {
             return earlier.action.same_effect(rule.action);
         });
         const auto number = static_cast<std::size_t>(same - plan.rules.begin());
-        if (seen.claim(rule.when, number)) report_contested(rule, place, choice, number, seen);
+        const bool is_said = state_ + 1 != memory_->states() && report_.has("E070", place);
+        if (seen.claim(rule.when, number) && !is_said) report_contested(rule, place, choice, number, seen);
         seen.list.push_back({rule.when, rule.condition, choice, number});
         RulePart part{rule.when, rule.action, rule.condition};
         if (same == plan.rules.end()) {
@@ -418,46 +502,6 @@ class Checker {
         return raw;
     }
 
-    void check_raw_terms(const Plan& plan) {
-        for (const StepPlan& step : plan.steps) {
-            for (const RawTerm& raw : step.terms) check_raw_term(raw);
-        }
-        for (std::size_t i = 0; i < plan.terms.size(); ++i) {
-            const RawTerm& raw = plan.terms[i];
-            if (!sequencer::is_end(raw.bytes)) {
-                check_raw_term(raw);
-                continue;
-            }
-            if (i + 1 == plan.terms.size()) continue;
-            report_
-                .add("E091", plan.terms[i + 1].span, "no term may follow the one that ends the table",
-                     "let the TERM with STATE 63 be the last, or take it out: the compiler ends the table")
-                .notes.push_back({raw.span, "the table ends here"});
-            return;
-        }
-    }
-
-    void check_raw_term(const RawTerm& raw) {
-        const sequencer::Term term = sequencer::decode(raw.bytes);
-        if (!term.is_flex && term.fast.next_step == sequencer::kEndOfTable) {
-            report_.add("W009", raw.span, "NEXT_STATE is 63: a gateway refuses a table with this term",
-                        "write 16#3E as the fourth byte if the step is to stay");
-        } else if (term.is_flex && term.flex.reg == 0) {
-            report_.add("W009", raw.span, "register 0: a gateway refuses a table with this term",
-                        "bits 6..0 of the fourth byte name the register, 1..127");
-        } else if (const auto* drive = symbols_.drive) {
-            warn_if_not_for_drive(raw.span, term, *drive);
-        }
-    }
-
-    void warn_if_not_for_drive(Span span, const sequencer::Term& term, const registers::DriveModel& drive) {
-        const registers::Refusal why = refusal_of(drive, term);
-        if (why.empty()) return;
-        report_.add("W009", span,
-                    fmt::format("a gateway with a {} refuses a table with this term", drive.program_name),
-                    std::string(why));
-    }
-
     const ast::Program& program_;
     Scope& scope_;
     Report& report_;
@@ -465,6 +509,9 @@ class Checker {
     std::array<Action, 64> entries_;  ///< by step number
     std::optional<std::uint8_t> fault_;
     std::vector<OnCondition> on_conditions_;
+    std::array<Memory, 64> memories_;  ///< by step number
+    const Memory* memory_ = nullptr;   ///< of the step that is looked at, and its state
+    std::size_t state_ = 0;
 };
 
 }  // namespace

@@ -19,12 +19,20 @@ void check_motor_state(const Plan& plan, const Symbols& symbols, Report& report)
 
 /// What a drive that the gateway translates for makes of a program's moves: ramps, which depend on velocity
 /// and acceleration together and go into `roundings`, and orders that wait until it stands.
-void check_drive_motion(const Plan& plan, const registers::DriveModel& drive, Report& report,
+/// Set-points count with both ends of their ranges.
+void check_drive_motion(const Plan& plan, const registers::DriveModel& drive,
+                        const std::vector<DeclaredSetPoint>& points, Report& report,
                         std::vector<Rounding>& roundings);
 
 /// Registers that a program for such a drive selects and never gives a value: a JVL motor has them in its
 /// flash, the gateway begins with 0 and with the drive's own.
 void check_drive_registers(const Plan& plan, const registers::DriveModel& drive, Report& report);
+
+/// Distances that were rounded and that relative moves add up.
+void check_relative_moves(const Plan& plan, const std::vector<Rounding>& roundings, Report& report);
+
+/// Moves that a later order of the same scan makes void.
+void check_replaced_moves(const Plan& plan, Report& report);
 
 /// Limits of the motor that a program sets, although reaching them does not show in ERROR (001 §5.2.1.6).
 void check_invisible_limits(const Plan& plan, registers::Model model, Report& report);

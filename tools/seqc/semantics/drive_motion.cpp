@@ -114,11 +114,11 @@ class DriveWalk {
   public:
     using State = DriveState;
 
-    DriveWalk(const Plan& plan, const registers::DriveModel& drive, Report& report,
-              std::vector<Rounding>& roundings)
-        : drive_(drive), report_(report), roundings_(roundings) {
+    DriveWalk(const Plan& plan, const registers::DriveModel& drive,
+              const std::vector<DeclaredSetPoint>& points, Report& report, std::vector<Rounding>& roundings)
+        : drive_(drive), points_(points), report_(report), roundings_(roundings) {
         for_each_send(plan, [this](const Send& send) {
-            if (send.reg != nullptr) given_[send.reg->number].insert(send.value);
+            if (send.reg != nullptr) given_[send.reg->number].merge(written_by(send));
         });
     }
 
@@ -140,13 +140,21 @@ class DriveWalk {
     }
 
   private:
+    /// Of a set-point both ends of its range too: a ramp is longest with one end of each, shortest with the
+    /// others.
+    std::set<std::uint32_t> written_by(const Send& send) const {
+        if (send.set_point == 0) return {send.value};
+        const set_points::SetPoint& point = points_[send.set_point - 1U].point;
+        return {send.value, bits_of(point.lowest, *send.reg), bits_of(point.highest, *send.reg)};
+    }
+
     template <typename Value>
     std::set<Value> values_of(std::uint8_t number, const Send& send) const {
-        if (number == 0) return {static_cast<Value>(send.value)};
         std::set<Value> values;
         const auto found = given_.find(number);
-        if (found == given_.end()) return values;
-        for (const std::uint32_t value : found->second) values.insert(static_cast<Value>(value));
+        if (number != 0 && found == given_.end()) return values;
+        for (const std::uint32_t value : number == 0 ? written_by(send) : found->second)
+            values.insert(static_cast<Value>(value));
         return values;
     }
 
@@ -228,6 +236,7 @@ class DriveWalk {
     static constexpr registers::Model kMap = registers::Model::mac140;
 
     const registers::DriveModel& drive_;
+    const std::vector<DeclaredSetPoint>& points_;
     Report& report_;
     std::vector<Rounding>& roundings_;
     std::map<std::uint8_t, std::set<std::uint32_t>> given_;  ///< every value that a register is given
@@ -238,9 +247,10 @@ class DriveWalk {
 
 }  // namespace
 
-void check_drive_motion(const Plan& plan, const registers::DriveModel& drive, Report& report,
+void check_drive_motion(const Plan& plan, const registers::DriveModel& drive,
+                        const std::vector<DeclaredSetPoint>& points, Report& report,
                         std::vector<Rounding>& roundings) {
-    DriveWalk walk(plan, drive, report, roundings);
+    DriveWalk walk(plan, drive, points, report, roundings);
     DriveState at_power_up;
     at_power_up.known = true;
     walk_steps(plan, at_power_up, walk);

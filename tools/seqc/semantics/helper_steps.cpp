@@ -132,8 +132,8 @@ class HelperSteps {
         const StepPlan* target = step_numbered(*rule.action.next);
         StepPlan helper;
         helper.number = number;
-        helper.name = plan_.names.emplace_back(
-            free_name(fmt::format("{}_to_{}", step.name, target == nullptr ? "POWER_UP" : target->name)));
+        helper.name = plan_.names.emplace_back(free_step_name(
+            plan_.steps, fmt::format("{}_to_{}", step.name, target == nullptr ? "POWER_UP" : target->name)));
         helper.span = rule.condition.length != 0 ? rule.condition : rule.action.span;
         helper.outputs = target == nullptr ? std::uint8_t{0} : target->outputs;
         helper.own_error = step.own_error;
@@ -145,18 +145,6 @@ class HelperSteps {
             step.name);
         plan_.steps.push_back(std::move(helper));
         return number;
-    }
-
-    std::string free_name(std::string name) const {
-        constexpr std::size_t kLongestName = 56;
-        if (name.size() > kLongestName) name.resize(kLongestName);
-        const auto is_taken = [&](const std::string& wanted) {
-            return std::any_of(plan_.steps.begin(), plan_.steps.end(),
-                               [&](const StepPlan& s) { return same_name(s.name, wanted); });
-        };
-        std::string wanted = name;
-        for (int n = 2; is_taken(wanted); ++n) wanted = fmt::format("{}_{}", name, n);
-        return wanted;
     }
 
     /// Points at the branch and at the statement of it that cannot be taken back.
@@ -208,6 +196,18 @@ class HelperSteps {
 };
 
 }  // namespace
+
+std::string free_step_name(const std::vector<StepPlan>& steps, std::string name) {
+    constexpr std::size_t kLongestName = 56;
+    if (name.size() > kLongestName) name.resize(kLongestName);
+    const auto is_taken = [&](const std::string& wanted) {
+        return std::any_of(steps.begin(), steps.end(),
+                           [&](const StepPlan& s) { return same_name(s.name, wanted); });
+    };
+    std::string wanted = name;
+    for (int n = 2; is_taken(wanted); ++n) wanted = fmt::format("{}_{}", name, n);
+    return wanted;
+}
 
 void make_helper_steps(Plan& plan, Compilation& result, Report& report) {
     HelperSteps(plan, result, report).run();

@@ -203,42 +203,56 @@ class MotorWalk {
                 complain("E052", send, rule,
                          fmt::format("{} may start the motor towards an old P_SOLL: it may be in INIT here",
                                      named(send, rule)),
-                         "select it first: INIT(..); and then only the position: POSITION(P..);");
+                         fmt::format("select it first: INIT({}); and then only the position: POSITION({});",
+                                     name_of(select.selection), selected_beside(send, rule, Group::p)));
             note_init(said, state);
         } else if (select.mode == Mode::velocity && group != Group::v && may_start) {
             Diagnostic* said =
                 complain("E052", send, rule,
                          fmt::format("{} may start the motor at an old V_SOLL: it may be in INIT here",
                                      named(send, rule)),
-                         "name the velocity too: VELOCITY(V.., A..);");
+                         fmt::format("name the velocity too: VELOCITY({}, {});",
+                                     selected_beside(send, rule, Group::v), name_of(select.selection)));
             note_init(said, state);
         } else if (select.mode == Mode::position && group == Group::p && state.stopped) {
             warn_stopped(send, rule, state);
         }
     }
 
-    /// "POSITION(V1) names a velocity (Fast) and no position, and"
+    /// As the program calls the register.
+    std::string name_of(const Selection& selection) const {
+        constexpr std::string_view kLetters = "PVATLZ";
+        const std::string reg =
+            fmt::format("{}{}", kLetters.at(static_cast<std::size_t>(selection.group)), selection.index);
+        const auto named = std::find_if(symbols_.motor_names.begin(), symbols_.motor_names.end(),
+                                        [&](const MotorName& variable) { return variable.reg == reg; });
+        return named == symbols_.motor_names.end() ? reg : named->name;
+    }
+
+    /// What the same statement selects of a group, or "P..".
+    std::string selected_beside(const Send& send, const Rule& rule, Group group) const {
+        for (const Send& other : rule.action.sends) {
+            const auto also = select_command(other.command);
+            if (other.reg == nullptr && other.span.offset == send.span.offset && also &&
+                also->selection.group == group)
+                return name_of(also->selection);
+        }
+        return group == Group::p ? "P.." : "V..";
+    }
+
+    /// "POSITION(Fast) names a velocity and no position, so it"
     std::string named(const Send& send, const Rule& rule) const {
         constexpr std::array<std::string_view, 6> kKinds = {"a position", "a velocity",    "an acceleration",
                                                             "a torque",   "a load factor", "a window"};
         const auto select = select_command(send.command);
-        std::string shown = describe_command(send.command);
-        const Group wanted = select->mode == Mode::position ? Group::p : Group::v;
-        const bool has_wanted =
-            std::any_of(rule.action.sends.begin(), rule.action.sends.end(), [&](const Send& other) {
-                const auto also = select_command(other.command);
-                return other.reg == nullptr && other.span.offset == send.span.offset && also &&
-                       also->selection.group == wanted;
-            });
-        if (has_wanted) return shown;
-        const std::string_view reg = std::string_view(shown).substr(shown.find('(') + 1, 2);
-        std::string text =
-            fmt::format("{} names {}", shown, kKinds.at(static_cast<std::size_t>(select->selection.group)));
-        for (const MotorName& variable : symbols_.motor_names) {
-            if (variable.reg == reg) text += fmt::format(" ({})", variable.name);
-        }
-        return text +
-               (select->mode == Mode::position ? " and no position, so it" : " and no velocity, so it");
+        const bool to_position = select->mode == Mode::position;
+        std::string shown =
+            fmt::format("{}({})", to_position ? "POSITION" : "VELOCITY", name_of(select->selection));
+        const std::string wanted = selected_beside(send, rule, to_position ? Group::p : Group::v);
+        if (!wanted.ends_with("..")) return shown;
+        return fmt::format("{} names {} and no {}, so it", shown,
+                           kKinds.at(static_cast<std::size_t>(select->selection.group)),
+                           to_position ? "position" : "velocity");
     }
 
     void warn_stopped(const Send& send, const Rule& rule, const MotorState& state) {

@@ -50,6 +50,19 @@ class Groups {
     std::map<std::string, std::pair<const ast::Name*, Steps>> groups_;
 };
 
+/// In the step that it leads to it does nothing.
+void warn_if_nowhere(const OnCondition& on, Scope& scope) {
+    Steps left = on.steps;
+    for (std::size_t i = 0; i < scope.steps().size(); ++i) {
+        if (same_name(scope.steps()[i]->name.text, on.written->next.name.text))
+            left.reset(scope.number_of(i));
+    }
+    if (left.any() || on.written->only.empty() || on.steps.none()) return;
+    scope.report().add("W001", on.written->condition.span,
+                       "this condition does nothing: the step is where it leads",
+                       "name in IN the steps that it is to end");
+}
+
 Steps all_steps(const Scope& scope) {
     Steps steps;
     for (std::size_t i = 0; i < scope.steps().size(); ++i) steps.set(scope.number_of(i));
@@ -76,6 +89,7 @@ std::vector<OnCondition> on_conditions(const ast::Program& program, Scope& scope
             on.steps = groups.all_of(written.only);
         }
         on.steps &= ~groups.all_of(written.except);
+        warn_if_nowhere(on, scope);
         conditions.push_back(on);
     }
     return conditions;

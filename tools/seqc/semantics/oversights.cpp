@@ -125,23 +125,49 @@ class Oversights {
                     fmt::format("write {}", how));
     }
 
+    bool has_lost_step() const {
+        std::bitset<64> entered;
+        for_each_rule([&](const StepPlan& step, const Rule& rule) {
+            if (leaves(step, rule)) entered.set(*rule.action.next);
+        });
+        return std::any_of(plan_.steps.begin(), plan_.steps.end(), [&](const StepPlan& step) {
+            return step.number != 0 && !step.is_helper && !step.is_copy &&
+                   !any_copy(step, [&](const StepPlan& copy) { return entered.test(copy.number); });
+        });
+    }
+
+    /// A step and its copies are one.
+    template <class Test>
+    bool any_copy(const StepPlan& step, const Test& test) const {
+        return std::any_of(plan_.steps.begin(), plan_.steps.end(), [&](const StepPlan& other) {
+            return (&other == &step || (other.is_copy && other.span == step.span)) && test(other);
+        });
+    }
+
     void check_exits() {
         std::bitset<64> entered;
         for_each_rule([&](const StepPlan& step, const Rule& rule) {
             if (step.number != 0 && leaves(step, rule)) entered.set(*rule.action.next);
         });
-        for (const StepPlan& step : plan_.steps) {
-            const bool leads_on = std::any_of(step.rules.begin(), step.rules.end(), [&](const Rule& rule) {
-                return leaves(step, rule) && (rule.when & ~truth_of_bit(kErrorBit)).any();
+        const Truth no_error = ~truth_of_bit(kErrorBit);
+        const auto leads_on = [&](const StepPlan& step) {
+            return std::any_of(step.rules.begin(), step.rules.end(), [&](const Rule& rule) {
+                return leaves(step, rule) && (step.own_error || (rule.when & no_error).any());
             });
-            const bool under_error =
-                step.own_error && std::any_of(step.rules.begin(), step.rules.end(),
-                                              [&](const Rule& rule) { return leaves(step, rule); });
-            const bool is_empty = step.outputs == 0 && step.conditional.empty() &&
-                                  std::all_of(step.rules.begin(), step.rules.end(), [](const Rule& rule) {
-                                      return (rule.when & ~truth_of_bit(kErrorBit)).none();
-                                  });
-            if (leads_on || under_error || is_empty || !entered.test(step.number)) continue;
+        };
+        const auto does_something = [&](const StepPlan& step) {
+            return step.outputs != 0 || !step.conditional.empty() ||
+                   (!step.own_error && !step.entry.empty()) ||
+                   std::any_of(step.rules.begin(), step.rules.end(),
+                               [&](const Rule& rule) { return (rule.when & no_error).any(); });
+        };
+        for (const StepPlan& step : plan_.steps) {
+            const bool is_entered =
+                any_copy(step, [&](const StepPlan& copy) { return entered.test(copy.number); });
+            // An empty step is an end, unless the program goes on in a step that nothing leads to.
+            if (step.is_copy || !is_entered || any_copy(step, leads_on) ||
+                (!any_copy(step, does_something) && !has_lost_step()))
+                continue;
             stuck_.set(step.number);
             report_.add("W019", step.span,
                         fmt::format("'{}' is entered and never left{}", step.name,

@@ -27,12 +27,26 @@ std::optional<std::size_t> address_number(std::string_view text, char direction)
         address.size() > prefix.size() + 2) {
         return std::nullopt;
     }
+    const bool has_zero_before = address.size() > prefix.size() + 1 && address[prefix.size()] == '0';
+    if (has_zero_before) return std::nullopt;
     std::size_t number = 0;
     for (char c : address.substr(prefix.size())) {
         if (c < '0' || c > '9') return std::nullopt;
         number = number * 10 + static_cast<std::size_t>(c - '0');
     }
     return number;
+}
+
+/// I1, DI1, X1, O1, DO1: how other controllers call their terminals.
+bool is_terminal_elsewhere(std::string_view name) {
+    constexpr auto kTerminals = std::to_array<std::string_view>(
+        {"I", "DI", "X", "E", "INPUT", "IN_", "O", "DO", "Q", "Y", "A", "OUTPUT", "OUT_"});
+    const std::size_t letters = std::min(name.find_first_of("0123456789"), name.size());
+    const bool has_digits_only = name.find_first_not_of("0123456789", letters) == name.npos;
+    const std::string word = upper(name.substr(0, letters));
+    const bool is_word_alone = letters == name.size();
+    return has_digits_only && std::find(kTerminals.begin(), kTerminals.end(), word) != kTerminals.end() &&
+           (!is_word_alone || word == "INPUT" || word == "OUTPUT");
 }
 
 std::string addresses(char direction, std::size_t count) {
@@ -44,7 +58,7 @@ std::string addresses(char direction, std::size_t count) {
 }  // namespace
 
 Scope::Scope(const ast::Program& program, std::string_view source, Report& report, Compilation& result)
-    : source_(source), report_(report), result_(result) {
+    : source_(source), report_(report), result_(result), constants_(report) {
     for (std::size_t i = 0; i < kInputs; ++i) result.symbols.inputs[i] = fmt::format("IN{}", i);
     for (std::size_t i = 0; i < kOutputs; ++i) result.symbols.outputs[i] = fmt::format("OUT{}", i);
     result.symbols.program = program.name.text;
@@ -52,6 +66,10 @@ Scope::Scope(const ast::Program& program, std::string_view source, Report& repor
     scale_missing_ = program.scale_missing && !program.scale;
     motor_known_ = program.motor_missing;
     for (std::string_view name : program.faulty_names) faulty_.insert(upper(name));
+    for (const ast::Use& use : program.uses) {
+        if (use.declares) declared_.emplace(use.span.offset, declared_.size());
+    }
+    for (const ast::Sequence& sequence : program.sequences) sequences_.push_back(sequence.name.text);
     declare_motor(program);
     declare_scale(program);
     declare_steps(program);
@@ -59,7 +77,9 @@ Scope::Scope(const ast::Program& program, std::string_view source, Report& repor
     declare_io(program.outputs, outputs_, 'Q', kOutputs);
     for (const Variable& v : inputs_) result.symbols.inputs[v.bit] = v.name;
     for (const Variable& v : outputs_) result.symbols.outputs[v.bit] = v.name;
+    declare_constants(program);
     declare_motor_variables(program);
+    declare_set_points(program);
 }
 
 const Scope::Variable* Scope::find(const std::vector<Variable>& variables, std::string_view name) {
@@ -116,7 +136,21 @@ void Scope::declare_steps(const ast::Program& program) {
     number_steps();
 }
 
+bool Scope::stands_before(Span a, Span b) const {
+    const auto first = declared_.find(a.offset);
+    const auto second = declared_.find(b.offset);
+    if (first == declared_.end() || second == declared_.end()) return a.offset < b.offset;
+    return first->second < second->second;
+}
+
 bool Scope::is_new_name(const ast::Name& name) {
+    const auto refuse_twice = [&](Span other) {
+        const bool is_later = stands_before(other, name.span);
+        report_
+            .add("E020", is_later ? name.span : other, fmt::format("'{}' is declared twice", name.text),
+                 "choose another name")
+            .notes.push_back({is_later ? other : name.span, "the first declaration is here"});
+    };
     const std::string_view text = name.text;
     if (address_number(text, 'I') || address_number(text, 'Q') || registers::find(model_, text) != nullptr) {
         report_.add(
@@ -127,14 +161,15 @@ bool Scope::is_new_name(const ast::Name& name) {
         faulty_.insert(upper(text));
         return false;
     }
+    if (const ast::Constant* earlier = constants_.find(text)) {
+        refuse_twice(earlier->name.span);
+        faulty_.insert(upper(text));
+        return false;
+    }
     for (const auto* variables : {&inputs_, &outputs_, &motor_variables_}) {
         const Variable* earlier = find(*variables, text);
         if (earlier == nullptr) continue;
-        const bool later = earlier->span.offset < name.span.offset;
-        report_
-            .add("E020", later ? name.span : earlier->span, fmt::format("'{}' is declared twice", text),
-                 "choose another name")
-            .notes.push_back({later ? earlier->span : name.span, "the first declaration is here"});
+        refuse_twice(earlier->span);
         return false;
     }
     return true;
@@ -167,6 +202,19 @@ void Scope::declare_io(const std::vector<ast::Variable>& declared, std::vector<V
     }
 }
 
+void Scope::declare_constants(const ast::Program& program) {
+    for (const ast::Constant& constant : program.constants) {
+        if (!is_new_name(constant.name)) continue;
+        if (is_known_unit(constant.name.text) || (length_ && same_name(length_->name, constant.name.text))) {
+            report_.add("E011", constant.name.span, fmt::format("'{}' is a unit", constant.name.text),
+                        "choose another name");
+        } else if (constants_.declare(constant)) {
+            continue;
+        }
+        faulty_.insert(upper(constant.name.text));
+    }
+}
+
 void Scope::declare_motor_variables(const ast::Program& program) {
     for (const ast::Variable& variable : program.motor_variables) {
         const registers::Register* target =
@@ -188,7 +236,11 @@ void Scope::declare_motor_variables(const ast::Program& program) {
         MotorName& named = result_.symbols.motor_names.emplace_back();
         named = {std::string(variable.name.text), std::string(target->name), target->number, {}};
         if (!variable.value) continue;
-        if (const auto bits = value(*variable.value, *target, shown)) {
+        constants_.name_registers(true);
+        const auto bits = value(*variable.value, *target, shown);
+        constants_.name_registers(false);
+        if (bits) {
+            declare_value_of(variable, *target, *bits);
             const Span first = variable.name.span;
             const Span last = variable.value->span;
             initial_values_.push_back(
@@ -196,6 +248,20 @@ void Scope::declare_motor_variables(const ast::Program& program) {
             named.initial = static_cast<std::int64_t>(number_of_bits(*bits, target->format));
         }
     }
+}
+
+/// Values below may count on what the register really gets, in the unit of its own value.
+void Scope::declare_value_of(const ast::Variable& variable, const registers::Register& reg,
+                             std::uint32_t bits) {
+    const auto written = constants_.worked_out(*variable.value, &reg, model_);
+    if (!written || written->is_raw) return;
+    const auto per_unit =
+        raw_per_unit(reg, model_, length_, written->is_time ? std::string_view("ms") : written->unit.text);
+    if (!per_unit) return;
+    ast::Value real = *written;
+    real.number = number_of_bits(bits, reg.format) / *per_unit;
+    real.span = variable.value->span;
+    constants_.declare_register(variable.name, real);
 }
 
 bool Scope::is_faulty(std::string_view name) {
@@ -217,10 +283,21 @@ std::optional<std::uint8_t> Scope::step(const ast::Name& name) {
         if (numbers_[i] <= kLastNamed) names.push_back(steps_[i]->name.text);
     }
     std::string help = suggestion(name.text, names);
-    if (help.empty())
-        help = fmt::format("write STEP {}: ... END_STEP, or name one of the steps there are", name.text);
+    if (help.empty() || std::find(sequences_.begin(), sequences_.end(), name.text) != sequences_.end())
+        help = help_for_step(name.text);
     report_.add("E021", name.span, fmt::format("there is no step '{}'", name.text), help);
     return std::nullopt;
+}
+
+std::string Scope::help_for_step(std::string_view name) const {
+    for (std::string_view sequence : sequences_) {
+        const bool is_it = same_name(sequence, name);
+        if (is_it || upper(name).starts_with(upper(sequence) + "_"))
+            return fmt::format("{}: write CALL {}(..); NEXT := Step;",
+                               is_it ? "it is a SEQUENCE" : "the steps of a SEQUENCE are entered through it",
+                               sequence);
+    }
+    return fmt::format("write STEP {}: ... END_STEP, or name one of the steps there are", name);
 }
 
 std::string Scope::how_to_declare(std::string_view name, const std::vector<Variable>& variables,
@@ -256,6 +333,11 @@ std::optional<std::size_t> Scope::signal(const ast::Name& name, const std::vecto
     if (input) names.insert(names.end(), {"INPOS", "ERROR", "TRUE", "FALSE"});
     std::string help = suggestion(name.text, names);
     if (help.empty()) help = how_to_declare(name.text, variables, direction, count);
+    if (!input && (same_name(name.text, "NONE") || same_name(name.text, "NOTHING")))
+        help = "leave OUT out: what no OUT of the step names is off";
+    if (input && is_terminal_elsewhere(name.text)) help = "inputs are IN0 to IN5, and the names of VAR_INPUT";
+    if (!input && is_terminal_elsewhere(name.text))
+        help = "outputs are OUT0 to OUT3, and the names of VAR_OUTPUT";
     if (other) {
         Diagnostic& d = report_.add(
             "E023", name.span, fmt::format("'{}' is an {}", name.text, input ? "output" : "input"),
@@ -302,6 +384,9 @@ Truth Scope::truth_of(const ast::Expression& expression) {
             const auto bit = input(expression.name);
             return bit ? truth_of_bit(*bit) : Truth();
         }
+        case Kind::rising:
+        case Kind::falling:
+            return truth_of_edge(expression);
         case Kind::negation:
             return ~truth_of(expression.operands.front());
         case Kind::all_of:
@@ -316,6 +401,24 @@ Truth Scope::truth_of(const ast::Expression& expression) {
             return truth;
     }
     return truth;
+}
+
+Truth Scope::truth_of_edge(const ast::Expression& expression) {
+    const auto bit = input(expression.name);
+    if (!bit) return {};
+    if (edges_ == nullptr) {
+        report_.add("E066", expression.span, "an edge can be seen only by a branch of a step",
+                    "write IF R_TRIG(..) in the step; what many steps have in common, OUT and TERM take the "
+                    "input itself");
+        return {};
+    }
+    const bool rising = expression.kind == ast::Expression::Kind::rising;
+    for (std::size_t i = 0; i < edges_->size(); ++i) {
+        const Edge& edge = (*edges_)[i];
+        if (edge.bit == *bit && edge.rising == rising)
+            return Memory::is_armed(armed_, i) ? edge.seen() : Truth();
+    }
+    return {};
 }
 
 Truth Scope::branch_truth(const ast::Expression& condition) {

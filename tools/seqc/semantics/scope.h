@@ -8,12 +8,22 @@
 #include <vector>
 
 #include "diagnostics/report.h"
+#include "semantics/constants.h"
 #include "semantics/model.h"
 #include "semantics/units.h"
 #include "seqc/seqc.h"
 #include "syntax/ast.h"
 
 namespace nplc::seqc {
+
+/// SET_POINT, and what became of it.
+struct DeclaredSetPoint {
+    const ast::SetPoint* written = nullptr;
+    set_points::SetPoint point;
+    const registers::Register* reg = nullptr;  ///< of a motor's register
+    bool is_decided = false;                   ///< it is known what it is for
+    bool is_sound = true;                      ///< nothing was reported
+};
 
 /// The names of a program and the motor it is for.
 class Scope {
@@ -47,11 +57,29 @@ class Scope {
     bool is_input(std::string_view name) const { return find(inputs_, name) != nullptr; }
     bool is_step(std::string_view name) const;
     bool is_output(std::string_view name) const { return find(outputs_, name) != nullptr; }
+    const ast::Constant* constant(std::string_view name) const { return constants_.find(name); }
+    /// "a velocity", by the unit of a value; empty where the unit says nothing.
+    std::string_view kind_of(const ast::Value& value) const;
 
+    /// What a value comes to, its names looked up; reports what is wrong with it. `reg`: whose value it is.
+    std::optional<ast::Value> worked_out(const ast::Value& value, const registers::Register* reg = nullptr);
     /// The bits to write, after unit, range and rounding; reports what does not fit.
     /// `shown` is what the program calls the register.
-    std::optional<std::uint32_t> value(const ast::Value& value, const registers::Register& reg,
+    std::optional<std::uint32_t> value(const ast::Value& written, const registers::Register& reg,
                                        std::string_view shown);
+
+    /// What a statement takes from a set-point: its number, 1 and on. The first use of one without AT says
+    /// what it is for. 0: it was reported why not.
+    bool is_set_point(const ast::Value& value) const;
+    std::uint8_t set_point_for(const ast::Value& value, set_points::ValueKind kind,
+                               const registers::Register* reg);
+    const set_points::SetPoint& set_point(std::uint8_t number) const {
+        return set_points_[number - 1U].point;
+    }
+    /// In order of declaration, those that nothing uses included.
+    const std::vector<DeclaredSetPoint>& set_points() const { return set_points_; }
+    /// Reports a constant for the register of a set-point.
+    bool refuse_write(const registers::Register& reg, Span span);
 
     /// Reports what the drive cannot do; true if there is nothing to report.
     bool is_for_drive(const Send& send);
@@ -59,6 +87,12 @@ class Scope {
     /// Register values of VAR_MOTOR, in order.
     const std::vector<Send>& initial_values() const { return initial_values_; }
 
+    /// What R_TRIG and F_TRIG mean from now on: which of these edges are armed. Null: nothing, it is
+    /// reported.
+    void see_edges(const std::vector<Edge>* edges, std::size_t armed) {
+        edges_ = edges;
+        armed_ = armed;
+    }
     Truth truth_of(const ast::Expression& expression);
     /// What a branch with this condition asks for: without ERROR unless it names it.
     Truth branch_truth(const ast::Expression& condition);
@@ -72,6 +106,7 @@ class Scope {
     };
 
     static const Variable* find(const std::vector<Variable>& variables, std::string_view name);
+    Truth truth_of_edge(const ast::Expression& expression);
     void declare_motor(const ast::Program& program);
     void declare_scale(const ast::Program& program);
     void declare_steps(const ast::Program& program);
@@ -79,11 +114,26 @@ class Scope {
     std::optional<std::uint8_t> written_number(const ast::Step& step);
     void declare_io(const std::vector<ast::Variable>& declared, std::vector<Variable>& variables,
                     char direction, std::size_t count);
+    void declare_constants(const ast::Program& program);
+    void declare_value_of(const ast::Variable& variable, const registers::Register& reg, std::uint32_t bits);
     void declare_motor_variables(const ast::Program& program);
+    void declare_set_points(const ast::Program& program);
+    void declare_at(DeclaredSetPoint& declared, std::uint8_t number);
+    std::optional<ast::SetPoint> worked_out(const ast::SetPoint& written, const registers::Register* reg);
+    bool decide(DeclaredSetPoint& declared, set_points::ValueKind kind, const registers::Register* reg);
+    bool is_for_drive_within(const ast::SetPoint& written, const registers::Register& reg, std::int32_t low,
+                             std::int32_t high);
+    bool decide_register(DeclaredSetPoint& declared, const registers::Register& reg);
+    bool decide_preset(DeclaredSetPoint& declared);
+    bool is_sound_range(DeclaredSetPoint& declared);
     bool is_new_name(const ast::Name& name);
+    /// In the program as its INCLUDEs put it together.
+    bool stands_before(Span a, Span b) const;
+    std::string help_for_step(std::string_view name) const;
     bool is_faulty(std::string_view name);
     void note_value(Diagnostic& diagnostic, const ast::Value& value, std::string_view shown) const;
     std::string unit_help(const registers::Register& reg, std::string_view unit) const;
+    void report_no_value(const ast::Name& name, const registers::Register* reg);
     void report_no_register(const ast::Name& name);
     std::optional<std::size_t> signal(const ast::Name& name, const std::vector<Variable>& variables,
                                       char direction, std::size_t count);
@@ -115,13 +165,22 @@ class Scope {
     bool steps_missing_ = false;
     bool names_missing_ = false;
     bool scale_missing_ = false;
+    std::unordered_map<std::uint32_t, std::size_t> declared_;  ///< the order of declarations, by offset
+    std::vector<std::string_view> sequences_;
     std::vector<Variable> inputs_;
     std::vector<Variable> outputs_;
     std::vector<Variable> motor_variables_;
+    Constants constants_;
     std::unordered_set<std::string> faulty_;  ///< declared, but with a mistake; upper case
     std::size_t faulty_names_met_ = 0;
     std::vector<Send> initial_values_;
+    const std::vector<Edge>* edges_ = nullptr;
+    std::size_t armed_ = 0;
+    std::vector<DeclaredSetPoint> set_points_;
 };
+
+/// A number as a register holds it.
+std::uint32_t bits_of(std::int32_t number, const registers::Register& reg);
 
 /// The number that raw bits stand for in a register.
 double number_of_bits(double bits, registers::Format format);

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "registers/details.h"
 #include "semantics/commands.h"
 #include "semantics/drive.h"
 #include "semantics/motors.h"
@@ -23,6 +26,14 @@ std::string limit_text(double value) {
     if (std::fabs(value) >= kShownWhole || value == std::trunc(value))
         return fmt::format("{:.0f}", std::trunc(value));
     return fmt::format("{:.6g}", value);
+}
+
+/// "it takes INIT_MODE, V_MODE and others, or a constant from above"
+std::string some_of(std::span<const std::string_view> names) {
+    constexpr std::size_t kMost = 6;
+    const auto shown = names.first(std::min(names.size(), kMost));
+    return fmt::format("it takes {}{}, or a constant from above", fmt::join(shown, ", "),
+                       shown.size() < names.size() ? " and others of the register map" : "");
 }
 
 /// P9 and the like: nothing that a misspelling could explain.
@@ -83,7 +94,8 @@ void Scope::note_drive_value(const ast::Value& value, const Register& reg, std::
         fmt::format("{} := {} is {}, on a {} {} ({:.6g}{}{}, {:+.3f} %)", shown_name, text(value.span),
                     static_cast<std::int64_t>(number_of_bits(bits, reg.format)), motor_name(),
                     text_of(*drive), drive->raw / per_unit, unit.empty() ? "" : " ", unit, error * 100);
-    result_.roundings.push_back({value.span, what});
+    result_.roundings.push_back(
+        {value.span, what, exact - drive->raw, per_unit, std::string(unit), exact < 0});
     if (std::fabs(error) <= kWorthAWarning) return;
     Diagnostic& d =
         report_.add("W002", value.span, fmt::format("the drive is too coarse for this value: {}", what),
@@ -101,6 +113,9 @@ void Scope::note_declaration(Diagnostic& diagnostic, std::string_view name) cons
 /// What a value's limits rest on: the register behind a name, the length behind a unit.
 void Scope::note_value(Diagnostic& diagnostic, const ast::Value& value, std::string_view shown) const {
     note_declaration(diagnostic, shown);
+    if (const ast::Constant* constant = constants_.find(value.name.text))
+        diagnostic.notes.push_back({constant->name.span, fmt::format("'{}' is {}", constant->name.text,
+                                                                     text(constant->value.span))});
     if (!length_ || !begins_with(value.unit.text, length_->name)) return;
     diagnostic.notes.push_back({scale_span_, fmt::format("1 rev is {:.6g} {} by this SCALE",
                                                          length_->per_revolution, length_->name)});
@@ -169,7 +184,11 @@ void Scope::report_no_register(const ast::Name& name) {
     if (mode_named(name.text))
         help = fmt::format("{0} is a command: select a register that holds the value, as in POSITION(P1)",
                            upper(name.text));
-    if (help.empty()) help = "declare it under VAR_MOTOR, or use the manual's name or REG(number)";
+    if (help.empty())
+        help =
+            "declare it under VAR_MOTOR, or use the manual's name or REG(number); an output is declared "
+            "under "
+            "VAR_OUTPUT, and OUT, SET or RESET switches it";
     report_.add("E040", name.span, message, help);
 }
 
@@ -193,9 +212,66 @@ const Register* Scope::reg(const ast::Value& number) {
     return nullptr;
 }
 
-std::optional<std::uint32_t> Scope::value(const ast::Value& value, const Register& reg,
+std::optional<ast::Value> Scope::worked_out(const ast::Value& value, const Register* reg) {
+    if (value.kind == ast::Value::Kind::literal && constants_.is_empty()) return value;
+    auto result = constants_.worked_out(value, reg, model_);
+    if (!result && constants_.unknown() != nullptr && !is_faulty(constants_.unknown()->text))
+        report_no_value(*constants_.unknown(), reg);
+    for (const Span made_good : constants_.registers_met()) {
+        for (Rounding& rounding : result_.roundings)
+            rounding.is_made_good = rounding.is_made_good || rounding.span == made_good;
+    }
+    return result;
+}
+
+std::string_view Scope::kind_of(const ast::Value& value) const {
+    constexpr std::pair<std::string_view, std::string_view> kKinds[] = {
+        {"P1", "a position"}, {"V1", "a velocity"}, {"A1", "an acceleration"}};
+    if (value.unit.text.empty()) return {};
+    for (const auto& [name, kind] : kKinds) {
+        const Register* reg = registers::find(model_, name);
+        if (reg != nullptr && raw_per_unit(*reg, model_, length_, value.unit.text)) return kind;
+    }
+    return {};
+}
+
+/// A name where a value belongs.
+void Scope::report_no_value(const ast::Name& name, const Register* reg) {
+    const std::string_view text = name.text;
+    std::vector<std::string_view> names = constants_.names();
+    const std::size_t constants = names.size();
+    if (reg != nullptr) {
+        for (const registers::Field& field : registers::fields_of(model_, reg->number)) {
+            if (field.width == 1 || field.values.empty()) names.push_back(field.name);
+            for (const registers::NamedValue& one : field.values) names.push_back(one.name);
+        }
+    }
+    std::string help = suggestion(text, names);
+    if (find_register(text) != nullptr)
+        help =
+            "only constants can be written; a register's value is brought in by selecting it, as in "
+            "POSITION(P1)";
+    else if (is_step(text))
+        help = fmt::format("a step is named with NEXT := {};", text);
+    else if (is_input(text) || is_output(text))
+        help = "a value is a number, a constant, or a mode or bit of the register";
+    else if (help.empty() && names.size() > constants)
+        help = some_of(std::span(names).subspan(constants));
+    else if (help.empty())
+        help = fmt::format("declare it above: CONST {} := value;", text);
+    report_.add("E021", name.span,
+                reg != nullptr ? fmt::format("there is no constant '{}', and {} has no value of that name",
+                                             text, reg->name)
+                               : fmt::format("there is no constant '{}'", text),
+                help);
+}
+
+std::optional<std::uint32_t> Scope::value(const ast::Value& written, const Register& reg,
                                           std::string_view shown_name) {
-    if (!is_on_drive(reg, value.span)) return std::nullopt;
+    if (!is_on_drive(reg, written.span)) return std::nullopt;
+    const auto result = worked_out(written, &reg);
+    if (!result) return std::nullopt;
+    const ast::Value& value = *result;
     double number = value.number;
     std::string_view unit = value.unit.text;
     if (value.is_time) unit = "ms";
@@ -205,7 +281,7 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& value, const Registe
         Diagnostic& d =
             report_.add("E043", value.unit.text.empty() ? value.span : value.unit.span,
                         fmt::format("{} cannot be given in '{}'", shown_name, unit), unit_help(reg, unit));
-        note_declaration(d, shown_name);
+        note_value(d, value, shown_name);
         return std::nullopt;
     }
     if (value.is_raw) {
@@ -241,6 +317,18 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& value, const Registe
     return bits;
 }
 
+namespace {
+
+/// 15.000 rpm/s
+bool meant_as_thousands(std::string_view written) {
+    const std::size_t point = written.find('.');
+    if (point == std::string_view::npos || point == 0 || written.front() == '0') return false;
+    const std::size_t end = std::min(written.find_first_not_of("0123456789", point + 1), written.size());
+    return end - point == 4;
+}
+
+}  // namespace
+
 /// False if nothing is left of the value: a motor without acceleration, say, would never stop.
 bool Scope::note_rounding(const ast::Value& value, std::string_view shown_name, double exact, double raw,
                           double per_unit) {
@@ -256,15 +344,19 @@ bool Scope::note_rounding(const ast::Value& value, std::string_view shown_name, 
         Diagnostic& d = report_.add(
             "E042", value.span,
             fmt::format("{} is too small for {}: it would become 0", text(value.span), shown_name),
-            step + "; write at least that, or 0 if you mean 0");
+            meant_as_thousands(text(value.span))
+                ? "a point is a decimal point here: write thousands without one"
+                : step + "; write at least that, or 0 if you mean 0");
         note_value(d, value, shown_name);
         return false;
     }
-    result_.roundings.push_back({value.span, what});
+    result_.roundings.push_back({value.span, what, exact - raw, per_unit, std::string(unit), exact < 0});
     if (std::fabs(error) > kWorthAWarning) {
         Diagnostic& d = report_.add("W002", value.span,
                                     fmt::format("the register is too coarse for this value: {}", what),
-                                    step + "; write a multiple of it, or live with the difference");
+                                    meant_as_thousands(text(value.span))
+                                        ? "a point is a decimal point here: write thousands without one"
+                                        : step + "; write a multiple of it, or live with the difference");
         note_value(d, value, shown_name);
     }
     return true;

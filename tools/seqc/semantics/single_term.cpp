@@ -66,6 +66,10 @@ class TermEncoder {
                                   "write a TERM for each case");
             case Kind::negation:
                 return add_negation(part);
+            case Kind::rising:
+            case Kind::falling:
+                scope_.truth_of(part);  // it is reported
+                return;
             default:
                 return add_literal(part, true);
         }
@@ -100,6 +104,11 @@ class TermEncoder {
     }
 
     void add_statement(const Statement& statement) {
+        if (scope_.is_set_point(statement.value)) {
+            scope_.report().add("E094", statement.value.span, "a TERM cannot take a set-point",
+                                "write it as a branch: IF ... THEN ... END_IF");
+            return;
+        }
         ActionBuilder builder(scope_);
         const Action action = builder.build({statement});
         if (const auto marked = builder.marked()) {
@@ -108,6 +117,14 @@ class TermEncoder {
         }
         sequencer::FastStatement& fast = term_.fast;
         if (action.next && once(next_, statement, "NEXT is set")) fast.next_step = *action.next;
+        if (statement.kind == Statement::Kind::call || statement.kind == Statement::Kind::go_back) {
+            scope_.report().add("E067", statement.span, "a TERM calls no SEQUENCE", "write a branch instead");
+        }
+        if (action.switches()) {
+            scope_.report().add("E075", statement.span,
+                                "a TERM does not set and reset outputs: it writes all four",
+                                "write OUT with all that are on, or a branch instead of the TERM");
+        }
         for (const Send& send : action.sends) add_send(send);
         if (action.timer) add_preset(statement, false, *action.timer);
         if (action.counter) add_preset(statement, true, *action.counter);

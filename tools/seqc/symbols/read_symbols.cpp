@@ -68,6 +68,11 @@ class Node {
         return value;
     }
 
+    bool flag() const {
+        if (!json_.is_boolean()) fail("this must be true or false");
+        return json_.get<bool>();
+    }
+
     double positive() const {
         const double value = json_.is_number() ? json_.get<double>() : 0;
         if (!(value > 0)) fail("this must be a number above 0");
@@ -126,6 +131,8 @@ void read_steps(const Node& node, SymbolFile& file) {
         const Node written = step["name"];
         name = number == 0 && written.text() == "POWER_UP" ? written.word() : written.name();
         different.add(written, name);
+        if (step.has("copy_of"))
+            file.symbols.copy_of[number] = static_cast<std::uint8_t>(step["copy_of"].whole(0, 62));
         if (step.has("made_for")) file.symbols.made_for[number] = step["made_for"].text();
         file.step_lines[number] = static_cast<std::uint32_t>(step["line"].whole(0, kMostLines));
         file.step_outputs[number] = static_cast<std::uint8_t>(step["outputs"].whole(0, 15));
@@ -142,6 +149,44 @@ void read_registers(const Node& node, Symbols& symbols, Different& different) {
         different.add(entry["name"], named.name);
         symbols.motor_names.push_back(std::move(named));
     }
+}
+
+set_points::SetPoint read_set_point(const Node& node) {
+    using set_points::ValueKind;
+    set_points::SetPoint point;
+    point.name = node["name"].name();
+    if (node.has("preset")) {
+        const std::string preset = node["preset"].text();
+        if (preset != "timer" && preset != "counter") node["preset"].fail("this must be timer or counter");
+        point.kind = preset == "timer" ? ValueKind::timer : ValueKind::counter;
+    } else {
+        point.reg = static_cast<std::uint8_t>(node["register"].whole(1, kLastRegister));
+        point.longword = node["longword"].flag();
+        point.at_power_up = node["at_power_up"].flag();
+    }
+    point.unit = node["unit"].text();
+    point.unit_code = static_cast<std::uint8_t>(node["unit_code"].whole(0, 255));
+    point.steps_per_unit = node["steps_per_unit"].positive();
+    if (node.has("step")) point.step = node["step"].positive();
+    const auto number = [&](const char* name) {
+        return static_cast<std::int32_t>(node[name].whole(INT32_MIN, INT32_MAX));
+    };
+    point.initial = number("initial");
+    point.lowest = number("lowest");
+    point.highest = number("highest");
+    for (const Node& term : node["terms"].list())
+        point.places.push_back(static_cast<std::uint16_t>(term.whole(0, UINT16_MAX)));
+    return point;
+}
+
+void read_set_points(const Node& root, Symbols& symbols) {
+    Different different;
+    for (const Node& entry : root["set_points"].list()) {
+        symbols.set_points.values.push_back(read_set_point(entry));
+        different.add(entry["name"], symbols.set_points.values.back().name);
+    }
+    for (const Node& step : root["takes_set_points"].list())
+        symbols.set_points.takes |= std::uint64_t{1} << step.whole(0, 62);
 }
 
 std::uint32_t read_crc(const Node& node) {
@@ -195,6 +240,7 @@ SymbolFile read(const Node& root) {
     read_signals(root["inputs"], file.symbols.inputs, different);
     read_signals(root["outputs"], file.symbols.outputs, different);
     read_registers(root["registers"], file.symbols, different);
+    if (root.has("set_points")) read_set_points(root, file.symbols);
     read_table(root["table"], root["terms"], file);
     return file;
 }

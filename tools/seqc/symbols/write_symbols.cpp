@@ -6,6 +6,7 @@
 #include "semantics/motors.h"
 #include "seqc/symbol_file.h"
 #include "sequencer/term.h"
+#include "symbols/set_points_json.h"
 #include "symbols/symbol_file_format.h"
 
 namespace nplc::seqc {
@@ -37,8 +38,14 @@ std::string laid_out(const Json& object) {
     return text + "\n}\n";
 }
 
-Position place(Span span, const Positions& positions) {
-    return span.length == 0 ? Position{0, 0} : positions.of(span.offset);
+Position place(Span span, const Places& places) {
+    return span.length == 0 ? Position{0, 0} : places.of(span.offset).at;
+}
+
+/// Of a line in an included file.
+void add_file(Json& entry, Span span, const Sources& sources) {
+    const SourceFile& file = sources.file_at(span.offset);
+    if (span.length > 0 && &file != &sources.program()) entry["file"] = file.name;
 }
 
 Json registers_of(const Symbols& symbols) {
@@ -51,25 +58,29 @@ Json registers_of(const Symbols& symbols) {
     return list;
 }
 
-Json steps_of(const Compilation& compilation, const Positions& positions) {
+Json steps_of(const Compilation& compilation, const Places& places, const Sources& sources) {
     Json list = Json::array();
     for (const StepOrigin& step : compilation.steps) {
         Json entry = {{"number", step.number},
                       {"name", compilation.symbols.steps[step.number]},
-                      {"line", place(step.span, positions).line},
+                      {"line", place(step.span, places).line},
                       {"outputs", step.outputs}};
+        add_file(entry, step.span, sources);
         const std::string& why = compilation.symbols.made_for[step.number];
         if (!why.empty()) entry["made_for"] = why;
+        if (const auto of = compilation.symbols.copy_of[step.number]) entry["copy_of"] = *of;
         list.push_back(std::move(entry));
     }
     return list;
 }
 
-Json terms_of(const Compilation& compilation, const Positions& positions) {
+Json terms_of(const Compilation& compilation, const Places& places, const Sources& sources) {
     Json list = Json::array();
     for (const TermOrigin& origin : compilation.origins) {
-        const Position at = place(origin.span, positions);
-        list.push_back({{"line", at.line}, {"column", at.column}});
+        const Position at = place(origin.span, places);
+        Json entry = {{"line", at.line}, {"column", at.column}};
+        add_file(entry, origin.span, sources);
+        list.push_back(std::move(entry));
     }
     return list;
 }
@@ -78,12 +89,16 @@ Json terms_of(const Compilation& compilation, const Positions& positions) {
 
 std::string write_symbols(const Compilation& compilation, std::string_view source,
                           std::string_view file_name) {
+    return write_symbols(compilation, Sources({std::string(file_name), std::string(source)}));
+}
+
+std::string write_symbols(const Compilation& compilation, const Sources& sources) {
     const Symbols& symbols = compilation.symbols;
-    const Positions positions(source);
+    const Places places(sources);
     Json file = {{"format", kSymbolsFormat},
                  {"version", kSymbolsVersion},
                  {"program", symbols.program},
-                 {"source", file_name},
+                 {"source", sources.program().name},
                  {"motor", motor_name(symbols)}};
     if (symbols.scale) {
         file["scale"] = {{"revolutions", symbols.scale->revolutions},
@@ -93,11 +108,15 @@ std::string write_symbols(const Compilation& compilation, std::string_view sourc
     file["table"] = {{"bytes", compilation.table.size()},
                      {"terms", compilation.table.size() / sequencer::kTermBytes},
                      {"crc32", fmt::format("{:08X}", base::crc32(compilation.table))}};
-    file["steps"] = steps_of(compilation, positions);
+    file["steps"] = steps_of(compilation, places, sources);
     file["inputs"] = symbols.inputs;
     file["outputs"] = symbols.outputs;
     file["registers"] = registers_of(symbols);
-    file["terms"] = terms_of(compilation, positions);
+    if (!symbols.set_points.values.empty()) {
+        file["set_points"] = json_of(symbols.set_points);
+        file["takes_set_points"] = takes_of(symbols.set_points);
+    }
+    file["terms"] = terms_of(compilation, places, sources);
     return laid_out(file);
 }
 

@@ -17,6 +17,45 @@ struct Name {
     Span span;
 };
 
+/// What a name stands for where it was read.
+enum class Role : std::uint8_t {
+    other,
+    keyword,  ///< a word that is a name elsewhere: SET, R_TRIG
+    program,
+    motor,
+    step,
+    step_or_group,
+    group,
+    input,
+    output,
+    motor_variable,
+    address,  ///< IN0, %QX0.1
+    tested,   ///< in a condition: an input; in a property an output too
+    command,
+    register_name,  ///< a name of VAR_MOTOR or one of the register map
+    constant,       ///< of CONST, a mode or a bit
+    unit,
+    check,  ///< V006
+    property,
+    sequence,
+    parameter,  ///< of a sequence
+    argument,   ///< of its call: an input, output, register, constant or step
+    set_point,
+};
+
+struct Use {
+    Role role = Role::other;
+    Span span;
+    bool declares = false;
+};
+
+/// What ends with a word of its own.
+struct Block {
+    std::string_view end_word;  ///< "END_STEP"
+    Span span;                  ///< from its first word to its end, if it has one
+    bool closed = false;
+};
+
 struct Expression {
     enum class Kind : std::uint8_t {
         constant,
@@ -26,6 +65,8 @@ struct Expression {
         any_error,
         timer_q,
         counter_q,
+        rising,   ///< R_TRIG(name)
+        falling,  ///< F_TRIG(name)
         negation,
         all_of,
         any_of,
@@ -33,17 +74,44 @@ struct Expression {
     };
     Kind kind = Kind::constant;
     Span span;
-    Name name;           ///< Kind::name
+    Name name;           ///< Kind::name, rising, falling
     bool value = false;  ///< Kind::constant
     std::vector<Expression> operands;
 };
 
+/// A constant, or arithmetic on constants. A written number is a literal.
 struct Value {
+    enum class Kind : std::uint8_t {
+        literal,
+        name,      ///< of a constant, a mode or a bit
+        part,      ///< BY_COMMAND = HOME2_MODE: `name`, and a literal or a name in `operands`
+        negation,  ///< of one operand
+        inverse,   ///< a divisor in a product
+        sum,
+        product,
+    };
+    Kind kind = Kind::literal;
     Span span;
     double number = 0;
     bool is_raw = false;   ///< 16#..., taken as the register's bits
     bool is_time = false;  ///< T#..., `number` is in milliseconds
     Name unit;             ///< empty text: none
+    Name name;             ///< of a literal that was worked out: a constant in it
+    std::vector<Value> operands;
+};
+
+/// CONST Pitch := 40 mm;
+struct Constant {
+    Name name;
+    Value value;
+};
+
+/// What a call gives for a parameter: a name, or a value.
+struct Argument {
+    Name name;
+    std::optional<Value> value;
+    Span span;
+    std::string_view text;  ///< as written
 };
 
 struct Statement {
@@ -55,7 +123,11 @@ struct Statement {
         timer,
         counter,
         count_down,
-        clear_counter
+        clear_counter,
+        set_outputs,    ///< SET: named in `arguments`
+        reset_outputs,  ///< RESET
+        call,           ///< CALL name(call)
+        go_back         ///< RETURN
     };
     Kind kind = Kind::command;
     Span span;
@@ -64,14 +136,24 @@ struct Statement {
     bool has_arguments = false;  ///< parentheses were written
     Value value;
     std::optional<Value> register_number;  ///< Kind::assign_number
+    std::vector<Argument> call;
     bool every_scan = false;
     Span every_scan_span;
+};
+
+/// A time behind a condition: IF INPOS WITHIN T#3s, IF Start FOR 200 ms.
+struct Timing {
+    bool is_limit =
+        false;  ///< WITHIN: ELSE acts when it has passed. Else FOR: so long the condition must hold
+    Value time;
+    Span span;
 };
 
 struct Branch {
     std::optional<Expression> condition;  ///< none: ELSE, or statements without IF
     Span span;
     std::vector<Statement> statements;
+    std::optional<Timing> timing = {};
 };
 
 /// One IF with its ELSIFs and ELSE, or a run of statements without IF.
@@ -94,6 +176,13 @@ struct RawTerm {
     std::optional<SymbolicTerm> symbols;  ///< written in symbols, not bytes
 };
 
+/// OUT Lamp BLINKING T#500ms;
+struct Blinking {
+    std::vector<Name> outputs;
+    Value time;  ///< on, and then as long off
+    Span span;
+};
+
 struct ConditionalOutput {
     std::vector<Name> outputs;
     Expression condition;
@@ -106,11 +195,20 @@ struct Allowance {
     Name reason;  ///< without its quotes
 };
 
+/// Of a step that stands in a SEQUENCE, for one call.
+struct Origin {
+    Name sequence;
+    Name back;               ///< the step at which the call goes on
+    std::string_view first;  ///< the same step of the first call; empty: it is that
+};
+
 struct Step {
     Name name;
+    std::optional<Origin> origin;
     std::optional<Value> number;  ///< AT 5
     std::vector<Name> outputs;
     std::vector<ConditionalOutput> conditional;
+    std::vector<Blinking> blinking;
     std::vector<Statement> entry;
     std::vector<Choice> choices;
     std::vector<RawTerm> terms;
@@ -119,6 +217,8 @@ struct Step {
     Span own_error_span;
     bool no_helper = false;
     Span no_helper_span;
+    bool takes_set_points = false;
+    Span takes_set_points_span;
 };
 
 struct Variable {
@@ -126,6 +226,17 @@ struct Variable {
     Name address;                          ///< IN0, %IX0.0, OUT1, P1, V_SOLL
     std::optional<Value> register_number;  ///< AT REG(33)
     std::optional<Value> value;
+};
+
+/// SET_POINT Name AT register := value RANGE low .. high STEP step;
+struct SetPoint {
+    Name name;
+    Name address;                          ///< empty text: without AT, or REG(33)
+    std::optional<Value> register_number;  ///< AT REG(33)
+    Value value;
+    Value low;
+    Value high;
+    std::optional<Value> step;
 };
 
 /// ON condition IN steps EXCEPT steps NEXT := Step;
@@ -143,6 +254,20 @@ struct Group {
     std::vector<Name> steps;  ///< and groups that stand before
 };
 
+struct Parameter {
+    enum class Kind : std::uint8_t { input, output, motor_variable, constant, step };
+    Kind kind = Kind::input;
+    Name name;
+};
+
+/// SEQUENCE Name(parameters) steps END_SEQUENCE
+struct Sequence {
+    Name name;
+    std::vector<Parameter> parameters;
+    std::vector<Step> steps;
+    bool is_broken = false;  ///< its parameters could not be read
+};
+
 struct Scale {
     Span span;
     double revolutions = 1;
@@ -157,9 +282,13 @@ struct Program {
     std::vector<Variable> inputs;
     std::vector<Variable> outputs;
     std::vector<Variable> motor_variables;
+    std::vector<Constant> constants;
+    std::vector<SetPoint> set_points;
     std::optional<Name> on_error;
     std::vector<OnCondition> on_conditions;
     std::vector<Group> groups;
+    std::vector<Sequence> sequences;
+    bool has_calls = false;  ///< CALL or RETURN
     std::optional<Step> power_up;
     std::vector<Step> steps;
     bool steps_missing = false;  ///< some could not be read: an unknown name may be one of them
@@ -168,8 +297,11 @@ struct Program {
     bool scale_missing = false;
     std::vector<std::string_view> faulty_names;  ///< declared, but with a mistake
     std::vector<RawTerm> terms;
+    std::vector<Span> includes;     ///< texts behind INCLUDE, with their quotes
     std::vector<Span> properties;   ///< PROPERTY Name: ... ; each
     std::deque<std::string> texts;  ///< of units that are written with blanks or comments in them
+    std::vector<Use> uses;          ///< every name that was read, in the order of reading
+    std::vector<Block> blocks;      ///< in the order of their ends
 };
 
 }  // namespace nplc::seqc::ast

@@ -5,26 +5,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "syntax/characters.h"
 #include "syntax/names.h"
 
 namespace nplc::seqc {
 namespace {
-
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-bool is_letter(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-bool is_word(char c) {
-    return is_letter(c) || is_digit(c);
-}
-bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v';
-}
-bool is_symbol(char c) {
-    return std::string_view(":;,().=+-/<>").find(c) != std::string_view::npos;
-}
 
 class Lexer {
   public:
@@ -34,6 +19,7 @@ class Lexer {
     std::vector<Token> run() {
         if (source_.starts_with("\xEF\xBB\xBF")) at_ = 3;
         while (skip_blanks_and_comments(), at_ < source_.size()) {
+            if (skip_foreign_blank()) continue;
             if (tokens_.size() == kMostTokens) {
                 report_.add("E001", {static_cast<std::uint32_t>(at_), 1},
                             fmt::format("more than {} words and signs: this is no program", kMostTokens),
@@ -84,13 +70,20 @@ class Lexer {
         comments_->push_back({TokenKind::comment, source_.substr(start, at_ - start), span_from(start)});
     }
 
+    const char* help_of_hash() const {
+        const auto goes_on = [&](std::string_view word) { return source_.substr(at_ + 1).starts_with(word); };
+        if (goes_on("include")) return "write INCLUDE 'wiring.seqi';";
+        if (goes_on("define")) return "write CONST Pitch := 10 mm;";
+        return "comments are // ... to the end of the line, or (* ... *)";
+    }
+
     void skip_foreign_comment() {
         const std::size_t start = at_;
         const bool is_line = peek() == '#';
         const std::size_t end = source_.find(is_line ? "\n" : "*/", at_);
         report_.add("E001", {static_cast<std::uint32_t>(start), is_line ? 1U : 2U},
                     fmt::format("'{}' begins no comment here", is_line ? "#" : "/*"),
-                    "comments are // ... to the end of the line, or (* ... *)");
+                    is_line ? help_of_hash() : "comments are // ... to the end of the line, or (* ... *)");
         at_ = end == std::string_view::npos ? source_.size() : end + (is_line ? 0U : 2U);
     }
 
@@ -116,7 +109,7 @@ class Lexer {
             take_word_and_dots();
             add(TokenKind::direct, start);
         } else if (is_symbol(peek())) {
-            at_ += source_.substr(at_).starts_with(":=") ? 2U : 1U;
+            at_ += source_.substr(at_).starts_with(":=") || source_.substr(at_).starts_with("..") ? 2U : 1U;
             add(TokenKind::symbol, start);
         } else {
             lex_unknown(start);
@@ -129,24 +122,59 @@ class Lexer {
 
     void lex_word(std::size_t start) {
         bool foreign = false;
-        while (is_word(peek()) || at_foreign_letter()) {
-            foreign = foreign || at_foreign_letter();
-            at_ += at_foreign_letter() ? 2U : 1U;
+        while (is_word(peek()) || at_foreign_letter() || invisible_here() != 0) {
+            foreign = foreign || !is_word(peek());
+            at_ += at_foreign_letter() ? 2U : std::max<std::size_t>(invisible_here(), 1);
         }
         const std::string_view word = source_.substr(start, at_ - start);
         if (foreign && std::find(refused_.begin(), refused_.end(), word) == refused_.end()) {
             refused_.push_back(word);
+            const bool is_hidden = hides_something(word);
             report_.add("E001", span_from(start),
-                        fmt::format("'{}' has a letter that a name cannot have", word.substr(0, 60)),
-                        spelt_plainly(word));
+                        is_hidden
+                            ? "an invisible character stands in this word"
+                            : fmt::format("'{}' has a letter that a name cannot have", word.substr(0, 60)),
+                        is_hidden ? "delete the word and type it anew" : spelt_plainly(word));
         }
         if (peek() == '#' && (same_name(word, "T") || same_name(word, "TIME"))) {
             ++at_;
             take_word_and_dots();
             add(TokenKind::time, start);
-        } else {
+        } else if (peek() != '#' || !lex_typed_value(start, word)) {
             add(TokenKind::identifier, start);
         }
+    }
+
+    /// LTIME#500ms, INT#3: the value is taken as meant.
+    bool lex_typed_value(std::size_t start, std::string_view type) {
+        if (!is_digit(peek(1))) return false;
+        ++at_;
+        const std::size_t value = at_;
+        const bool is_time = same_name(type, "LTIME") || same_name(type, "LT");
+        if (is_time) {
+            take_word_and_dots();
+            add(TokenKind::time, start);
+        } else {
+            lex_number(value);
+        }
+        const std::string_view written = source_.substr(value, at_ - value);
+        report_.add("E001", span_from(start),
+                    fmt::format("there are no values of the type {}", type.substr(0, 20)),
+                    fmt::format("write {}{}", is_time ? "T#" : "", written.substr(0, 40)));
+        return true;
+    }
+
+    static bool hides_something(std::string_view word) {
+        return std::any_of(kInvisible.begin(), kInvisible.end(),
+                           [&](std::string_view sign) { return word.find(sign) != word.npos; });
+    }
+
+    /// How long an invisible character is here, 0 if none is.
+    std::size_t invisible_here() const {
+        const auto found = std::find_if(kInvisible.begin(), kInvisible.end(), [&](std::string_view sign) {
+            return source_.substr(at_).starts_with(sign);
+        });
+        return found == kInvisible.end() ? 0 : found->size();
     }
 
     void lex_number(std::size_t start) {
@@ -157,23 +185,63 @@ class Lexer {
             add(TokenKind::based, start);
             return;
         }
+        if (peek() == '\'' && is_digit(peek(1))) return lex_grouped_number(start);
         if (peek() == '.' && is_digit(peek(1))) {
             ++at_;
             while (is_digit(peek()) || peek() == '_') ++at_;  // the parser refuses the latter
         }
-        add(TokenKind::number, start);
+        if (!lex_number_of_c(start)) add(TokenKind::number, start);
+    }
+
+    /// 0x10, 8e1, 80.0f: told once, and taken as the number in front.
+    bool lex_number_of_c(std::size_t start) {
+        const std::string_view number = source_.substr(start, at_ - start);
+        const auto is_sign = [&](std::string_view signs, std::size_t ahead) {
+            return peek(ahead) != '\0' && signs.find(peek(ahead)) != signs.npos;
+        };
+        const bool is_hex = number == "0" && is_sign("xX", 0) && is_word(peek(1));
+        const bool has_exponent =
+            is_sign("eE", 0) && (is_digit(peek(1)) || (is_sign("+-", 1) && is_digit(peek(2))));
+        const bool has_type = is_sign("fF", 0) && !is_word(peek(1));
+        if (!is_hex && !has_exponent && !has_type) return false;
+        ++at_;
+        if (has_exponent && !is_digit(peek())) ++at_;
+        while (is_word(peek())) ++at_;
+        const std::string_view written = source_.substr(start, std::min<std::size_t>(at_ - start, 40));
+        report_.add("E003", span_from(start), fmt::format("'{}' is not a value", written),
+                    is_hex         ? fmt::format("write 16#{}", written.substr(2))
+                    : has_exponent ? "a number has no exponent: write it out"
+                                   : fmt::format("a number has no type: write {}", number));
+        tokens_.push_back({TokenKind::number, number, span_from(start)});
+        return true;
+    }
+
+    /// 15'000
+    void lex_grouped_number(std::size_t start) {
+        std::size_t last = at_;
+        while (peek() == '\'' && is_digit(peek(1))) {
+            last = ++at_;
+            while (is_digit(peek())) ++at_;
+        }
+        std::string written(source_.substr(start, at_ - start));
+        std::replace(written.begin(), written.end(), '\'', '_');
+        report_.add("E001", span_from(start), "digits are grouped with _ or not at all", "write " + written);
+        tokens_.push_back({TokenKind::number, source_.substr(last, at_ - last), span_from(start)});
     }
 
     /// Other languages' signs for AND, OR and NOT are taken as meant, so that nothing else is reported.
     bool lex_foreign_operator(std::size_t start) {
-        constexpr std::pair<char, std::string_view> kOperators[] = {{'&', "AND"}, {'|', "OR"}, {'!', "NOT"}};
+        constexpr std::pair<std::string_view, std::string_view> kOperators[] = {
+            {"&&", "AND"},     {"&", "AND"},     {"||", "OR"},      {"|", "OR"},
+            {"!!", "NOT"},     {"!", "NOT"},     {"\u2227", "AND"}, {"\u2228", "OR"},
+            {"\u00ac", "NOT"}, {"\u2192", ":="}, {"\u21d2", ":="}};
         for (const auto& [sign, word] : kOperators) {
-            if (peek() != sign) continue;
-            while (peek() == sign && at_ < start + 2) ++at_;
-            report_.add("E001", span_from(start),
-                        fmt::format("'{}' means nothing here", source_.substr(start, at_ - start)),
+            if (!source_.substr(at_).starts_with(sign)) continue;
+            at_ += sign.size();
+            report_.add("E001", span_from(start), fmt::format("'{}' means nothing here", sign),
                         fmt::format("write {}", word));
-            tokens_.push_back({TokenKind::identifier, word, span_from(start)});
+            tokens_.push_back({is_letter(word.front()) ? TokenKind::identifier : TokenKind::symbol, word,
+                               span_from(start)});
             return true;
         }
         return false;
@@ -181,9 +249,39 @@ class Lexer {
 
     /// 'words', closed in the same line.
     bool lex_text(std::size_t start) {
+        if (peek() != '\'') return false;
         const std::size_t end = source_.find_first_of("'\n", at_ + 1);
-        if (peek() != '\'' || end == std::string_view::npos || source_[end] == '\n') return false;
+        if (end == std::string_view::npos || source_[end] == '\n') return lex_open_text(start, end);
         at_ = end + 1;
+        add(TokenKind::text, start);
+        return true;
+    }
+
+    /// INCLUDE 'wiring.seqi;
+    bool lex_open_text(std::size_t start, std::size_t line_end) {
+        if (!takes_text() || source_.find_first_of(";\n", start) == start + 1) return false;
+        at_ = std::min({source_.find(';', at_), line_end, source_.size()});
+        while (is_blank(source_[at_ - 1])) --at_;
+        report_.add("E001", span_from(start), "this text does not end in its line",
+                    fmt::format("write {}'", source_.substr(start, std::min<std::size_t>(at_ - start, 60))));
+        add(TokenKind::text, start);
+        return true;
+    }
+
+    /// Behind INCLUDE and BECAUSE.
+    bool takes_text() const {
+        return !tokens_.empty() &&
+               (same_name(tokens_.back().text, "INCLUDE") || same_name(tokens_.back().text, "BECAUSE"));
+    }
+
+    /// INCLUDE "wiring.seqi";
+    bool lex_double_quoted_text(std::size_t start) {
+        const std::size_t end = source_.find_first_of("\"\n", at_ + 1);
+        if (peek() != '"' || !takes_text() || end == std::string_view::npos || source_[end] == '\n')
+            return false;
+        at_ = end + 1;
+        report_.add("E001", span_from(start), "quotes are ' on both sides",
+                    fmt::format("write '{}'", source_.substr(start + 1, end - start - 1).substr(0, 60)));
         add(TokenKind::text, start);
         return true;
     }
@@ -195,22 +293,6 @@ class Lexer {
         const bool letter = (first >= 0xC3 && first <= 0xC9) || (first >= 0xCD && first <= 0xD4);
         return letter && second >= 0x80 && second < 0xC0 &&
                !(first == 0xC3 && (second == 0x97 || second == 0xB7));
-    }
-
-    static std::string spelt_plainly(std::string_view word) {
-        constexpr std::pair<std::string_view, std::string_view> kPlain[] = {
-            {"\u00e4", "ae"}, {"\u00f6", "oe"}, {"\u00fc", "ue"}, {"\u00c4", "Ae"}, {"\u00d6", "Oe"},
-            {"\u00dc", "Ue"}, {"\u00df", "ss"}, {"\u00e9", "e"},  {"\u00e8", "e"},  {"\u00e0", "a"},
-            {"\u00e5", "aa"}, {"\u00f8", "oe"}, {"\u00e6", "ae"}, {"\u00e7", "c"},  {"\u00f1", "n"},
-        };
-        std::string plain(word);
-        for (const auto& [letter, spelling] : kPlain) {
-            for (std::size_t at = plain.find(letter); at != plain.npos; at = plain.find(letter))
-                plain.replace(at, letter.size(), spelling);
-        }
-        const bool done = std::all_of(plain.begin(), plain.end(), is_word);
-        return done ? fmt::format("write {}, or letters a to z, digits and _", plain)
-                    : "names are letters a to z, digits and _";
     }
 
     /// "Ready": the word is taken as meant.
@@ -226,22 +308,135 @@ class Lexer {
         return true;
     }
 
+    /// No-break and other blanks that come with text from elsewhere; told once.
+    bool skip_foreign_blank() {
+        for (const std::string_view blank :
+             {"\u00a0", "\u2002", "\u2003", "\u2009", "\u200b", "\u202f", "\u2060", "\ufeff"}) {
+            if (!source_.substr(at_).starts_with(blank)) continue;
+            const std::size_t start = at_;
+            at_ += blank.size();
+            if (!std::exchange(blanks_refused_, true))
+                report_.add("E001", span_from(start), "this is another blank than the one of the space bar",
+                            "type it anew: text from documents and web pages has such blanks");
+            return true;
+        }
+        return false;
+    }
+
+    /// Signs that stand for one of the language's own, which is taken as meant.
+    bool lex_lookalike(std::size_t start) {
+        struct Lookalike {
+            std::string_view sign;
+            std::string_view meant;
+            bool is_told;  ///< otherwise the parser says more
+        };
+        static constexpr Lookalike kSigns[] = {
+            {"\u2013", "-", true},  {"\u2014", "-", true},  {"\u2212", "-", true}, {"\u2265", ">", false},
+            {"\u2264", "<", false}, {"\u2260", "<", false}, {"\u201a", ",", true}, {"\uff1b", ";", true},
+            {"\uff0c", ",", true},  {"\uff1a", ":", true},  {"\uff08", "(", true}, {"\uff09", ")", true},
+            {"\uff1d", "=", true}};
+        for (const auto& [sign, meant, is_told] : kSigns) {
+            if (!source_.substr(at_).starts_with(sign)) continue;
+            at_ += sign.size();
+            if (is_told)
+                report_.add("E001", span_from(start),
+                            fmt::format("'{}' is another sign than '{}'", sign, meant),
+                            fmt::format("type it anew: {}", meant));
+            tokens_.push_back({TokenKind::symbol, meant, span_from(start)});
+            return true;
+        }
+        return false;
+    }
+
+    /// Quotes as text programs set them.
+    bool lex_typeset_text(std::size_t start) {
+        constexpr std::pair<std::string_view, std::string_view> kQuotes[] = {
+            {"\u201c", "\u201d"}, {"\u201e", "\u201c"}, {"\u2018", "\u2019"}, {"\u00ab", "\u00bb"}};
+        for (const auto& [open, close] : kQuotes) {
+            const std::string_view rest = source_.substr(at_);
+            if (!rest.starts_with(open)) continue;
+            const std::size_t end = rest.find(close, open.size());
+            if (end == rest.npos || end > rest.find('\n')) continue;
+            at_ += end + close.size();
+            report_.add("E001", span_from(start), "quotes are ' on both sides",
+                        fmt::format("write '{}'", rest.substr(open.size(), end - open.size())));
+            add(TokenKind::text, start);
+            return true;
+        }
+        return false;
+    }
+
+    /// 80 \u00b5m: the unit is left out.
+    bool lex_micro(std::size_t start) {
+        if (!source_.substr(at_).starts_with("\u00b5") && !source_.substr(at_).starts_with("\u03bc"))
+            return false;
+        at_ += 2;
+        while (is_word(peek())) ++at_;
+        report_.add("E001", span_from(start),
+                    fmt::format("'{}' is no unit here", source_.substr(start, at_ - start)),
+                    "write it in mm, ms or what SCALE names: 80 \u00b5m are 0.08 mm");
+        return true;
+    }
+
+    /// m/s^2: the exponent stands behind the unit.
+    bool lex_exponent(std::size_t start) {
+        if (peek() != '^' || !is_digit(peek(1)) || tokens_.empty()) return false;
+        at_ += 2;
+        Token& unit = tokens_.back();
+        report_.add("E001", span_from(start), "'^' means nothing here",
+                    fmt::format("write {}{}", unit.text, source_[at_ - 1]));
+        if (same_name(unit.text, "s") && source_[at_ - 1] == '2') unit.text = "s2";
+        return true;
+    }
+
+    /// A brace is taken as the word that stands there in this language.
+    void lex_brace(std::size_t start) {
+        if (!std::exchange(braces_refused_, true))
+            report_.add("E001", {static_cast<std::uint32_t>(start), 1}, "there are no braces here",
+                        "a block ends with a word: IF .. THEN .. END_IF, STEP Name: .. END_STEP");
+        const bool opens = peek() == '{';
+        ++at_;
+        if (opens) return open_brace(start);
+        if (braces_.empty()) return;
+        const std::string_view end = braces_.back();
+        braces_.pop_back();
+        skip_blanks_and_comments();
+        const std::string_view rest = source_.substr(at_);
+        const bool goes_on = rest.size() >= 4 &&
+                             (same_name(rest.substr(0, 4), "ELSE") || same_name(rest.substr(0, 4), "ELSI"));
+        if (!end.empty() && !(end == "END_IF" && goes_on))
+            tokens_.push_back({TokenKind::identifier, end, {static_cast<std::uint32_t>(start), 1}});
+    }
+
+    void open_brace(std::size_t start) {
+        const Span span{static_cast<std::uint32_t>(start), 1};
+        for (auto token = tokens_.rbegin(); token != tokens_.rend(); ++token) {
+            if (same_name(token->text, "IF") || same_name(token->text, "ELSIF")) {
+                tokens_.push_back({TokenKind::identifier, "THEN", span});
+                return braces_.push_back("END_IF");
+            }
+            if (same_name(token->text, "ELSE")) return braces_.push_back("END_IF");
+            if (same_name(token->text, "STEP")) {
+                if (tokens_.back().text != ":") tokens_.push_back({TokenKind::symbol, ":", span});
+                return braces_.push_back("END_STEP");
+            }
+            if (token->text == ";" || same_name(token->text, "THEN")) break;
+        }
+        braces_.push_back("");
+    }
+
     void lex_unknown(std::size_t start) {
-        if (lex_text(start) || lex_foreign_operator(start) || lex_quoted(start)) return;
+        if (lex_text(start) || lex_foreign_operator(start) || lex_double_quoted_text(start) ||
+            lex_quoted(start) || lex_lookalike(start) || lex_typeset_text(start) || lex_micro(start) ||
+            lex_exponent(start))
+            return;
         if (source_.substr(at_).starts_with("\u00b0")) {
             at_ += 2;
             report_.add("E001", span_from(start), "this sign is no unit",
                         "write deg, and SCALE 1 rev = 360 deg; at the top");
             return;
         }
-        if (peek() == '{' || peek() == '}') {
-            if (!braces_refused_)
-                report_.add("E001", {static_cast<std::uint32_t>(at_), 1}, "there are no braces here",
-                            "a block ends with a word: IF .. THEN .. END_IF, STEP Name: .. END_STEP");
-            braces_refused_ = true;
-            ++at_;
-            return;
-        }
+        if (peek() == '{' || peek() == '}') return lex_brace(start);
         if (peek() == '%') {
             ++at_;
             report_.add("E001", span_from(start), "'%' says not of what",
@@ -266,6 +461,8 @@ class Lexer {
     std::size_t at_ = 0;
     std::vector<Token> tokens_;
     bool braces_refused_ = false;
+    bool blanks_refused_ = false;
+    std::vector<std::string_view> braces_;   ///< open ones: the word that ends each
     std::vector<std::string_view> refused_;  ///< words with foreign letters
 };
 

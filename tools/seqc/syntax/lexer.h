@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnostics/report.h"
+#include "seqc/sources.h"
 #include "syntax/token.h"
 
 namespace nplc::seqc {
@@ -16,5 +17,7 @@ inline constexpr std::size_t kMostTokens = 4'000'000;
 /// `source`. Comments go to `comments`, if it is given: with their marks, a line comment without its line
 /// end.
 std::vector<Token> tokens_of(std::string_view source, Report& report, std::vector<Token>* comments = nullptr);
+/// The same of one file of a program; spans are places in all of its text.
+std::vector<Token> tokens_of(const Sources& sources, const SourceFile& file, Report& report);
 
 }  // namespace nplc::seqc

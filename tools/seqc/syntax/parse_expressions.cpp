@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <array>
 
 #include "syntax/names.h"
@@ -30,8 +32,10 @@ bool Parser::parse_expression(Expression& result) {
 bool Parser::parse_operators(Expression& result, std::size_t level) {
     if (level == kOperators.size()) {
         const Token first = token();
+        const std::size_t errors_before = report_.error_count();
         if (!parse_primary(result)) return false;
-        if (at_comparison()) return refuse_comparison(first, result);
+        if (at_comparison()) return refuse_comparison(first, result, report_.error_count() > errors_before);
+        if (at("FOR") || at("WITHIN")) return true;
         mend({"AND", "OR", "XOR"}, "AND, OR, XOR or the end of the condition");
         return true;
     }
@@ -83,7 +87,8 @@ bool Parser::parse_primary(Expression& result) {
 bool Parser::parse_named_primary(Expression& result) {
     if (is_symbol_at(1, ".")) mend({"TIMER", "COUNTER"}, "a condition");
     if (in_property_ && at("STEP")) return parse_step_test();
-    if (refuse_call_or_part()) return true;
+    if (at_edge()) return parse_edge(result);
+    if (refuse_call_or_part() || refuse_time_as_condition(result)) return true;
     if (at("TRUE") || at("FALSE")) {
         result.kind = Kind::constant;
         result.value = at("TRUE");
@@ -116,12 +121,18 @@ bool Parser::parse_named_primary(Expression& result) {
     if (token().kind == TokenKind::direct) {
         result.kind = Kind::name;
         result.name = name_of(token());
+        note_use(ast::Role::address, token().span);
         ++at_;
         return true;
     }
     const std::string_view expected = "an input, INPOS, ERROR, TIMER.Q or COUNTER.Q";
     if (at("THEN") || at("AND") || at("OR") || at("XOR")) {
-        error_here(expected);
+        const bool joins = !at("THEN");
+        error_here(
+            expected,
+            joins
+                ? "two conditions are joined by one word, AND, OR or XOR, and an empty one cannot be"
+                : "write what must hold, as in IF Start THEN; what happens in any case stands without an IF");
         return false;
     }
     if (at_symbol("/")) {
@@ -129,7 +140,34 @@ bool Parser::parse_named_primary(Expression& result) {
         return false;
     }
     result.kind = Kind::name;
-    return expect_name(result.name, expected);
+    return expect_name(result.name, expected, ast::Role::tested);
+}
+
+bool Parser::at_edge() const {
+    if (in_property_) return false;
+    const bool is_rising = at("R_TRIG");
+    return (at("F_TRIG") || is_rising) && is_symbol_at(1, "(");
+}
+
+/// R_TRIG(Start)
+bool Parser::parse_edge(Expression& result) {
+    const Token first = token();
+    result.kind = at("R_TRIG") ? Kind::rising : Kind::falling;
+    note_use(ast::Role::keyword, first.span);
+    at_ += 2;
+    const bool is_direct = token().kind == TokenKind::direct;
+    if ((!is_direct && !is_word_at(0)) || !is_symbol_at(1, ")")) {
+        while (!at_symbol(")") && !at("THEN") && !at_symbol(";") && !at_boundary()) ++at_;
+        take_symbol(")");
+        report_.add("E014", span_since(first), fmt::format("{} takes the name of one input", first.text),
+                    "write R_TRIG(Start); two edges are joined outside: R_TRIG(A) OR R_TRIG(B)");
+        result = {};
+        return true;
+    }
+    result.name = name_of(token());
+    note_use(is_direct ? ast::Role::address : ast::Role::tested, token().span);
+    at_ += 2;
+    return true;
 }
 
 bool Parser::at_symbolic_term() const {
@@ -142,7 +180,7 @@ bool Parser::parse_symbolic_term(const Token& first, std::vector<ast::RawTerm>& 
     ast::SymbolicTerm& symbols = term.symbols.emplace();
     bool has_name = true;
     if (!at("IF")) {
-        has_name = expect_name(symbols.step, "the name of a step");
+        has_name = expect_name(symbols.step, "the name of a step", ast::Role::step);
         at_ += has_name ? 1 : 2;
     }
     const Span opened = token().span;

@@ -6,13 +6,22 @@ void Parser::parse_property(ast::Program& program) {
     const Token first = token();
     ++at_;
     ast::Name name;
-    if (!expect_name(name, "the property's name") || !expect_symbol(":", "behind the property's name"))
-        return recover();
+    if (!expect_name(name, "the property's name", ast::Role::property, true) ||
+        !expect_symbol(":", "behind the property's name"))
+        return recover_claim();
     in_property_ = true;
     const bool sound = parse_claim();
     in_property_ = false;
-    if (!sound) return recover();
+    if (!sound) return recover_claim();
     add_claim(first, program);
+}
+
+/// BETWEEN's second test: what follows in parentheses is the next condition.
+bool Parser::parse_before_fact(ast::Expression& condition) {
+    before_fact_ = true;
+    const bool sound = parse_primary(condition);
+    before_fact_ = false;
+    return sound;
 }
 
 bool Parser::parse_claim() {
@@ -21,7 +30,7 @@ bool Parser::parse_claim() {
     if (take("NEVER")) {
         if (!parse_expression(condition)) return false;
         return !take("WHILE") || (parse_expression(condition) && expect("FOR", "behind WHILE's condition") &&
-                                  parse_value(time));
+                                  parse_literal(time));
     }
     if (take("ALWAYS")) {
         take("POSSIBLE");
@@ -30,7 +39,7 @@ bool Parser::parse_claim() {
     if (take("WHENEVER")) return parse_whenever();
     if (take("BETWEEN")) {
         return parse_primary(condition) && expect("AND", "behind BETWEEN's first condition") &&
-               parse_primary(condition) && parse_expression(condition) &&
+               parse_before_fact(condition) && parse_expression(condition) &&
                expect("STAYS", "behind what is to stay") &&
                (take("OFF") || expect("ON", "or OFF behind STAYS"));
     }
@@ -44,7 +53,7 @@ bool Parser::parse_claim() {
                parse_expression(condition);
     }
     if (!parse_expression(condition)) return false;
-    if (take("ONLY")) return expect("AFTER", "behind ONLY") && parse_expression(condition);
+    if (take("ONLY")) return parse_only();
     if (take("CHANGES")) {
         return expect("ONLY", "behind CHANGES") && expect("IN", "behind ONLY") && parse_expression(condition);
     }
@@ -60,10 +69,17 @@ bool Parser::parse_whenever() {
                expect("THEN", "behind BY's condition") && parse_expression(condition);
     }
     const bool lasts = take("FOR");
-    if ((lasts && !parse_value(time)) || !expect("THEN", "behind WHENEVER's condition") ||
+    if ((lasts && !parse_literal(time)) || !expect("THEN", "behind WHENEVER's condition") ||
         !parse_expression(condition))
         return false;
-    return lasts || !take("WITHIN") || parse_value(time);
+    return lasts || !take("WITHIN") || parse_literal(time);
+}
+
+bool Parser::parse_only() {
+    ast::Expression condition;
+    if (take("FROM")) return parse_expression(condition);
+    if (!expect("AFTER", "or FROM behind ONLY") || !parse_expression(condition)) return false;
+    return !take("FOLLOWED") || (expect("BY", "behind FOLLOWED") && parse_expression(condition));
 }
 
 /// What is taken for granted when properties are proved.
@@ -73,13 +89,26 @@ void Parser::parse_assumption(ast::Program& program) {
     ast::Expression condition;
     ast::Value time;
     in_property_ = true;
-    const bool sound = take("NEVER")
-                           ? parse_expression(condition)
-                           : parse_primary(condition) && expect("STABLE", "behind ASSUME's input") &&
-                                 expect("FOR", "behind STABLE") && parse_value(time);
+    bool sound = false;
+    if (take("NEVER")) {
+        sound = parse_expression(condition);
+    } else if (parse_primary(condition) && take("ENDS")) {
+        sound = expect("WITHIN", "behind ENDS") && parse_literal(time);
+    } else {
+        sound = expect("STABLE", "behind ASSUME's input, or ENDS behind moving") &&
+                expect("FOR", "behind STABLE") && parse_literal(time);
+    }
     in_property_ = false;
-    if (!sound) return recover();
+    if (!sound) return recover_claim();
     add_claim(first, program);
+}
+
+/// To its end; a step tested in it begins none.
+void Parser::recover_claim() {
+    while (!at_symbol(";") && (!at_boundary() || (at("STEP") && is_symbol_at(1, "="))) &&
+           token().kind != TokenKind::end)
+        ++at_;
+    take_symbol(";");
 }
 
 void Parser::add_claim(const Token& first, ast::Program& program) {
@@ -96,8 +125,8 @@ bool Parser::parse_step_test() {
     ast::Value number;
     if (!expect_symbol("=", "behind STEP, as in STEP = Idle")) return false;
     if (take("POWER_UP")) return true;
-    return token().kind == TokenKind::identifier ? expect_name(name, "the name of a step")
-                                                 : parse_value(number);
+    return token().kind == TokenKind::identifier ? expect_name(name, "the name of a step", ast::Role::step)
+                                                 : parse_literal(number);
 }
 
 }  // namespace nplc::seqc

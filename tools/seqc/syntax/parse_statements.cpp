@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 
 #include "syntax/foreign_words.h"
@@ -12,73 +11,7 @@ namespace {
 
 using ast::Statement;
 
-std::string without_underscores(std::string_view text) {
-    std::string digits;
-    for (char c : text) {
-        if (c != '_') digits += c;
-    }
-    return digits;
-}
-
-/// Digits and underscores, then perhaps a point and digits.
-bool to_number(std::string_view text, double& number) {
-    const std::size_t point = text.find('.');
-    if (point != text.npos && text.find('_', point) != text.npos) return false;
-    const std::string digits = without_underscores(text);
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    return error == std::errc() && end == digits.data() + digits.size();
-}
-
-bool to_based(std::string_view text, double& number) {
-    const std::size_t mark = text.find('#');
-    const std::string_view base_text = text.substr(0, mark);
-    const int base = base_text == "16" ? 16 : base_text == "8" ? 8 : base_text == "2" ? 2 : 0;
-    const std::string digits = without_underscores(text.substr(mark + 1));
-    std::uint32_t value = 0;
-    if (base == 0 || digits.empty()) return false;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, base);
-    number = value;
-    return error == std::errc() && end == digits.data() + digits.size();
-}
-
-double milliseconds_of(std::string_view unit) {
-    if (same_name(unit, "ms")) return 1;
-    if (same_name(unit, "s")) return 1000;
-    if (same_name(unit, "m")) return 60'000;
-    if (same_name(unit, "h")) return 3'600'000;
-    if (same_name(unit, "d")) return 86'400'000;
-    return 0;
-}
-
-bool is_digit_of_time(char c) {
-    return c >= '0' && c <= '9';
-}
-bool is_number_char(char c) {
-    return is_digit_of_time(c) || c == '.' || c == '_';
-}
-
 }  // namespace
-
-bool parse_time(std::string_view text, double& milliseconds) {
-    std::string_view rest = text.substr(text.find('#') + 1);
-    milliseconds = 0;
-    double previous_unit = 1e12;
-    while (!rest.empty()) {
-        std::size_t count = 0;
-        while (count < rest.size() && is_number_char(rest[count])) ++count;
-        std::size_t letters = count;
-        while (letters < rest.size() && !is_number_char(rest[letters])) ++letters;
-        double number = 0;
-        const double unit = milliseconds_of(rest.substr(count, letters - count));
-        if (!is_digit_of_time(rest.front()) || unit == 0 || unit >= previous_unit ||
-            !to_number(rest.substr(0, count), number))
-            return false;
-        milliseconds += number * unit;
-        previous_unit = unit;
-        rest.remove_prefix(letters);
-    }
-    return previous_unit < 1e12;
-}
 
 bool Parser::parse_if(ast::Choice& choice) {
     const Span opened = token().span;
@@ -95,7 +28,7 @@ bool Parser::parse_if(ast::Choice& choice) {
                         "an IF cannot stand inside another: ELSE IF is the word ELSIF",
                         "write ELSIF, and one END_IF for all of it");
         }
-        last = at("ELSE");
+        last = at("ELSE") && !refuse_else_with_condition();
         ++at_;
         if (!last) {
             branch.condition.emplace();
@@ -103,19 +36,52 @@ bool Parser::parse_if(ast::Choice& choice) {
                 branch.condition->kind = ast::Expression::Kind::constant;
                 while (!at("THEN") && !at_boundary() && !at_symbol(";")) ++at_;
             }
+            parse_timing(branch, choice.branches.empty());
             take_then();
         }
         parse_branch_body(branch, opened);
         choice.branches.push_back(std::move(branch));
     } while (!last && (at("ELSIF") || at("ELSE")));
+    const ast::Branch& first = choice.branches.front();
+    if (!last && first.timing && first.timing->is_limit) {
+        report_
+            .add("E010", place_here(), "WITHIN needs an ELSE: what happens when the time has passed",
+                 "write ELSE NEXT := Step; before END_IF")
+            .notes.push_back({first.timing->span, "the time limit is here"});
+    }
     end_block("END_IF", opened);
     for (; ends_too_many > 0 && take("END_IF"); --ends_too_many) take_symbol(";");
     return true;
 }
 
+/// WITHIN belongs to the whole IF, FOR to its condition.
+void Parser::parse_timing(ast::Branch& branch, bool is_first) {
+    const Token first = token();
+    const bool is_limit = take("WITHIN");
+    if (!is_limit && !take("FOR")) return;
+    ast::Timing timing;
+    timing.is_limit = is_limit;
+    if (!expect_time(timing.time, is_limit ? "WITHIN" : "FOR")) {
+        while (!at("THEN") && !at_boundary() && !at_symbol(";")) ++at_;
+        return;
+    }
+    timing.span = span_since(first);
+    if (is_limit && !is_first) {
+        report_.add("E010", timing.span, "WITHIN stands behind the condition of IF, not of ELSIF",
+                    "it is the time limit of the whole IF: write it there");
+        return;
+    }
+    branch.timing = std::move(timing);
+}
+
 /// What stands too much between the condition and THEN is one mistake.
 void Parser::take_then() {
     if (take("THEN") || (mend({"THEN"}, "THEN after the condition") && take("THEN"))) return;
+    if (at_symbol(";") && same_name(token(1).text, "THEN")) {
+        report_.add("E010", token().span, "no ';' stands between a condition and THEN", "leave it out");
+        at_ += 2;
+        return;
+    }
     error_here("THEN after the condition",
                at_symbol(")") ? "there is no '(' for this ')'"
                               : "write IF condition THEN; AND, OR and XOR join two conditions");
@@ -127,7 +93,7 @@ void Parser::take_then() {
 
 void Parser::parse_branch_body(ast::Branch& branch, Span opened) {
     while (!at("ELSIF") && !at("ELSE") && !at("END_STEP") && !at("STEP") && !at("POWER_UP") &&
-           !at("END_POWER_UP") && !at_block_end("END_IF") && !report_.full()) {
+           !at("END_POWER_UP") && !at("END_SEQUENCE") && !at_block_end("END_IF") && !report_.full()) {
         if (take_symbol(";")) continue;
         const std::size_t before = at_;
         mend_statement({"ELSIF", "ELSE", "END_IF"});
@@ -139,6 +105,8 @@ void Parser::parse_branch_body(ast::Branch& branch, Span opened) {
                      "join the two conditions with AND, or use ELSIF")
                 .notes.push_back({opened, "the outer IF begins here"});
             parse_if(inner);
+        } else if (refuse_item_inside()) {
+            continue;
         } else if (at("OUT")) {
             report_.add("E064", token().span, "OUT cannot stand inside an IF",
                         "outputs belong to the step: write OUT Name WHEN condition; beside the IF");
@@ -167,7 +135,11 @@ bool Parser::parse_statement(Statement& statement) {
 }
 
 bool Parser::parse_target(ast::Name& name) {
-    if (!at("POWER_UP")) return expect_name(name, "the name of a step");
+    if (token().kind == TokenKind::number || at_symbol(";")) {
+        error_here("the name of a step", "steps go by their names: NEXT := Idle;");
+        return false;
+    }
+    if (!at("POWER_UP")) return expect_name(name, "the name of a step", ast::Role::step);
     name = name_of(token());
     ++at_;
     return true;
@@ -178,8 +150,12 @@ bool Parser::parse_simple_statement(Statement& statement) {
         statement.kind = Statement::Kind::next;
         if (is_word_at(0)) {
             error_here("':=' after NEXT", fmt::format("write NEXT := {};", token().text));
-        } else if (!expect_symbol(":=", "after NEXT"))
+        } else if ((at_symbol("-") || at_symbol("=")) && is_symbol_at(1, ">")) {
+            error_here("':=' after NEXT", fmt::format("write NEXT := {};", token(2).text));
+            at_ += 2;
+        } else if (!expect_symbol(":=", "after NEXT")) {
             return false;
+        }
         return parse_target(statement.name);
     }
     if (take("COUNT_DOWN")) {
@@ -196,11 +172,14 @@ bool Parser::parse_simple_statement(Statement& statement) {
         ++at_;
         const bool is_preset = at_symbol(":=") || at_symbol("=");
         if (!is_preset || same_name(token(1).text, "COUNTER") || same_name(token(1).text, "TIMER")) {
-            error_here("':=' and a constant to preset it", std::string(usual->help));
+            if (is_preset) ++at_;
+            error_here(is_preset ? "a constant to preset it" : "':=' and a constant to preset it",
+                       std::string(usual->help));
             return false;
         }
         return expect_symbol(":=", "to preset it, as in TIMER := T#500ms;") && parse_value(statement.value);
     }
+    if (const auto sound = parse_named_statement(statement)) return *sound;
     if (take("REG")) {
         statement.kind = Statement::Kind::assign_number;
         return parse_register_number(statement.register_number) &&
@@ -211,14 +190,27 @@ bool Parser::parse_simple_statement(Statement& statement) {
         error_here("a statement", "statements are NEXT := Step; TIMER := T#1s; commands and register values");
         return false;
     }
-    if (!expect_name(statement.name, "a statement")) return false;
+    if (!expect_name(statement.name, "a statement", ast::Role::command)) return false;
+    if (at_symbol(":=") || at_symbol("=")) uses_.back().role = ast::Role::register_name;
+    if (refuse_state(statement)) return false;
     if (at_symbol(":=")) return parse_assignment(statement);
-    if (at_symbol("=")) {
+    if (at_equals()) {
         error_here(fmt::format("':=' after {}", statement.name.text), "write := with a colon");
         return parse_assignment(statement);
     }
     statement.kind = Statement::Kind::command;
+    if (refuse_bare_arguments(statement)) return false;
     return !at_symbol("(") || parse_arguments(statement);
+}
+
+/// SET Clamp, Lamp;
+bool Parser::parse_switched_outputs(Statement& statement) {
+    statement.kind = at("SET") ? Statement::Kind::set_outputs : Statement::Kind::reset_outputs;
+    statement.name = name_of(token());
+    note_use(ast::Role::keyword, token().span);
+    ++at_;
+    if (refuse_set_of_value(statement)) return false;
+    return parse_outputs(statement.arguments);
 }
 
 bool Parser::parse_assignment(Statement& statement) {
@@ -232,14 +224,26 @@ bool Parser::parse_arguments(Statement& statement) {
     statement.has_arguments = true;
     if (take_symbol(")")) return true;
     do {
+        note_place(ast::Role::register_name);
         if (token().kind != TokenKind::identifier && token().kind != TokenKind::number) {
             error_here("a register or a number");
             return false;
         }
         const Token first = token();
+        if (is_symbol_at(1, ":=")) {
+            const ForeignWord* word = foreign_word(statement.name.text.substr(0, 3));
+            if (word == nullptr && same_name(first.text, "CLK")) word = foreign_word("R_TRIG");
+            if (word == nullptr && same_name(statement.name.text, "SR")) word = foreign_word("SET");
+            if (word == nullptr && same_name(statement.name.text, "RS")) word = foreign_word("SET");
+            error_here("a register or a number", word != nullptr
+                                                     ? std::string(word->help)
+                                                     : "commands take registers, without names for them");
+            while (!at_symbol(";") && !at_boundary()) ++at_;
+            return false;
+        }
         if (first.kind == TokenKind::number && is_word_at(1)) {
             ast::Value value;
-            if (!parse_value(value)) return false;
+            if (!parse_literal(value)) return false;
             report_.add("E050", span_since(first),
                         fmt::format("{} takes a register, not a value", upper(statement.name.text)),
                         fmt::format("name a register with this value in VAR_MOTOR, as in Place AT P1 := 80 "
@@ -249,89 +253,10 @@ bool Parser::parse_arguments(Statement& statement) {
             return false;
         }
         statement.arguments.push_back(name_of(token()));
+        if (first.kind == TokenKind::identifier) note_use(ast::Role::register_name, first.span);
         ++at_;
     } while (take_symbol(","));
     return expect_symbol(")", "to close the list");
-}
-
-bool Parser::parse_register_number(std::optional<ast::Value>& number) {
-    if (!expect_symbol("(", "after REG, as in REG(33)")) return false;
-    number.emplace();
-    if (!parse_value(*number)) return false;
-    return expect_symbol(")", "after the register's number");
-}
-
-bool Parser::parse_value(ast::Value& value) {
-    const Token first = token();
-    const bool negative = take_symbol("-");
-    if (!negative) take_symbol("+");
-    const Token literal = token();
-    const bool is_literal = literal.kind == TokenKind::number || literal.kind == TokenKind::based ||
-                            literal.kind == TokenKind::time;
-    if (!is_literal) {
-        error_here(
-            "a value",
-            at("TRUE") || at("FALSE")
-                ? "an output belongs to its step: OUT Name; or OUT Name WHEN condition;"
-                : "only constants can be written; a register's value is brought in by selecting it, as "
-                  "in POSITION(P1), and another step is named with NEXT := Name;");
-        return false;
-    }
-    ++at_;
-    const Code code = literal.kind == TokenKind::time ? Code("E004") : Code("E003");
-    bool sound = false;
-    if (literal.kind == TokenKind::number) sound = to_number(literal.text, value.number);
-    if (literal.kind == TokenKind::based) sound = to_based(literal.text, value.number);
-    if (literal.kind == TokenKind::time) sound = parse_time(literal.text, value.number);
-    if (!sound || (negative && literal.kind != TokenKind::number)) {
-        report_.add(code, literal.span, fmt::format("'{}' is not a value", literal.text.substr(0, 60)),
-                    literal.kind == TokenKind::time ? "write times as T#500ms or T#1s500ms"
-                    : literal.kind == TokenKind::based
-                        ? "write 16#C0, 8#300 or 2#1100_0000, up to 32 bits, no sign"
-                    : literal.text.find('.') < literal.text.find('_')
-                        ? "write 1_000.5: underscores stand before the point"
-                        : "no register takes a number of this size");
-        return false;
-    }
-    value.is_raw = literal.kind == TokenKind::based;
-    value.is_time = literal.kind == TokenKind::time;
-    if (negative) value.number = -value.number;
-    if (literal.kind == TokenKind::number) parse_unit(value);
-    value.span = span_since(first);
-    return !refuse_decimal_comma(first);
-}
-
-/// 80,5 mm; in a TERM the comma parts two bytes.
-bool Parser::refuse_decimal_comma(const Token& first) {
-    const Token& last = tokens_[at_ - 1];
-    const Token& digits = token(1);
-    const bool touches = token().span.offset == last.span.offset + last.span.length &&
-                         digits.span.offset == token().span.offset + 1;
-    if (in_term_ || !at_symbol(",") || last.kind != TokenKind::number || digits.kind != TokenKind::number ||
-        !touches)
-        return false;
-    at_ += 2;
-    report_.add("E003", span_since(first), "a number has a decimal point",
-                fmt::format("write {}.{}", last.text, digits.text));
-    return true;
-}
-
-void Parser::parse_unit(ast::Value& value) {
-    const Token first = token();
-    if (first.kind == TokenKind::direct) {
-        value.unit = name_of(first);
-        ++at_;
-        return;
-    }
-    if (first.kind != TokenKind::identifier || is_reserved(first.text)) return;
-    ++at_;
-    std::string written(first.text);
-    for (; at_symbol("/") && token(1).kind == TokenKind::identifier; at_ += 2)
-        written.append("/").append(token(1).text);
-    value.unit.span = span_since(first);
-    value.unit.text = source_.substr(value.unit.span.offset, value.unit.span.length);
-    if (value.unit.text.size() == written.size()) return;
-    value.unit.text = texts_.emplace_back(std::move(written));
 }
 
 bool Parser::parse_raw_term(std::vector<ast::RawTerm>& terms) {
@@ -343,7 +268,7 @@ bool Parser::parse_raw_term(std::vector<ast::RawTerm>& terms) {
     do {
         ast::Value value;
         in_term_ = true;
-        const bool is_value = parse_value(value);
+        const bool is_value = parse_literal(value);
         in_term_ = false;
         if (!is_value) return false;
         const bool is_byte = value.number >= 0 && value.number <= 255 &&

@@ -13,17 +13,18 @@ namespace nplc::seqc {
 namespace {
 
 constexpr auto kReserved = std::to_array<std::string_view>(
-    {"PROGRAM",    "END_PROGRAM",   "MOTOR",  "SCALE",     "VAR_INPUT", "VAR_OUTPUT",
-     "VAR_MOTOR",  "END_VAR",       "AT",     "ON",        "ERROR",     "NEXT",
-     "POWER_UP",   "END_POWER_UP",  "STEP",   "END_STEP",  "OUT",       "WHEN",
-     "ENTRY",      "OWN",           "IF",     "THEN",      "ELSIF",     "ELSE",
-     "END_IF",     "AND",           "OR",     "NOT",       "XOR",       "TRUE",
-     "FALSE",      "INPOS",         "ANY",    "TIMER",     "COUNTER",   "EVERY_SCAN",
-     "COUNT_DOWN", "CLEAR_COUNTER", "TERM",   "REG",       "PROPERTY",  "NEVER",
-     "ALWAYS",     "POSSIBLE",      "IS",     "REACHABLE", "WHENEVER",  "WITHIN",
-     "ALLOW",      "BECAUSE",       "GROUP",  "IN",        "EXCEPT",    "NO_HELPER",
-     "FOR",        "BETWEEN",       "STAYS",  "CHANGES",   "ONLY",      "FOLLOWED",
-     "WHILE",      "ENDS",          "ASSUME", "STABLE"});
+    {"PROGRAM",      "END_PROGRAM",   "MOTOR",     "SCALE",     "VAR_INPUT", "VAR_OUTPUT",
+     "VAR_MOTOR",    "END_VAR",       "AT",        "ON",        "ERROR",     "NEXT",
+     "POWER_UP",     "END_POWER_UP",  "STEP",      "END_STEP",  "OUT",       "WHEN",
+     "ENTRY",        "OWN",           "IF",        "THEN",      "ELSIF",     "ELSE",
+     "END_IF",       "AND",           "OR",        "NOT",       "XOR",       "TRUE",
+     "FALSE",        "INPOS",         "ANY",       "TIMER",     "COUNTER",   "EVERY_SCAN",
+     "COUNT_DOWN",   "CLEAR_COUNTER", "TERM",      "REG",       "PROPERTY",  "NEVER",
+     "ALWAYS",       "POSSIBLE",      "IS",        "REACHABLE", "WHENEVER",  "WITHIN",
+     "ALLOW",        "BECAUSE",       "GROUP",     "IN",        "EXCEPT",    "NO_HELPER",
+     "FOR",          "BETWEEN",       "STAYS",     "CHANGES",   "ONLY",      "FOLLOWED",
+     "WHILE",        "ENDS",          "ASSUME",    "STABLE",    "CONST",     "SEQUENCE",
+     "END_SEQUENCE", "INCLUDE",       "SET_POINT", "RANGE",     "TAKES",     "SET_POINTS"});
 
 /// Words that begin something on the level above a statement: skipping stops in front of them.
 constexpr std::array kBoundaries = {
@@ -33,6 +34,8 @@ constexpr std::array kBoundaries = {
     std::string_view("STEP"),        std::string_view("END_STEP"),   std::string_view("IF"),
     std::string_view("ELSIF"),       std::string_view("ELSE"),       std::string_view("END_IF"),
     std::string_view("PROPERTY"),    std::string_view("GROUP"),      std::string_view("ASSUME"),
+    std::string_view("CONST"),       std::string_view("SEQUENCE"),   std::string_view("END_SEQUENCE"),
+    std::string_view("INCLUDE"),     std::string_view("SET_POINT"),
 };
 
 template <std::size_t N>
@@ -65,6 +68,7 @@ const Token& Parser::token(std::size_t ahead) const {
 }
 
 bool Parser::at(std::string_view word) const {
+    if (is_place()) expected_->words.push_back(word);
     return token().kind == TokenKind::identifier && same_name(token().text, word);
 }
 
@@ -124,7 +128,14 @@ void Parser::mend_statement(std::vector<std::string_view> end_words) {
     const Token& after = token(1);
     const bool symbol = after.kind == TokenKind::symbol;
     if (symbol && after.text == ":=") {
-        if (is_word_at(2) || same_name(token(2).text, "POWER_UP")) mend({"NEXT"}, "a statement");
+        const bool names_register =
+            std::any_of(registers_.begin(), registers_.end(),
+                        [&](std::string_view name) { return same_name(name, token().text); });
+        const bool names_step = is_word_at(2) || same_name(token(2).text, "POWER_UP");
+        if (names_register || !names_step || nearest(token().text, {"NEXT"}).empty()) return;
+        report_.add("E021", token().span, fmt::format("there is no register '{}'", token().text),
+                    "did you mean 'NEXT'?");
+        tokens_[at_].text = "NEXT";
     } else if (symbol && after.text == ";") {
         mend(end_words, "a statement");
     } else if (!symbol || after.text != "(") {
@@ -134,15 +145,32 @@ void Parser::mend_statement(std::vector<std::string_view> end_words) {
     }
 }
 
+/// '=' where ':=' is meant; '=:' becomes one token.
+bool Parser::at_equals() {
+    if (!at_symbol("=")) return false;
+    const Span equals = token().span;
+    if (is_symbol_at(1, ":") && token(1).span.offset == equals.offset + equals.length) {
+        ++at_;
+        tokens_[at_].text = "=:";
+        tokens_[at_].span = {equals.offset, equals.length + token().span.length};
+    }
+    return true;
+}
+
 bool Parser::expect_symbol(std::string_view symbol, std::string_view where) {
     if (take_symbol(symbol)) return true;
-    const bool only_equals = symbol == ":=" && at_symbol("=");
+    const bool only_equals = symbol == ":=" && at_equals();
     error_here(fmt::format("'{}' {}", symbol, where), only_equals ? "write := with a colon" : "");
     if (only_equals) ++at_;
     return only_equals;
 }
 
-bool Parser::expect_name(ast::Name& name, std::string_view what) {
+void Parser::note_place(ast::Role role) const {
+    if (is_place()) expected_->names.push_back(role);
+}
+
+bool Parser::expect_name(ast::Name& name, std::string_view what, ast::Role role, bool declares) {
+    note_place(declares ? ast::Role::other : role);
     if (token().kind != TokenKind::identifier) {
         error_here(what, token().kind == TokenKind::text ? "names stand without quotes" : "");
         return false;
@@ -153,7 +181,11 @@ bool Parser::expect_name(ast::Name& name, std::string_view what) {
                     "choose another name");
         return false;
     }
+    note_use(role, name.span, declares);
     ++at_;
+    const bool is_plain =
+        std::none_of(name.text.begin(), name.text.end(), [](char c) { return (c & 0x80) != 0; });
+    if (!is_plain) faulty_names_.push_back(name.text);  // E001 was said
     return true;
 }
 
@@ -197,7 +229,11 @@ bool Parser::at_block_end(std::string_view end_word) const {
 }
 
 void Parser::end_block(std::string_view end_word, Span opened) {
-    if (take(end_word)) {
+    const bool closed = take(end_word);
+    const Token& last = tokens_[at_ == 0 ? 0 : at_ - 1];
+    blocks_.push_back(
+        {end_word, {opened.offset, last.span.offset + last.span.length - opened.offset}, closed});
+    if (closed) {
         take_symbol(";");
         return;
     }

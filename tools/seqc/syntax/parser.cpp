@@ -12,23 +12,26 @@ namespace nplc::seqc {
 ast::Program Parser::parse() {
     ast::Program program;
     const Span opened = token().span;
+    mend_split_words();
     program.steps_missing = comment_is_open_;
     if (token().kind == TokenKind::end) {
         if (!report_.has_errors())
             report_.add("E010", {}, "the file holds no program", "write PROGRAM Name ... END_PROGRAM");
         return program;
     }
+    if (at_item()) {
+        parse_headless(program);
+        return program;
+    }
     if (expect("PROGRAM", "at the start")) {
-        if (!expect_name(program.name, "the program's name")) recover();
+        if (!expect_name(program.name, "the program's name", ast::Role::program, true)) recover();
         take_symbol(";");
     } else if (!at_boundary()) {
         return program;  // nothing like a program
     }
     while (token().kind != TokenKind::end && !at("END_PROGRAM") && !report_.full()) parse_item(program);
     end_block("END_PROGRAM", opened);
-    program.texts = std::move(texts_);
-    program.names_missing = program.names_missing || names_missing_;
-    program.faulty_names = std::move(faulty_names_);
+    hand_over(program);
     if (token().kind != TokenKind::end && !report_.full()) {
         report_.add("E010", token().span, fmt::format("{} stands after END_PROGRAM", shown(token())),
                     "a file holds one program");
@@ -52,7 +55,14 @@ void Parser::parse_item(ast::Program& program) {
             error_here("the motor, such as MAC140", "write MOTOR MAC140;");
             ++at_;
         }
-        if (!expect_name(motor, "the motor, such as MAC140")) return recover();
+        if (!expect_name(motor, "the motor, such as MAC140", ast::Role::motor)) return recover();
+        if (at_symbol("-")) {
+            const Token first = tokens_[at_ - 1];
+            while (!at_symbol(";") && !at_boundary()) ++at_;
+            report_.add("E030", span_since(first), "MOTOR takes one motor's name, without a dash",
+                        "write the one on the motor's plate: MOTOR MAC141;");
+            return recover();
+        }
         if (token().kind == TokenKind::number) {
             report_.add("E010", span_since(tokens_[at_ - 1]), "a motor's name is one word",
                         fmt::format("write MOTOR {}{};", motor.text, token().text));
@@ -65,11 +75,15 @@ void Parser::parse_item(ast::Program& program) {
     if (at("SCALE")) return parse_scale(program);
     if (at("ON")) return parse_on(program);
     if (at("GROUP")) return parse_group(program);
-    if (take("VAR_INPUT")) return parse_variables(program.inputs, false);
-    if (take("VAR_OUTPUT")) return parse_variables(program.outputs, false);
-    if (take("VAR_MOTOR")) return parse_variables(program.motor_variables, true);
+    if (at("CONST")) return parse_constant(program);
+    if (at("SET_POINT")) return parse_set_point(program);
+    if (take("VAR_INPUT")) return parse_variables(program.inputs, ast::Role::input);
+    if (take("VAR_OUTPUT")) return parse_variables(program.outputs, ast::Role::output);
+    if (take("VAR_MOTOR")) return parse_variables(program.motor_variables, ast::Role::motor_variable);
     if (at("POWER_UP")) return parse_power_up(program);
     if (at("STEP")) return parse_step(program);
+    if (at("SEQUENCE")) return parse_sequence(program);
+    if (at("INCLUDE")) return parse_include(program);
     if (at("PROPERTY")) return parse_property(program);
     if (at("ASSUME")) return parse_assumption(program);
     if (at("TERM")) {
@@ -77,11 +91,12 @@ void Parser::parse_item(ast::Program& program) {
         return;
     }
     const std::string_view expected =
-        "MOTOR, SCALE, VAR_INPUT, VAR_OUTPUT, VAR_MOTOR, ON, GROUP, POWER_UP, STEP, TERM, PROPERTY or "
+        "MOTOR, SCALE, CONST, VAR_INPUT, VAR_OUTPUT, VAR_MOTOR, ON, GROUP, POWER_UP, STEP, SEQUENCE, TERM, "
+        "PROPERTY, INCLUDE or "
         "END_PROGRAM";
     if (foreign_word(token().text) == nullptr &&
-        mend({"MOTOR", "SCALE", "VAR_INPUT", "VAR_OUTPUT", "VAR_MOTOR", "GROUP", "POWER_UP", "STEP", "TERM",
-              "PROPERTY", "END_PROGRAM"},
+        mend({"MOTOR", "SCALE", "CONST", "VAR_INPUT", "VAR_OUTPUT", "VAR_MOTOR", "GROUP", "POWER_UP", "STEP",
+              "SEQUENCE", "TERM", "PROPERTY", "INCLUDE", "END_PROGRAM"},
              expected)) {
         return;
     }
@@ -103,8 +118,13 @@ void Parser::parse_scale(ast::Program& program) {
         error_here("how far a revolution moves", "write SCALE 1 rev = 10 mm;");
         return recover();
     }
-    if (!parse_value(left) || !expect_symbol("=", "in SCALE, as in SCALE 1 rev = 5 mm;") ||
-        !parse_value(right)) {
+    if (!parse_literal(left) || !expect_symbol("=", "in SCALE, as in SCALE 1 rev = 5 mm;") ||
+        !parse_literal(right)) {
+        return recover();
+    }
+    if (at_symbol("/") || at_symbol("*")) {
+        report_.add("E032", token().span, "SCALE takes a number here, no arithmetic",
+                    "a gear goes to the revolutions: SCALE 5 rev = 10 mm;");
         return recover();
     }
     scale.span = span_since(first);
@@ -138,8 +158,10 @@ void Parser::parse_on(ast::Program& program) {
     const Token first = token();
     ++at_;
     on.next.kind = ast::Statement::Kind::next;
-    if (!parse_expression(on.condition) || (take("IN") && !parse_names(on.only, "a step or a group")) ||
-        (take("EXCEPT") && !parse_names(on.except, "a step or a group"))) {
+    if (!parse_expression(on.condition)) return recover();
+    const bool excepts = refuse_not_in();
+    if ((!excepts && take("IN") && !parse_names(on.only)) ||
+        ((excepts || take("EXCEPT")) && !parse_names(on.except)) || !refuse_before_next()) {
         return recover();
     }
     const Token next = token();
@@ -153,22 +175,49 @@ void Parser::parse_on(ast::Program& program) {
     end_statement();
 }
 
-bool Parser::parse_names(std::vector<ast::Name>& names, std::string_view what) {
+bool Parser::parse_names(std::vector<ast::Name>& names) {
+    const bool in_brackets = refuse_bracket_before_names();
     do {
-        if (!expect_name(names.emplace_back(), what)) return false;
-    } while (take_symbol(","));
+        if (!expect_name(names.emplace_back(), "a step or a group", ast::Role::step_or_group)) return false;
+    } while (take_symbol(",") || refuse_semicolon_between_names());
+    if (in_brackets) take_symbol(")");
     return true;
 }
 
 void Parser::parse_group(ast::Program& program) {
     ++at_;
     ast::Group group;
-    if (!expect_name(group.name, "the group's name") ||
-        !expect_symbol(":", "and the steps, as in GROUP Moving: Push, Return;") ||
-        !parse_names(group.steps, "a step or a group")) {
+    if (!expect_name(group.name, "the group's name", ast::Role::group, true)) return recover();
+    if (at_symbol("=") || at_symbol(":=")) {
+        error_here("':' and the steps", fmt::format("write GROUP {}: Push, Return;", group.name.text));
+        tokens_[at_].text = ":";
+    }
+    if (!expect_symbol(":", "and the steps, as in GROUP Moving: Push, Return;") ||
+        !parse_names(group.steps)) {
         return recover();
     }
     program.groups.push_back(std::move(group));
+    end_statement();
+}
+
+void Parser::parse_constant(ast::Program& program) {
+    ++at_;
+    ast::Constant constant;
+    if (is_word_at(0) && is_word_at(1)) {
+        report_.add("E010", token().span, "a constant has no type",
+                    fmt::format("write CONST {} := 10;", token(1).text));
+        ++at_;
+        if (is_symbol_at(1, "=")) tokens_[at_ + 1].text = ":=";
+    }
+    if (!expect_name(constant.name, "the constant's name", ast::Role::constant, true)) {
+        names_missing_ = true;
+        return recover();
+    }
+    faulty_names_.push_back(constant.name.text);
+    if (!expect_symbol(":=", "and a value, as in CONST Pitch := 40 mm;") || !parse_value(constant.value))
+        return recover();
+    faulty_names_.pop_back();
+    program.constants.push_back(std::move(constant));
     end_statement();
 }
 
@@ -176,8 +225,9 @@ void Parser::parse_on_error(ast::Program& program) {
     const Token first = token();
     ++at_;
     ast::Name step;
-    if (!expect("ERROR", "after ON, as in ON ERROR NEXT := Fault;") || !expect("NEXT", "after ON ERROR") ||
-        !expect_symbol(":=", "after NEXT") || !expect_name(step, "the name of the fault step")) {
+    if (!expect("ERROR", "after ON, as in ON ERROR NEXT := Fault;") || !refuse_before_next() ||
+        !expect("NEXT", "after ON ERROR") || !expect_symbol(":=", "after NEXT") ||
+        !expect_name(step, "the name of the fault step", ast::Role::step)) {
         return recover();
     }
     if (program.on_error) twice(span_since(first), "ON ERROR", program.on_error->span);
@@ -185,23 +235,48 @@ void Parser::parse_on_error(ast::Program& program) {
     end_statement();
 }
 
-void Parser::parse_variables(std::vector<ast::Variable>& variables, bool motor) {
+void Parser::parse_variables(std::vector<ast::Variable>& variables, ast::Role role) {
     const Span opened = tokens_[at_ - 1].span;
+    if (at("RETAIN") || at("NON_RETAIN") || at("PERSISTENT") || at("CONSTANT")) {
+        report_.add(
+            "E010", token().span, fmt::format("there is no {} here", shown(token())),
+            "leave it out: inputs and outputs are pins, and values in VAR_MOTOR are written at POWER_UP");
+        ++at_;
+    }
     const auto declares = [&] {
         return token(1).kind == TokenKind::identifier && same_name(token(1).text, "AT");
     };
-    while (!at_block_end("END_VAR") && (!at_boundary() || declares()) && !report_.full()) {
+    while (!at_block_end("END_VAR") && ((!at_boundary() && !at("ON")) || declares()) && !report_.full()) {
         if (take_symbol(";") || (!declares() && mend({"END_VAR"}, "END_VAR or a variable"))) continue;
         const std::size_t before = at_;
-        parse_variable(variables, motor);
+        parse_variable(variables, role);
         if (at_ == before) break;
     }
     end_block("END_VAR", opened);
 }
 
-void Parser::parse_variable(std::vector<ast::Variable>& variables, bool motor) {
+bool Parser::parse_address(ast::Variable& variable, bool motor) {
+    note_place(motor ? ast::Role::register_name : ast::Role::address);
+    if (motor && take("REG")) {
+        return parse_register_number(variable.register_number);
+    }
+    if (token().kind == TokenKind::direct || token().kind == TokenKind::identifier) {
+        const Token first = token();
+        ++at_;
+        while (!motor && (at_symbol(".") || token().kind == TokenKind::number)) ++at_;  // E0.2
+        variable.address.span = span_since(first);
+        variable.address.text = source_.substr(first.span.offset, variable.address.span.length);
+        note_use(motor ? ast::Role::register_name : ast::Role::address, variable.address.span);
+        return true;
+    }
+    error_here(motor ? "a register, such as P1 or V_SOLL" : "an address, such as %IX0.0 or IN0");
+    return false;
+}
+
+void Parser::parse_variable(std::vector<ast::Variable>& variables, ast::Role role) {
+    const bool motor = role == ast::Role::motor_variable;
     ast::Variable variable;
-    if (!expect_name(variable.name, "the name of a variable")) {
+    if (!expect_name(variable.name, "the name of a variable", role, true)) {
         if (token().kind == TokenKind::identifier) ++at_;
         return recover();
     }
@@ -211,6 +286,13 @@ void Parser::parse_variable(std::vector<ast::Variable>& variables, bool motor) {
                                                     variable.name.text));
         return recover();
     }
+    if (at_symbol(",")) {
+        names_missing_ = true;
+        error_here("AT and what the name stands for",
+                   fmt::format("each name has an address of its own: {} AT {}0; Other AT {}1;",
+                               variable.name.text, motor ? "P" : "IN", motor ? "P" : "IN"));
+        return recover();
+    }
     if (motor && at_symbol(":=")) {
         names_missing_ = true;
         error_here("AT and a register", fmt::format("write Name AT {} := value;", variable.name.text));
@@ -218,18 +300,7 @@ void Parser::parse_variable(std::vector<ast::Variable>& variables, bool motor) {
     }
     if (!expect("AT", motor ? "and a register, as in AT P1" : "and an address, as in AT %IX0.0"))
         return recover();
-    if (motor && take("REG")) {
-        if (!parse_register_number(variable.register_number)) return recover();
-    } else if (token().kind == TokenKind::direct || token().kind == TokenKind::identifier) {
-        const Token first = token();
-        ++at_;
-        while (!motor && (at_symbol(".") || token().kind == TokenKind::number)) ++at_;  // E0.2
-        variable.address.span = span_since(first);
-        variable.address.text = source_.substr(first.span.offset, variable.address.span.length);
-    } else {
-        error_here(motor ? "a register, such as P1 or V_SOLL" : "an address, such as %IX0.0 or IN0");
-        return recover();
-    }
+    if (!parse_address(variable, motor)) return recover();
     if (!motor && take_symbol(":")) {
         if (!take("BOOL") && !(mend({"BOOL"}, "BOOL as the type") && take("BOOL"))) {
             error_here("BOOL as the type",
@@ -246,7 +317,7 @@ void Parser::parse_variable(std::vector<ast::Variable>& variables, bool motor) {
                     "leave it out: outputs are off at power-up, and OUT in a step switches them on");
         return recover();
     }
-    if (motor && at_symbol("=")) {
+    if (motor && at_equals()) {
         error_here("':=' before the value", "write := with a colon");
         tokens_[at_].text = ":=";
     }
@@ -255,6 +326,7 @@ void Parser::parse_variable(std::vector<ast::Variable>& variables, bool motor) {
         if (!parse_value(*variable.value)) return recover();
     }
     faulty_names_.pop_back();
+    if (motor) registers_.push_back(variable.name.text);
     variables.push_back(variable);
     end_statement();
 }
@@ -262,8 +334,12 @@ void Parser::parse_variable(std::vector<ast::Variable>& variables, bool motor) {
 void Parser::parse_step(ast::Program& program) {
     const Span opened = token().span;
     ++at_;
+    if (at("STEP")) {
+        report_.add("E010", token().span, "STEP stands twice", "write it once: STEP Name:");
+        ++at_;
+    }
     ast::Step step;
-    if (!expect_name(step.name, "the step's name")) {
+    if (!expect_name(step.name, "the step's name", ast::Role::step, true)) {
         if (token().kind == TokenKind::number)
             report_.last().help = fmt::format("give it a name: STEP Name: or STEP Name AT {}:", token().text);
         step.name = {"", opened};
@@ -289,7 +365,8 @@ void Parser::parse_power_up(ast::Program& program) {
 }
 
 void Parser::parse_step_body(ast::Step& step, std::string_view end_word) {
-    while (!at_block_end(end_word) && !at("STEP") && !at("POWER_UP") && !at("END_STEP") && !report_.full()) {
+    while (!at_block_end(end_word) && !at("STEP") && !at("POWER_UP") && !at("END_STEP") &&
+           !at("END_SEQUENCE") && !report_.full()) {
         const std::size_t before = at_;
         if (take_symbol(";")) continue;
         if (at("ALLOW")) {
@@ -298,7 +375,9 @@ void Parser::parse_step_body(ast::Step& step, std::string_view end_word) {
         }
         mend_statement({end_word});
         if (at(end_word)) break;
-        if (at("OUT")) {
+        if (refuse_item_inside()) {
+            continue;
+        } else if (at("OUT")) {
             parse_out(step);
         } else if (take("OWN")) {
             step.own_error = true;
@@ -308,9 +387,12 @@ void Parser::parse_step_body(ast::Step& step, std::string_view end_word) {
             step.no_helper = true;
             step.no_helper_span = tokens_[at_ - 1].span;
             end_statement();
+        } else if (at("TAKES")) {
+            parse_takes(step);
         } else if (take("ENTRY")) {
             ast::Statement statement;
-            if (parse_statement(statement)) step.entry.push_back(std::move(statement));
+            if (!refuse_entry_with_condition() && parse_statement(statement))
+                step.entry.push_back(std::move(statement));
         } else if (at("TERM")) {
             if (!parse_raw_term(step.terms)) recover();
         } else if (at("IF")) {
@@ -332,7 +414,7 @@ void Parser::parse_step_body(ast::Step& step, std::string_view end_word) {
 void Parser::parse_allowance(ast::Step& step) {
     ++at_;
     ast::Allowance allowance;
-    if (!expect_name(allowance.code, "a check's code, such as V006") ||
+    if (!expect_name(allowance.code, "a check's code, such as V006", ast::Role::check) ||
         !expect("BECAUSE",
                 "behind a check's code, as in ALLOW V006 BECAUSE 'the clamp must hold the part';")) {
         return recover();
@@ -359,11 +441,12 @@ bool Parser::parse_outputs(std::vector<ast::Name>& outputs) {
     do {
         if (token().kind == TokenKind::direct) {
             outputs.push_back(name_of(token()));
+            note_use(ast::Role::address, token().span);
             ++at_;
             continue;
         }
         ast::Name name;
-        if (!expect_name(name, "the name of an output")) return false;
+        if (!expect_name(name, "the name of an output", ast::Role::output)) return false;
         outputs.push_back(name);
     } while (take_symbol(","));
     return true;
@@ -384,17 +467,30 @@ void Parser::parse_out(ast::Step& step) {
                     "write OUT Name; an output that it does not name is off");
         return recover();
     }
-    if (!at("WHEN")) mend({"WHEN"}, "';' or WHEN");
-    if (take("WHEN")) {
+    if (refuse_out_tail() || !parse_out_tail(first, std::move(outputs), step)) return recover();
+    end_statement();
+}
+
+/// What stands behind the names: WHEN, BLINKING or nothing.
+bool Parser::parse_out_tail(const Token& first, std::vector<ast::Name> outputs, ast::Step& step) {
+    if (!at("WHEN") && !at("BLINKING")) mend({"WHEN", "BLINKING"}, "';', WHEN or BLINKING");
+    if (take("BLINKING")) {
+        note_use(ast::Role::keyword, tokens_[at_ - 1].span);
+        ast::Blinking blinking;
+        blinking.outputs = std::move(outputs);
+        if (!expect_time(blinking.time, "BLINKING")) return false;
+        blinking.span = span_since(first);
+        step.blinking.push_back(std::move(blinking));
+    } else if (take("WHEN")) {
         ast::ConditionalOutput conditional;
         conditional.outputs = std::move(outputs);
-        if (!parse_expression(conditional.condition)) return recover();
+        if (!parse_expression(conditional.condition)) return false;
         conditional.span = span_since(first);
         step.conditional.push_back(std::move(conditional));
     } else {
         step.outputs.insert(step.outputs.end(), outputs.begin(), outputs.end());
     }
-    end_statement();
+    return true;
 }
 
 }  // namespace nplc::seqc

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -8,9 +9,21 @@
 
 #include "diagnostics/report.h"
 #include "syntax/ast.h"
+#include "syntax/lexer.h"
 #include "syntax/token.h"
 
 namespace nplc::seqc {
+
+/// What may stand at a place: collected while the parser tries what it knows.
+struct Expected {
+    std::vector<std::string_view> words;
+    std::vector<ast::Role> names;
+    bool value = false;
+    bool unit = false;
+};
+
+/// The token that stands for such a place; it is nothing else.
+inline constexpr std::string_view kPlace = "";
 
 /// Reads a program's tokens. After an error it goes on at the next statement, so that one run shows them all.
 class Parser {
@@ -20,8 +33,20 @@ class Parser {
           tokens_(std::move(tokens)),
           report_(report),
           comment_is_open_(report.has("E002")) {}
+    /// A program and what it includes. Without sources an INCLUDE is read and goes nowhere.
+    Parser(const Sources& sources, Report& report)
+        : Parser(sources.text(), tokens_of(sources, sources.program(), report), report) {
+        sources_ = &sources;
+    }
 
     ast::Program parse();
+    /// What stands in a file for INCLUDE.
+    ast::Program parse_part();
+    /// Whether this is a file for INCLUDE: it begins like one, and no PROGRAM or END_PROGRAM stands in it.
+    bool at_part() const { return at_item() && !is_program(); }
+
+    /// Collects what may stand at the token kPlace.
+    void collect(Expected& expected) { expected_ = &expected; }
 
     /// The tokens back, after parse(); misspelt keywords are mended in them.
     std::vector<Token> take_tokens() { return std::move(tokens_); }
@@ -34,8 +59,16 @@ class Parser {
     bool take(std::string_view word);
     bool take_symbol(std::string_view symbol);
     bool expect(std::string_view word, std::string_view where);
+    bool at_equals();
     bool expect_symbol(std::string_view symbol, std::string_view where);
-    bool expect_name(ast::Name& name, std::string_view what);
+    bool expect_name(ast::Name& name, std::string_view what, ast::Role role, bool declares = false);
+    void note_use(ast::Role role, Span span, bool declares = false) {
+        uses_.push_back({role, span, declares});
+    }
+    bool is_place() const {
+        return expected_ != nullptr && token().kind == TokenKind::symbol && token().text == kPlace;
+    }
+    void note_place(ast::Role role) const;
     Span place_here() const;
     void error_here(std::string_view expected, std::string help = {});
     /// Reports a misspelt keyword and goes on as if it were right; false if no word is near.
@@ -43,6 +76,9 @@ class Parser {
     /// The same for the word that a statement begins with. `end_words` may stand there too.
     void mend_statement(std::vector<std::string_view> end_words);
     bool is_word_at(std::size_t ahead) const;
+    bool is_output_at(std::size_t ahead) const {
+        return is_word_at(ahead) || token(ahead).kind == TokenKind::direct;
+    }
     /// What is missing here stands in a comment that is never closed, which was reported.
     bool in_open_comment() const { return comment_is_open_ && token().kind == TokenKind::end; }
     /// The file ends, and that was reported.
@@ -61,40 +97,96 @@ class Parser {
     void parse_scale(ast::Program& program);
     void parse_on(ast::Program& program);
     void parse_on_error(ast::Program& program);
-    bool parse_names(std::vector<ast::Name>& names, std::string_view what);
+    bool parse_names(std::vector<ast::Name>& names);
     void parse_group(ast::Program& program);
-    void parse_variables(std::vector<ast::Variable>& variables, bool motor);
-    void parse_variable(std::vector<ast::Variable>& variables, bool motor);
+    void parse_constant(ast::Program& program);
+    void parse_variables(std::vector<ast::Variable>& variables, ast::Role role);
+    void parse_variable(std::vector<ast::Variable>& variables, ast::Role role);
+    bool parse_address(ast::Variable& variable, bool motor);
     void parse_step(ast::Program& program);
     void parse_power_up(ast::Program& program);
     void parse_step_body(ast::Step& step, std::string_view end_word);
     void parse_out(ast::Step& step);
     void parse_allowance(ast::Step& step);
     bool parse_outputs(std::vector<ast::Name>& outputs);
+    bool parse_out_tail(const Token& first, std::vector<ast::Name> outputs, ast::Step& step);
+
+    // parse_includes.cpp
+    void parse_include(ast::Program& program);
+    void parse_file(const SourceFile& file, ast::Program& program);
+    void parse_items(ast::Program& program);
+    static void miss_names(ast::Program& program);
+    bool at_item() const;
+    bool is_program() const;
+    void parse_headless(ast::Program& program);
+    std::string help_of_headless() const;
+    void hand_over(ast::Program& program);
 
     // parse_foreign.cpp: what other languages have
     bool is_symbol_at(std::size_t ahead, std::string_view symbol) const;
     /// Says what to write for a word such as WAIT or FOR; reading stands at it, or behind its block.
     bool refuse_foreign_word();
     bool refuse_foreign_item(ast::Program& program);
+    void mend_split_words();
+    bool has_line_end(std::size_t from, std::size_t to) const;
+    bool refuse_else_with_condition();
+    bool refuse_not_in();
+    bool refuse_bracket_before_names();
+    bool refuse_semicolon_between_names();
+    bool refuse_before_next();
+    bool refuse_bare_arguments(const ast::Statement& statement);
     /// To the next thing that may stand outside of a step.
     void recover_item();
     bool at_comparison() const;
-    bool refuse_comparison(const Token& first, ast::Expression& result);
+    bool refuse_comparison(const Token& first, ast::Expression& result, bool is_told);
     bool refuse_call_or_part();
     void parse_step_head(ast::Program& program, ast::Step& step);
 
+    // parse_mistakes.cpp: what stands in the wrong place
+    bool refuse_item_inside();
+    bool refuse_set_of_value(ast::Statement& statement);
+    bool refuse_entry_with_condition();
+    bool refuse_out_tail();
+    bool refuse_state(const ast::Statement& statement);
+    bool refuse_time_as_condition(ast::Expression& result);
+    bool refuse_modulo(ast::Value& value);
+    bool expect_time(ast::Value& time, std::string_view word);
+
     // parse_statements.cpp
     bool parse_if(ast::Choice& choice);
+    void parse_timing(ast::Branch& branch, bool is_first);
     void take_then();
     void parse_branch_body(ast::Branch& branch, Span opened);
     bool parse_statement(ast::Statement& statement);
     bool parse_target(ast::Name& name);
     bool parse_simple_statement(ast::Statement& statement);
+    bool parse_switched_outputs(ast::Statement& statement);
     bool parse_assignment(ast::Statement& statement);
     bool parse_arguments(ast::Statement& statement);
-    bool parse_register_number(std::optional<ast::Value>& number);
+
+    // parse_sequences.cpp
+    void parse_sequence(ast::Program& program);
+    bool parse_parameters(ast::Sequence& sequence);
+    void skip_parameters();
+    bool refuse_statement_outside();
+    bool refuse_semicolon_between_parameters();
+    bool is_sequence(std::string_view name) const;
+    bool parse_split_reset(ast::Statement& statement);
+    std::optional<bool> parse_named_statement(ast::Statement& statement);
+    bool parse_call(ast::Statement& statement);
+    bool parse_called(ast::Statement& statement);
+    void refuse_every_scan(const ast::Statement& statement, std::string_view word);
+    bool parse_call_argument(std::vector<ast::Argument>& arguments);
+
+    // parse_values.cpp
     bool parse_value(ast::Value& value);
+    bool parse_sum(ast::Value& value);
+    bool parse_product(ast::Value& value);
+    bool parse_factor(ast::Value& value);
+    bool parse_named_value(ast::Value& value);
+    static ast::Value wrapped(ast::Value::Kind kind, ast::Value operand);
+    bool parse_literal(ast::Value& value);
+    bool parse_register_number(std::optional<ast::Value>& number);
     void parse_unit(ast::Value& value);
     bool refuse_decimal_comma(const Token& first);
     bool parse_raw_term(std::vector<ast::RawTerm>& terms);
@@ -109,11 +201,22 @@ class Parser {
     bool parse_operators(ast::Expression& result, std::size_t level);
     bool parse_primary(ast::Expression& result);
     bool parse_named_primary(ast::Expression& result);
+    bool at_edge() const;
+    bool parse_edge(ast::Expression& result);
+
+    // parse_set_points.cpp
+    void parse_set_point(ast::Program& program);
+    bool parse_set_point_place(ast::SetPoint& point);
+    bool parse_range(ast::SetPoint& point);
+    void parse_takes(ast::Step& step);
 
     // parse_properties.cpp
     void parse_property(ast::Program& program);
     bool parse_claim();
+    bool parse_before_fact(ast::Expression& condition);
     bool parse_whenever();
+    bool parse_only();
+    void recover_claim();
     void parse_assumption(ast::Program& program);
     void add_claim(const Token& first, ast::Program& program);
     bool parse_step_test();
@@ -121,17 +224,26 @@ class Parser {
     static constexpr int kDeepest = 100;
 
     std::string_view source_;
+    const Sources* sources_ = nullptr;
     std::vector<Token> tokens_;
     Report& report_;
     std::size_t at_ = 0;
     int depth_ = 0;
     std::deque<std::string> texts_;
+    std::vector<ast::Use> uses_;
+    std::vector<ast::Block> blocks_;
+    Expected* expected_ = nullptr;
     std::vector<std::string_view> faulty_names_;
+    std::vector<std::string_view> registers_;  ///< names of VAR_MOTOR
+    std::vector<std::string_view> sequences_;  ///< names of those that stand before
     bool names_missing_ = false;
+    bool has_calls_ = false;
     bool comment_is_open_;
     bool end_reported_ = false;
     bool in_property_ = false;
+    bool before_fact_ = false;  ///< another condition follows: its ( calls nothing
     bool in_term_ = false;
+    bool in_value_ = false;
 };
 
 /// Milliseconds of T#1s500ms; false if it is malformed.

@@ -15,7 +15,7 @@ enum class TokenKind : std::uint8_t {
     time,        ///< T#1s500ms
     direct,      ///< %IX0.0, %peak
     text,        ///< 'words in quotes'
-    symbol,      ///< one of  := : ; , ( ) . = + - /
+    symbol,      ///< one of  := : ; , ( ) . = + - * /
     comment,     ///< only where comments are asked for
 };
 

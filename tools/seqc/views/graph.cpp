@@ -3,125 +3,36 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 
+#include "views/graph_columns.h"
 #include "views/graph_model.h"
+#include "views/graph_text.h"
+#include "views/table_text.h"
 
 namespace nplc::seqc {
 namespace {
 
-constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
-
-bool continues(char c) {
-    return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
-}
-
-/// Bytes of the character that `text` begins with; 0 if it is none that XML may hold.
-std::size_t character_length(std::string_view text) {
-    const auto first = static_cast<unsigned char>(text[0]);
-    if (first < 0x80) return first >= 0x20 && first != 0x7F ? 1 : 0;
-    const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-    if (first < 0xC2 || first > 0xF4 || text.size() < length) return 0;
-    if (!std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(length), continues))
-        return 0;
-    std::uint32_t code = first & (0xFFU >> (length + 1));
-    for (std::size_t i = 1; i < length; ++i)
-        code = (code << 6) | (static_cast<unsigned char>(text[i]) & 0x3FU);
-    constexpr std::array<std::uint32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
-    const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
-    const bool control = code < 0xA0 || code == 0xFFFE || code == 0xFFFF;
-    return code < kLeast[length] || code > 0x10FFFF || surrogate || control ? 0 : length;
-}
-
-/// Calls `use` with each character, a replacement for what is none.
-template <class Use>
-void for_each_character(std::string_view text, Use use) {
-    while (!text.empty()) {
-        const std::size_t length = character_length(text);
-        use(length == 0 ? kReplacement : text.substr(0, length));
-        text.remove_prefix(std::max<std::size_t>(length, 1));
-    }
-}
-
-std::string_view entity(std::string_view character) {
-    if (character == "&") return "&amp;";
-    if (character == "<") return "&lt;";
-    if (character == ">") return "&gt;";
-    if (character == "\"") return "&quot;";
-    return character;
-}
-
-std::size_t characters_in(std::string_view text) {
-    return static_cast<std::size_t>(
-        std::count_if(text.begin(), text.end(), [](char c) { return !continues(c); }));
-}
-
-/// How much of `text` belongs together at its beginning, with the blank that ends it.
-std::size_t piece_length(std::string_view text) {
-    for (std::size_t at = 1; at < text.size(); ++at) {
-        if (text[at - 1] != ' ') continue;
-        const bool after_mark = at >= 2 && (text[at - 2] == ',' || text[at - 2] == ';');
-        if (after_mark || text.substr(at).starts_with("AND ") || text.substr(at).starts_with("OR "))
-            return at;
-    }
-    return text.size();
-}
-
-}  // namespace
-
-std::string quoted(std::string_view text) {
-    std::string result = "\"";
-    for_each_character(text, [&](std::string_view character) {
-        if (character == "\"" || character == "\\") result += '\\';
-        result += character;
-    });
-    return result + "\"";
-}
-
-std::string markup(std::string_view text) {
-    std::string result;
-    for_each_character(text, [&](std::string_view character) { result += entity(character); });
-    return result;
-}
-
-std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
-    std::vector<std::string> lines;
-    const bool fits = characters_in(text) <= width;
-    while (!text.empty()) {
-        const std::string_view piece = text.substr(0, piece_length(text));
-        text.remove_prefix(piece.size());
-        if (lines.empty() || (!fits && piece.starts_with("OR ")) ||
-            characters_in(lines.back()) + characters_in(piece) > width)
-            lines.emplace_back();
-        lines.back() += piece;
-    }
-    for (std::string& line : lines) {
-        while (line.ends_with(' ')) line.pop_back();
-    }
-    return lines;
-}
-
-namespace {
-
-constexpr std::size_t kBoxWidth = 36;   // characters of a line in a step
-constexpr std::size_t kEdgeWidth = 26;  // and beside an arrow
-// What Graphviz lays out in seconds; beyond it the arrows go without their labels.
-constexpr std::size_t kMostArrows = 250;
-constexpr std::size_t kMostWays = 500;
+constexpr std::size_t kNoteWidth = 30;
 
 constexpr const char* kActionColour = "#1f4e79";
+constexpr const char* kTargetColour = "#555555";
 constexpr const char* kErrorColour = "#c00000";
+constexpr const char* kNoteColour = "#8a5a00";
 constexpr const char* kStyle = R"(
-  node [fontname="Helvetica", fontsize=11, shape=box, style=filled, fillcolor="#ffffff", color="#333333", margin="0.08,0.04"];
-  edge [fontname="Helvetica", fontsize=10, color="#333333", arrowsize=0.7];
+  node [fontname="Helvetica", fontsize=11, shape=box, style=filled, fillcolor="#ffffff", color="#333333", margin="0.06,0.04"];
+  edge [color="#333333", arrowsize=0.7];
 )";
 // A4 less half an inch of margin.
 constexpr const char* kPage =
-    R"(size="7.3,10.7", margin=0.2, nodesep=0.4, ranksep=0.4, labelloc=b, fontname="Helvetica", fontsize=9)";
+    R"(size="7.3,10.7", margin=0.2, nodesep=0.3, ranksep=0.3, labelloc=b, fontname="Helvetica", fontsize=9)";
+
+std::string coloured(std::string_view colour, std::string_view content) {
+    return fmt::format(R"(<FONT COLOR="{}">{}</FONT>)", colour, content);
+}
 
 std::string row(std::string_view content) {
-    return fmt::format(R"(<TR><TD ALIGN="LEFT">{}</TD></TR>)", content);
+    return fmt::format(R"(<TR><TD ALIGN="LEFT" COLSPAN="2">{}</TD></TR>)", content);
 }
 
 std::string rows(std::string_view text, std::size_t width) {
@@ -132,80 +43,167 @@ std::string rows(std::string_view text, std::size_t width) {
 
 std::string action_rows(std::string_view text, std::size_t width) {
     std::string result;
-    for (const std::string& line : wrapped(text, width))
-        result += row(fmt::format(R"(<FONT COLOR="{}">{}</FONT>)", kActionColour, markup(line)));
+    for (const std::string& line : wrapped(text, width)) result += row(coloured(kActionColour, markup(line)));
     return result;
 }
 
-std::string way_rows(std::string_view before, const GraphModel::Way& way, std::size_t width) {
-    const std::string condition = fmt::format("{}{}", before, way.condition);
-    return rows(condition, width) + (way.actions.empty() ? "" : action_rows("/ " + way.actions, width));
+/// Lines one below the other in a cell.
+std::string lines(std::string_view text, std::string_view colour) {
+    std::string result;
+    for (const std::string& line : wrapped(text, kBoxWidth)) {
+        const std::string content = markup(line);
+        result += (colour.empty() ? content : coloured(colour, content)) + R"(<BR ALIGN="LEFT"/>)";
+    }
+    return result;
 }
 
-std::string table_of(std::string_view content) {
-    return fmt::format(R"(<<TABLE BORDER="0" CELLBORDER="0" CELLSPACING="0" CELLPADDING="1">{}</TABLE>>)",
-                       content);
-}
+class Drawing {
+  public:
+    explicit Drawing(const GraphModel& model) : model_(model), columns_(columns_of(model)) {}
 
-std::string node(const GraphModel::Box& box) {
-    std::string content = fmt::format("<B>{}</B>", markup(box.name));
-    if (box.shows_number) content = fmt::format(R"(<FONT COLOR="#777777">{}</FONT>  {})", box.step, content);
-    content = fmt::format("<TR><TD>{}</TD></TR>", content);
-    if (!box.reachable) content += "<TR><TD>never reached</TD></TR>";
-    std::string rest;
-    for (const std::string& output : box.outputs) rest += rows(output, kBoxWidth);
-    rest += action_rows(box.entry, kBoxWidth);
-    for (const GraphModel::Way& way : box.every_scan) rest += way_rows("EVERY_SCAN, ", way, kBoxWidth);
-    if (!rest.empty()) content += "<HR/>" + rest;
-    return fmt::format("    s{} [label={}{}{}];\n", box.step, table_of(content),
-                       box.step == 0 ? ", peripheries=2" : "",
-                       box.reachable ? "" : R"(, fillcolor="#dddddd", fontcolor="#555555")");
-}
+    std::string text() const {
+        std::string text = fmt::format("digraph {} {{\n  graph [{}, label=<{}{}>];", quoted(model_.title),
+                                       kPage, markup(model_.footer), legend());
+        text += kStyle;
+        text += fmt::format(
+            "  subgraph cluster_table {{\n    graph [peripheries=0, fontsize=16, labelloc=t, "
+            "label=<<B>{}</B>{}>];\n",
+            markup(model_.title), model_.motor.empty() ? "" : "  " + model_.motor);
+        for (const GraphModel::Box& box : model_.boxes) text += node(box);
+        for (std::size_t i = 0; i < model_.notes.size(); ++i) text += note(i);
+        text += columns_.size() > 1 ? column_lines() : all_lines();
+        return text + "  }\n}\n";
+    }
 
-std::string edge(const GraphModel::Arrow& arrow, bool labelled) {
-    std::string label;
-    for (const GraphModel::Way& way : arrow.ways) label += way_rows("", way, kEdgeWidth);
-    std::string style = labelled ? "label=" + table_of(label) : "label=\"\"";
-    if (arrow.on_error) style += fmt::format(R"(, style=dashed, color="{0}", fontcolor="{0}")", kErrorColour);
-    // Round the outside.
-    if (arrow.leads_far_back) style += ", tailport=e, headport=e";
-    return fmt::format("    s{} -> s{} [{}];\n", arrow.from, arrow.to, style);
-}
+  private:
+    const char* legend() const {
+        const bool has_order = std::any_of(model_.boxes.begin(), model_.boxes.end(),
+                                           [](const GraphModel::Box& box) { return box.ways.size() > 1; });
+        if (!has_order) return "";
+        return model_.notes.empty() ? "; in a step the first condition that holds counts"
+                                    : "; notes come first, then the first condition of the step that holds";
+    }
 
-std::string note(std::size_t number, const GraphModel::ErrorNote& note) {
-    std::string content = row("<B>ERROR</B>") + rows(note.where, kEdgeWidth);
-    if (!note.actions.empty()) content += action_rows("/ " + note.actions, kEdgeWidth);
-    return fmt::format(
-        "    e{0} [shape=note, color=\"{3}\", fontcolor=\"{3}\", fontsize=10, label={1}];\n"
-        "    e{0} -> s{2} [style=dashed, color=\"{3}\"];\n",
-        number, table_of(content), note.to, kErrorColour);
-}
+    std::string name_of(std::uint8_t step) const {
+        const auto box = std::find_if(model_.boxes.begin(), model_.boxes.end(),
+                                      [&](const GraphModel::Box& b) { return b.step == step; });
+        if (box == model_.boxes.end()) return fmt::format("step {}", step);
+        return box->shows_number ? fmt::format("{} {}", step, box->name) : box->name;
+    }
 
-bool can_label(const GraphModel& model) {
-    std::size_t ways = 0;
-    for (const GraphModel::Arrow& arrow : model.arrows) ways += arrow.ways.size();
-    return model.arrows.size() <= kMostArrows && ways <= kMostWays;
-}
+    /// What leads away has the step where it leads beside it.
+    std::string way_row(std::uint8_t step, const GraphModel::Way& way) const {
+        const bool stays = way.to == step;
+        const std::string condition = stays ? "EVERY_SCAN, " + way.condition : way.condition;
+        std::string content = lines(condition, way.on_error ? kErrorColour : "");
+        if (!way.actions.empty()) content += lines("/ " + way.actions, kActionColour);
+        if (stays) return row(content);
+        const std::string by = way.by ? fmt::format(", by {}", *way.by) : "";
+        return fmt::format(R"(<TR><TD ALIGN="LEFT">{}</TD><TD ALIGN="RIGHT" VALIGN="TOP">{}</TD></TR>)",
+                           content, coloured(kTargetColour, to(way) + by));
+    }
+
+    /// Blanks that keep it off what stands before it.
+    std::string to(const GraphModel::Way& way) const {
+        return "\u00A0\u00A0\u2192 " + markup(name_of(way.to));
+    }
+
+    static std::string table_of(std::string_view content) {
+        return fmt::format(R"(<<TABLE BORDER="0" CELLBORDER="0" CELLSPACING="0" CELLPADDING="2">{}</TABLE>>)",
+                           content);
+    }
+
+    std::string node(const GraphModel::Box& box) const {
+        std::string content = fmt::format("<B>{}</B>", markup(box.name));
+        if (box.shows_number)
+            content = fmt::format(R"(<FONT COLOR="#777777">{}</FONT>  {})", box.step, content);
+        content = fmt::format(R"(<TR><TD COLSPAN="2">{}</TD></TR>)", content);
+        if (!box.reachable) content += R"(<TR><TD COLSPAN="2">never reached</TD></TR>)";
+        if (!box.made_as.empty())
+            content += fmt::format(R"(<TR><TD COLSPAN="2">{}</TD></TR>)", markup(box.made_as));
+        std::string rest;
+        for (const std::string& output : box.outputs) rest += rows(output, kBoxWidth);
+        for (const std::string& line : box.entry) rest += action_rows(line, kBoxWidth);
+        if (!rest.empty()) content += "<HR/>" + rest;
+        std::string ways;
+        for (const GraphModel::Way& way : box.ways) ways += way_row(box.step, way);
+        if (!ways.empty()) content += "<HR/>" + ways;
+        return fmt::format("    s{} [label={}{}{}];\n", box.step, table_of(content),
+                           box.step == 0 ? ", peripheries=2" : "",
+                           box.reachable ? "" : R"(, fillcolor="#dddddd", fontcolor="#555555")");
+    }
+
+    std::string note(std::size_t number) const {
+        const GraphModel::Note& note = model_.notes[number];
+        std::string content;
+        for (const std::string& line : wrapped(note.way.condition, kNoteWidth))
+            content += row("<B>" + markup(line) + "</B>");
+        content += rows(note.where, kNoteWidth);
+        if (!note.way.actions.empty()) content += action_rows("/ " + note.way.actions, kNoteWidth);
+        content += row("\u2192 " + markup(name_of(note.way.to)));
+        return fmt::format(
+            "    n{0} [shape=note, color=\"{1}\", fontcolor=\"{1}\", fontsize=10, label={2}];\n", number,
+            note.way.on_error ? kErrorColour : kNoteColour, table_of(content));
+    }
+
+    std::string note_line(std::size_t number) const {
+        const GraphModel::Way& way = model_.notes[number].way;
+        return fmt::format("    n{} -> s{} [style=dashed, color=\"{}\"];\n", number, way.to,
+                           way.on_error ? kErrorColour : kNoteColour);
+    }
+
+    /// A line for each pair of steps; back to an earlier one in grey.
+    std::string all_lines() const {
+        std::string text = "    { rank=min; s0; }\n";
+        for (std::size_t i = 0; i < model_.notes.size(); ++i) text += note_line(i);
+        for (const auto& [pair, on_error] : lines_of(model_)) {
+            const bool back = pair.second < pair.first;
+            text += fmt::format("    s{} -> s{}{};\n", pair.first, pair.second,
+                                on_error ? fmt::format(R"( [style=dashed, color="{}"])", kErrorColour)
+                                : back   ? R"( [color="#999999"])"
+                                         : "");
+        }
+        return text;
+    }
+
+    std::string column_lines() const {
+        std::string text;
+        std::string heads;
+        const std::map<LinePair, bool> drawn = lines_of(model_);
+        for (std::size_t c = 0; c < columns_.size(); ++c) {
+            const std::vector<std::string>& column = columns_[c];
+            for (const std::string& name : column) text += fmt::format("    {} [group=c{}];\n", name, c);
+            for (std::size_t i = 0; i + 1 < column.size(); ++i)
+                text += neighbours(column[i], column[i + 1], drawn);
+            append(heads, column.front(), " -> ");
+        }
+        return text + fmt::format("    {{ rank=min; edge [style=invis]; {}; }}\n", heads);
+    }
+
+    /// What binds two boxes of a column: a line where one leads to the other.
+    static std::string neighbours(const std::string& upper, const std::string& lower,
+                                  const std::map<LinePair, bool>& drawn) {
+        const auto leads = [&](const std::string& from, const std::string& to) {
+            if (from.front() != 's' || to.front() != 's') return false;
+            const LinePair pair{static_cast<std::uint8_t>(std::stoi(from.substr(1))),
+                                static_cast<std::uint8_t>(std::stoi(to.substr(1)))};
+            return drawn.contains(pair);
+        };
+        const char* direction = leads(upper, lower)   ? leads(lower, upper) ? "dir=both, " : ""
+                                : leads(lower, upper) ? "dir=back, "
+                                                      : "style=invis, ";
+        return fmt::format("    {} -> {} [{}weight=100];\n", upper, lower, direction);
+    }
+
+    const GraphModel& model_;
+    std::vector<std::vector<std::string>> columns_;
+};
 
 }  // namespace
 
-std::string graph_of(std::span<const std::uint8_t> table, const Symbols* symbols, const std::string& title) {
-    const GraphModel model = graph_model_of(table, symbols, title);
-    const bool labelled = can_label(model);
-    std::string text =
-        fmt::format("digraph {} {{\n  graph [{}, label=<{}{}>];", quoted(model.title), kPage,
-                    markup(model.footer), labelled ? "" : "; too many switches to say more: see seqc report");
-    text += kStyle;
-    text += fmt::format(
-        "  subgraph cluster_table {{\n    graph [peripheries=0, fontsize=16, labelloc=t, "
-        "label=<<B>{}</B>{}>];\n"
-        "    {{ rank=min; s0; }}\n",
-        markup(model.title), model.motor.empty() ? "" : "  " + model.motor);
-    for (const GraphModel::Box& box : model.boxes) text += node(box);
-    std::size_t number = 0;
-    for (const GraphModel::ErrorNote& error : model.notes) text += note(number++, error);
-    for (const GraphModel::Arrow& arrow : model.arrows) text += edge(arrow, labelled);
-    return text + "  }\n}\n";
+std::string graph_of(std::span<const std::uint8_t> table, const Symbols* symbols, const std::string& title,
+                     const GraphSource& source) {
+    return Drawing(graph_model_of(table, symbols, title, source)).text();
 }
 
 }  // namespace nplc::seqc

@@ -2,25 +2,14 @@
 
 #include <span>
 #include <string>
-#include <string_view>
-#include <vector>
 
-#include "seqc/seqc.h"
+#include "views/graph_model.h"
 
 namespace nplc::seqc {
 
 /// The table as a drawing for an A4 page, in Graphviz' language. The same table gives the same text.
 /// `title` where there are no symbols.
-std::string graph_of(std::span<const std::uint8_t> table, const Symbols* symbols, const std::string& title);
-
-/// Inside "...": quotes and backslashes escaped.
-std::string quoted(std::string_view text);
-
-/// For labels in <...>: markup escaped, what is no UTF-8 and what cannot be printed replaced.
-std::string markup(std::string_view text);
-
-/// Lines of about `width` characters, broken before AND and OR and after commas and semicolons only; before
-/// every OR if one line is not enough.
-std::vector<std::string> wrapped(std::string_view text, std::size_t width);
+std::string graph_of(std::span<const std::uint8_t> table, const Symbols* symbols, const std::string& title,
+                     const GraphSource& source = {});
 
 }  // namespace nplc::seqc

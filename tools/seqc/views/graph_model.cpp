@@ -3,61 +3,41 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <tuple>
 
 #include "base/crc32.h"
 #include "semantics/motors.h"
+#include "views/graph_ways.h"
 #include "views/table_text.h"
 
 namespace nplc::seqc {
 namespace {
 
-using Arrow = GraphModel::Arrow;
-using Box = GraphModel::Box;
-
-constexpr std::size_t kWorthANote = 3;  // steps with the same way out on ERROR
+constexpr std::size_t kWorthANote = 3;  // steps with the same way out
 constexpr std::size_t kFewSteps = 3;
-constexpr int kFarBack = 2;
+constexpr std::size_t kInputs = 6;
 
-std::string joined(const std::vector<std::string>& parts, std::string_view separator) {
-    std::string text;
-    for (const std::string& part : parts) append(text, part, separator);
-    return text;
-}
-
-/// Always on ERROR, and out of the step.
-bool is_plain_error(std::uint8_t step, const Reaction& reaction) {
-    return reaction.outcome.next != step && reaction.when == truth_of_bit(kErrorBit);
-}
+using Steps = std::vector<std::uint8_t>;
 
 class Builder {
   public:
-    Builder(const Machine& machine, const Symbols* symbols)
-        : machine_(machine), symbols_(symbols), power_up_(power_up_orders(machine_)) {
-        for_each_step([this](std::uint8_t step) {
-            reactions_[step] = reactions_of(machine_, step);
-            entries_[step] = entry_of(machine_, step);
-        });
-        for_each_step([this](std::uint8_t step) {
-            for (const Reaction& reaction : reactions_[step]) {
-                if (is_plain_error(step, reaction)) error_ways_[error_way(step, reaction)].push_back(step);
-            }
-        });
-        std::erase_if(error_ways_, [](const auto& way) { return way.second.size() < kWorthANote; });
+    Builder(const Machine& machine, const Symbols* symbols, const GraphSource& source)
+        : machine_(machine), symbols_(symbols), source_(machine, symbols, source) {
+        for_each_step([this](std::uint8_t step) { ways_[step] = source_.of(step); });
     }
 
-    void build(GraphModel& model) const {
-        for_each_step([&](std::uint8_t step) {
-            model.boxes.push_back(box(step));
-            add_arrows(step, model.arrows);
-        });
-        for (const auto& [way, steps] : error_ways_)
-            model.notes.push_back({way.first, where(steps, way.first), way.second});
-        mark_far_back(model.arrows);
+    void build(GraphModel& model) {
+        bundle_error(model.notes);
+        while (bundle_first(model.notes) || bundle_inputs(model.notes)) {
+        }
+        for_each_step([&](std::uint8_t step) { model.boxes.push_back(box(step)); });
     }
 
   private:
-    /// Where ERROR leads, and what is done on the way.
-    using ErrorWay = std::pair<std::uint8_t, std::string>;
+    /// Condition, actions, target.
+    using Key = std::tuple<std::string, std::string, std::uint8_t>;
+    using Bundles = std::map<Key, Steps>;
 
     template <class Use>
     void for_each_step(Use use) const {
@@ -66,139 +46,176 @@ class Builder {
         }
     }
 
-    ErrorWay error_way(std::uint8_t step, const Reaction& reaction) const {
-        return {reaction.outcome.next, actions(step, reaction)};
+    static Key key_of(const GraphWays::Way& way) {
+        return {way.shown.condition, way.shown.actions, way.shown.to};
     }
 
-    bool has_note(std::uint8_t step, const Reaction& reaction) const {
-        return is_plain_error(step, reaction) && error_ways_.contains(error_way(step, reaction));
+    /// Always on ERROR, and out of the step.
+    void bundle_error(std::vector<GraphModel::Note>& notes) {
+        Bundles bundles;
+        for_each_step([&](std::uint8_t step) {
+            for (const GraphWays::Way& way : ways_[step]) {
+                if (is_plain_error(step, way)) bundles[key_of(way)].push_back(step);
+            }
+        });
+        take(bundles, notes,
+             [](std::uint8_t step, const GraphWays::Way& way) { return is_plain_error(step, way); });
     }
 
-    std::string actions(std::uint8_t step, const Reaction& reaction) const {
-        ScanResult outcome = reaction.outcome;
-        auto& orders = outcome.orders;
-        if (outcome.next != step) {
-            const Entry& entry = entries_[outcome.next];
-            orders.resize(orders.size() - entry.orders.size());
-            if (entry.timer != 0) outcome.timer = 0;
-            if (entry.counter_preset != 0) outcome.counter = CounterChange::none;
-            if (step == 0)
-                orders.erase(orders.begin(), orders.begin() + static_cast<std::ptrdiff_t>(power_up_.size()));
+    static bool is_plain_error(std::uint8_t step, const GraphWays::Way& way) {
+        return way.shown.to != step && way.when == truth_of_bit(kErrorBit);
+    }
+
+    /// What several steps of a program have first.
+    bool bundle_first(std::vector<GraphModel::Note>& notes) {
+        Bundles bundles;
+        for_each_step([&](std::uint8_t step) {
+            if (is_first_written(step)) bundles[key_of(ways_[step].front())].push_back(step);
+        });
+        return take(bundles, notes, [this](std::uint8_t step, const GraphWays::Way& way) {
+            return &way == &ways_[step].front();
+        });
+    }
+
+    bool is_first_written(std::uint8_t step) const {
+        if (step == 0 || ways_[step].empty()) return false;
+        const GraphWays::Way& way = ways_[step].front();
+        return way.is_written && way.shown.to != step && !is_for_the_rest(way.shown.condition);
+    }
+
+    static bool is_for_the_rest(std::string_view condition) {
+        return condition == "always" || condition == "ELSE";
+    }
+
+    /// Notes what enough steps have, and takes it out of their ways.
+    template <class Which>
+    bool take(const Bundles& bundles, std::vector<GraphModel::Note>& notes, const Which& which) {
+        const std::size_t before = notes.size();
+        for (const auto& [key, steps] : bundles) {
+            if (steps.size() < kWorthANote) continue;
+            for (const std::uint8_t step : steps) {
+                auto& ways = ways_[step];
+                const auto taken =
+                    std::find_if(ways.begin(), ways.end(), [&, &wanted = key](const GraphWays::Way& way) {
+                        return key_of(way) == wanted && which(step, way);
+                    });
+                covered_[step] |= taken->when;
+                ways.erase(taken);
+            }
+            notes.push_back(note(key, steps));
         }
-        std::vector<std::string> parts = action_texts(outcome, symbols_);
-        for (std::uint8_t bit = 0; bit < 4; ++bit) {
-            if (((reaction.outputs_shown >> bit) & 1) == 0) continue;
-            const bool on = ((*outcome.outputs >> bit) & 1) != 0;
-            parts.push_back(fmt::format("{} {}", output_name(bit, symbols_), on ? "on" : "off"));
-        }
-        return joined(parts, "; ");
+        return notes.size() > before;
     }
 
-    Box box(std::uint8_t step) const {
+    GraphModel::Note note(const Key& key, const Steps& steps) const {
+        const auto& [condition, actions, to] = key;
+        const std::optional<std::string> written = source_.where_of(condition);
+        std::string in = where(steps, to, condition == "ERROR");
+        if (written && !written->empty() && written->size() < in.size()) in = *written;
+        return {{.condition = condition, .actions = actions, .to = to, .on_error = condition == "ERROR"}, in};
+    }
+
+    /// One input that leads several steps of a table to the same place, whatever else there is.
+    bool bundle_inputs(std::vector<GraphModel::Note>& notes) {
+        const std::size_t before = notes.size();
+        for (std::size_t literal = 0; literal < 2 * kInputs; ++literal) bundle_input(literal, notes);
+        return notes.size() > before;
+    }
+
+    Truth cases_of(std::size_t literal, std::uint8_t step) const {
+        const Truth bit = truth_of_bit(literal / 2);
+        return (literal % 2 == 0 ? bit : ~bit) & ~truth_of_bit(kErrorBit) & ~covered_[step];
+    }
+
+    void bundle_input(std::size_t literal, std::vector<GraphModel::Note>& notes) {
+        const std::string name = input_name(literal / 2, symbols_);
+        const std::string condition = literal % 2 == 0 ? name : "NOT " + name;
+        Bundles bundles;
+        for_each_step([&](std::uint8_t step) {
+            for (const GraphWays::Way& way : ways_[step]) {
+                if (has_all(step, way, cases_of(literal, step)))
+                    bundles[{condition, way.shown.actions, way.shown.to}].push_back(step);
+            }
+        });
+        for (const auto& [key, steps] : bundles) {
+            if (steps.size() < kWorthANote) continue;
+            notes.push_back(note(key, steps));
+            for (const std::uint8_t step : steps) covered_[step] |= cases_of(literal, step);
+            for (const std::uint8_t step : steps) shorten(step);
+        }
+    }
+
+    static bool has_all(std::uint8_t step, const GraphWays::Way& way, const Truth& cases) {
+        return !way.is_written && way.shown.to != step && step != 0 && cases.any() &&
+               (cases & ~way.when).none();
+    }
+
+    /// Leaves out of a table's ways what the notes say.
+    void shorten(std::uint8_t step) {
+        for (GraphWays::Way& way : ways_[step]) {
+            if (way.is_written) continue;
+            way.when &= ~covered_[step];
+            way.shown.condition = condition_text(way.when, covered_[step], symbols_);
+        }
+        std::erase_if(ways_[step], [](const GraphWays::Way& way) { return way.when.none(); });
+    }
+
+    GraphModel::Box box(std::uint8_t step) const {
         const bool named =
             symbols_ != nullptr && step < symbols_->steps.size() && !symbols_->steps[step].empty();
-        Box box{.step = step,
-                .name = step_name(step, symbols_),
-                .shows_number = named,
-                .reachable = machine_.reachable.test(step),
-                .outputs = outputs(step),
-                .entry = entry(step),
-                .every_scan = {}};
-        for (const Reaction& reaction : reactions_[step]) {
-            if (reaction.outcome.next != step) continue;
-            box.every_scan.push_back({condition_text(reaction.when, {}, symbols_), actions(step, reaction)});
-        }
+        GraphModel::Box box{.step = step,
+                            .name = step_name(step, symbols_),
+                            .shows_number = named,
+                            .reachable = machine_.reachable.test(step),
+                            .made_as = source_.made_as(step),
+                            .outputs = source_.outputs(step),
+                            .entry = source_.entry(step),
+                            .ways = {}};
+        for (const GraphWays::Way& way : ways_[step]) box.ways.push_back(way.shown);
         return box;
     }
 
-    std::vector<std::string> outputs(std::uint8_t step) const {
-        using Kind = OutputRule::Kind;
-        std::string always_on;
-        std::vector<std::string> texts;
-        for (const OutputRule& rule : output_rules(machine_, step)) {
-            const std::string name = output_name(rule.bit, symbols_);
-            if (rule.kind == Kind::on) {
-                append(always_on, name, ", ");
-                continue;
-            }
-            const std::string_view verb = rule.kind == Kind::sets     ? "set"
-                                          : rule.kind == Kind::resets ? "reset"
-                                                                      : "OUT";
-            texts.push_back(
-                fmt::format("{} {} WHEN {}", verb, name, condition_text(rule.when, rule.open, symbols_)));
-        }
-        if (!always_on.empty()) texts.insert(texts.begin(), "OUT " + always_on);
-        return texts;
-    }
-
-    std::string entry(std::uint8_t step) const {
-        const Entry& entry = entries_[step];
-        ScanResult outcome;
-        outcome.orders = step == 0 ? power_up_ : entry.orders;
-        outcome.timer = entry.timer;
-        outcome.counter_preset = entry.counter_preset;
-        if (entry.counter_preset != 0) outcome.counter = CounterChange::preset;
-        const std::string text = joined(action_texts(outcome, symbols_), "; ");
-        return text.empty() || step == 0 ? text : "ENTRY " + text;
-    }
-
-    void add_arrows(std::uint8_t step, std::vector<Arrow>& arrows) const {
-        for (const Reaction& reaction : reactions_[step]) {
-            if (reaction.outcome.next == step || has_note(step, reaction)) continue;
-            const Arrow wanted{
-                .from = step, .to = reaction.outcome.next, .on_error = reaction.only_on_error(), .ways = {}};
-            auto arrow = std::find_if(arrows.begin(), arrows.end(), [&](const Arrow& a) {
-                return a.from == wanted.from && a.to == wanted.to && a.on_error == wanted.on_error;
-            });
-            if (arrow == arrows.end()) arrow = arrows.insert(arrow, wanted);
-            arrow->ways.push_back({condition_text(reaction.when, {}, symbols_), actions(step, reaction)});
-        }
-    }
-
     /// "in every step but Idle"
-    std::string where(const std::vector<std::uint8_t>& steps, std::uint8_t target) const {
-        std::string in;
-        std::string but;
-        std::size_t left_out = 0;
+    std::string where(const Steps& steps, std::uint8_t target, bool from_power_up) const {
+        Steps in;
+        Steps but;
         for_each_step([&](std::uint8_t step) {
             const bool has = std::find(steps.begin(), steps.end(), step) != steps.end();
-            if (!has && step == target) return;
-            append(has ? in : but, step_name(step, symbols_), ", ");
-            if (!has) ++left_out;
+            if (!has && (step == target || (step == 0 && !from_power_up))) return;
+            (has ? in : but).push_back(step);
         });
-        if (left_out == 0) return "in every other step";
-        return left_out <= kFewSteps ? "in every other step but " + but : "in " + in;
+        if (but.empty()) return "in every other step";
+        return but.size() <= kFewSteps ? "in every other step but " + names_of(but) : "in " + names_of(in);
     }
 
-    /// By the arrows between power-up and each step.
-    void mark_far_back(std::vector<Arrow>& arrows) const {
-        std::array<int, kStepNumbers> depth{};
-        depth.fill(-1);
-        depth[0] = 0;
-        std::vector<std::uint8_t> open{0};
-        for (std::size_t i = 0; i < open.size(); ++i) {
-            for (const Arrow& arrow : arrows) {
-                if (arrow.from != open[i] || depth[arrow.to] >= 0) continue;
-                depth[arrow.to] = depth[arrow.from] + 1;
-                open.push_back(arrow.to);
-            }
+    /// "Idle, Work"; of steps without names "steps 3, 5 to 9".
+    std::string names_of(const Steps& steps) const {
+        std::string text;
+        if (symbols_ != nullptr) {
+            for (const std::uint8_t step : steps) append(text, step_name(step, symbols_), ", ");
+            return text;
         }
-        for (Arrow& arrow : arrows)
-            arrow.leads_far_back = depth[arrow.to] >= 0 && depth[arrow.from] - depth[arrow.to] >= kFarBack;
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+            const std::size_t first = i;
+            while (i + 1 < steps.size() && steps[i + 1] == steps[i] + 1) ++i;
+            append(text,
+                   i == first ? fmt::format("{}", steps[i]) : fmt::format("{} to {}", steps[first], steps[i]),
+                   ", ");
+        }
+        return steps.size() == 1 ? "step " + text : "steps " + text;
     }
 
     const Machine& machine_;
     const Symbols* symbols_;
-    std::vector<sequencer::MotorOrder> power_up_;
-    std::array<std::vector<Reaction>, kStepNumbers> reactions_;
-    std::array<Entry, kStepNumbers> entries_;
-    std::map<ErrorWay, std::vector<std::uint8_t>> error_ways_;
+    GraphWays source_;
+    std::array<std::vector<GraphWays::Way>, kStepNumbers> ways_;
+    std::array<Truth, kStepNumbers> covered_;  ///< by notes
 };
 
 }  // namespace
 
 GraphModel graph_model_of(std::span<const std::uint8_t> table, const Symbols* symbols,
-                          const std::string& title) {
+                          const std::string& title, const GraphSource& source) {
     const Machine machine = machine_of(table);
     GraphModel model;
     const bool named = symbols != nullptr && !symbols->program.empty();
@@ -208,7 +225,7 @@ GraphModel graph_model_of(std::span<const std::uint8_t> table, const Symbols* sy
     const std::size_t terms = machine.terms + 1;
     model.footer = fmt::format("{} step{}, {} term{}, CRC-32 {:08X}", steps, steps == 1 ? "" : "s", terms,
                                terms == 1 ? "" : "s", base::crc32(table));
-    Builder(machine, symbols).build(model);
+    Builder(machine, symbols, source).build(model);
     return model;
 }
 

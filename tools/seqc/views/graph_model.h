@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
-#include <map>
+#include <cstdint>
+#include <optional>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "seqc/seqc.h"
@@ -13,44 +13,44 @@ namespace nplc::seqc {
 
 /// What a drawing of a table shows, as plain text.
 struct GraphModel {
-    /// One way along an arrow.
+    /// What a step does under a condition.
     struct Way {
-        std::string condition;
-        std::string actions;  ///< without what the boxes at both ends say already
-    };
-    /// All ways from one step to another, those on ERROR apart.
-    struct Arrow {
-        std::uint8_t from = 0;
-        std::uint8_t to = 0;
-        bool on_error = false;
-        bool leads_far_back = false;
-        std::vector<Way> ways;
+        std::string condition = {};
+        std::string actions = {};             ///< without what the boxes at both ends say already
+        std::uint8_t to = 0;                  ///< the own step: it stays
+        std::optional<std::uint8_t> by = {};  ///< a helper step on the way
+        bool on_error = false;                ///< on nothing else
     };
     struct Box {
         std::uint8_t step = 0;
-        std::string name;
+        std::string name = {};
         bool shows_number = false;
         bool reachable = false;
-        std::vector<std::string> outputs;  ///< "OUT Grip", "OUT Lamp WHEN IN3"
-        std::string entry;                 ///< "ENTRY STOP"; in step 0 what POWER_UP writes
-        std::vector<Way> every_scan;       ///< what it does while it stays
+        std::string made_as = {};               ///< "helper step", "copy of Fault": the compiler made it
+        std::vector<std::string> outputs = {};  ///< "OUT Grip", "OUT Lamp WHEN IN3"
+        std::vector<std::string> entry = {};    ///< "ENTRY STOP"; in step 0 what POWER_UP writes
+        std::vector<Way> ways = {};             ///< the first one that holds counts
     };
-    /// The same on ERROR in several steps, drawn once.
-    struct ErrorNote {
-        std::uint8_t to = 0;
+    /// The same way out of several steps, drawn once. It comes before what the boxes say.
+    struct Note {
+        Way way;
         std::string where;  ///< "in every other step"
-        std::string actions;
     };
 
     std::string title;
     std::string motor;   ///< empty where unknown
     std::string footer;  ///< what tells this table from others
     std::vector<Box> boxes;
-    std::vector<ErrorNote> notes;
-    std::vector<Arrow> arrows;
+    std::vector<Note> notes;
+};
+
+/// A program, for which its conditions and statements are shown as they stand in it.
+struct GraphSource {
+    const Written* written = nullptr;  ///< nothing: a table alone
+    std::string_view text;
 };
 
 GraphModel graph_model_of(std::span<const std::uint8_t> table, const Symbols* symbols,
-                          const std::string& title);
+                          const std::string& title, const GraphSource& source = {});
 
 }  // namespace nplc::seqc

@@ -208,7 +208,7 @@ class Differ {
         std::vector<std::pair<StepAction, StepAction>> kinds;
         std::vector<Truth> cases;
         for (std::size_t c = 0; c < kCases; ++c) {
-            auto [before, now] = deeds(a, b, c);
+            auto [before, now] = actions(a, b, c);
             if (before == now || is_only_entry(a, b, c, before, now)) continue;
             const auto found = std::find(kinds.begin(), kinds.end(), std::pair(before, now));
             const auto index = static_cast<std::size_t>(found - kinds.begin());
@@ -224,7 +224,7 @@ class Differ {
         }
     }
 
-    std::pair<StepAction, StepAction> deeds(std::uint8_t a, std::uint8_t b, std::size_t c) const {
+    std::pair<StepAction, StepAction> actions(std::uint8_t a, std::uint8_t b, std::size_t c) const {
         const ScanResult& x = before_.machine.steps[a].in(c);
         const ScanResult& y = now_.machine.steps[b].in(c);
         std::pair<StepAction, StepAction> result{step_action_of(x, c), step_action_of(y, c)};
@@ -241,22 +241,22 @@ class Differ {
     }
 
     static void tell_outputs(const KnownOutputs& before, const KnownOutputs& now, std::uint8_t settled,
-                             std::pair<StepAction, StepAction>& deeds) {
+                             std::pair<StepAction, StepAction>& actions) {
         const auto differ =
             static_cast<std::uint8_t>(((before.known ^ now.known) | (before.value ^ now.value)) & ~settled);
-        const auto tell = [differ](const KnownOutputs& outputs, StepAction& deed) {
-            deed.outputs = {static_cast<std::uint8_t>(outputs.known & differ),
-                            static_cast<std::uint8_t>(outputs.value & differ)};
-            deed.kept_outputs = static_cast<std::uint8_t>(differ & ~outputs.known);
+        const auto tell = [differ](const KnownOutputs& outputs, StepAction& action) {
+            action.outputs = {static_cast<std::uint8_t>(outputs.known & differ),
+                              static_cast<std::uint8_t>(outputs.value & differ)};
+            action.kept_outputs = static_cast<std::uint8_t>(differ & ~outputs.known);
         };
-        tell(before, deeds.first);
-        tell(now, deeds.second);
+        tell(before, actions.first);
+        tell(now, actions.second);
     }
 
-    void name_target_before(std::uint8_t step, StepAction& deed) const {
+    void name_target_before(std::uint8_t step, StepAction& action) const {
         const auto now = match_.now_of[step];
-        deed.next_id = now ? *now : static_cast<int>(kStepNumbers) + step;
-        deed.next = now ? name_now(*now) : name_before(step);
+        action.next_id = now ? *now : static_cast<int>(kStepNumbers) + step;
+        action.next = now ? name_now(*now) : name_before(step);
     }
 
     /// Both lead to the same step, and differ only in what all ways into that step do.
@@ -313,12 +313,14 @@ bool TableDiff::same_behaviour() const {
     const auto counts = [](const Step& step) {
         return step.kind == Step::Kind::added || step.kind == Step::Kind::removed;
     };
-    return values.empty() && outputs.empty() && entries.empty() && reactions.empty() &&
+    return set_points.empty() && values.empty() && outputs.empty() && entries.empty() && reactions.empty() &&
            std::none_of(steps.begin(), steps.end(), counts);
 }
 
 TableDiff diff_of(const NamedTable& before, const NamedTable& now) {
-    return Differ(before, now).take();
+    TableDiff diff = Differ(before, now).take();
+    diff.set_points = set_point_changes(before.symbols, now.symbols);
+    return diff;
 }
 
 }  // namespace nplc::seqc

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "seqc/seqc.h"
+#include "views/set_points_text.h"
 
 namespace nplc::seqc {
 
@@ -44,6 +45,7 @@ struct TableDiff {
     std::vector<Change> outputs;  ///< what is on in a step
     std::vector<Change> entries;  ///< what every way into a step does now
     std::vector<Change> reactions;
+    std::vector<SetPointChange> set_points;
 
     /// Names and numbers of steps do not count.
     bool same_behaviour() const;

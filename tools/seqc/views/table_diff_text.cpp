@@ -55,6 +55,13 @@ std::string line_of(const Change& change) {
                        change.now == "nothing" ? "does nothing" : change.now, change.before);
 }
 
+std::string line_of(const SetPointChange& change) {
+    if (change.before.empty()) return fmt::format("set-point {} is new: {}\n", change.name, change.now);
+    if (change.now.empty())
+        return fmt::format("set-point {} is gone, it was {}\n", change.name, change.before);
+    return fmt::format("set-point {}: {} -> {}\n", change.name, change.before, change.now);
+}
+
 template <class List>
 std::string lines_of(const List& list) {
     std::string text;
@@ -102,6 +109,10 @@ Json json_of(const Change& change) {
     return {{"step", change.step}, {"when", change.when}, {"now", change.now}, {"before", change.before}};
 }
 
+Json json_of(const SetPointChange& change) {
+    return {{"name", change.name}, {"now", change.now}, {"before", change.before}};
+}
+
 template <class List>
 Json array_of(const List& list) {
     Json array = Json::array();
@@ -116,18 +127,19 @@ std::string text_of(const TableDiff& diff) {
     if (!diff.motor_now.empty())
         motor = fmt::format("for another motor: {} -> {}\n", diff.motor_before, diff.motor_now);
     const std::string names = lines_of(diff.steps) + renumbered(diff.steps);
-    if (diff.same_bytes) return "the same bytes\n" + motor + names;
+    const std::string set_points = lines_of(diff.set_points);
+    if (diff.same_bytes) return "the same bytes\n" + motor + names + set_points;
     if (diff.same_behaviour()) return "other bytes, but every step does the same\n" + motor + names;
     return motor + names + lines_of(diff.values) + lines_of(diff.outputs) + lines_of(diff.entries) +
-           lines_of(diff.reactions);
+           lines_of(diff.reactions) + set_points;
 }
 
 std::string json_of(const TableDiff& diff) {
-    const Json json{{"same_bytes", diff.same_bytes},        {"same_behaviour", diff.same_behaviour()},
-                    {"motor_before", diff.motor_before},    {"motor_now", diff.motor_now},
-                    {"steps", array_of(diff.steps)},        {"values", array_of(diff.values)},
-                    {"outputs", array_of(diff.outputs)},    {"entries", array_of(diff.entries)},
-                    {"reactions", array_of(diff.reactions)}};
+    const Json json{{"same_bytes", diff.same_bytes},         {"same_behaviour", diff.same_behaviour()},
+                    {"motor_before", diff.motor_before},     {"motor_now", diff.motor_now},
+                    {"steps", array_of(diff.steps)},         {"values", array_of(diff.values)},
+                    {"outputs", array_of(diff.outputs)},     {"entries", array_of(diff.entries)},
+                    {"reactions", array_of(diff.reactions)}, {"set_points", array_of(diff.set_points)}};
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

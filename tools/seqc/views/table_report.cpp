@@ -9,6 +9,8 @@
 #include "semantics/model.h"
 #include "semantics/motors.h"
 #include "sequencer/term.h"
+#include "symbols/set_points_json.h"
+#include "views/set_points_text.h"
 #include "views/table_text.h"
 
 namespace nplc::seqc {
@@ -102,11 +104,16 @@ std::string made_for(const TableReport& report, std::uint8_t step) {
 }
 
 std::string room_text(const TableReport& report) {
+    const auto is_of_sequence = [&](const ReportStep& step) {
+        return made_for(report, step.number).starts_with("of SEQUENCE");
+    };
+    const auto of_sequences = std::count_if(report.steps.begin(), report.steps.end(), is_of_sequence);
     const auto made = std::count_if(report.steps.begin(), report.steps.end(), [&](const ReportStep& step) {
-        return !made_for(report, step.number).empty();
+        return !made_for(report, step.number).empty() && !is_of_sequence(step);
     });
-    std::string text = fmt::format("steps  {} of {}{}{}\n", steps_used(report), most_steps(report),
+    std::string text = fmt::format("steps  {} of {}{}{}{}\n", steps_used(report), most_steps(report),
                                    report.has_power_up ? ", and POWER_UP" : "",
+                                   of_sequences == 0 ? "" : fmt::format("; {} of SEQUENCEs", of_sequences),
                                    made == 0 ? "" : fmt::format("; {} made by the compiler", made));
     text += fmt::format("terms  {} of {}, the end included; {} of {} bytes\n", report.terms, kTermsEverywhere,
                         report.terms * sequencer::kTermBytes, kTermsEverywhere * sequencer::kTermBytes);
@@ -227,7 +234,8 @@ Json json_of(const Transition& transition, const TableReport& report) {
 std::string text_of(const TableReport& report) {
     std::string text;
     if (report.symbols) text = fmt::format("program {}, {}\n", report.symbols->program, motor_of(report));
-    return text + room_text(report) + steps_text(report) + line_text(report);
+    return text + room_text(report) + steps_text(report) +
+           (report.symbols ? set_points_text(*report.symbols) : std::string()) + line_text(report);
 }
 
 std::string summary_of(const TableReport& report) {
@@ -261,6 +269,10 @@ std::string json_of(const TableReport& report) {
                                  {"reachable", step.reachable}});
         const std::string why = made_for(report, step.number);
         if (!why.empty()) json["steps"].back()["made_for"] = why;
+    }
+    if (report.symbols && !report.symbols->set_points.values.empty()) {
+        json["set_points"] = json_of(report.symbols->set_points);
+        json["takes_set_points"] = takes_of(report.symbols->set_points);
     }
     json["transitions"] = Json::array();
     for (const Transition& transition : report.transitions)

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <vector>
 
 #include "lowering/cover.h"
+#include "registers/details.h"
 #include "semantics/commands.h"
 #include "semantics/units.h"
 
@@ -124,15 +126,56 @@ std::int64_t value_of(const sequencer::MotorOrder& write, const Symbols* symbols
     return is_signed ? static_cast<std::int16_t>(write.value) : static_cast<std::int64_t>(write.value);
 }
 
+std::string value_text(const sequencer::MotorOrder& write, const Symbols* symbols) {
+    const registers::Register* reg = find_register(write.reg, symbols);
+    const auto model = symbols != nullptr ? symbols->motor : registers::Model::mac140;
+    const std::string_view name =
+        reg != nullptr ? registers::name_of_value(model, *reg, write.value) : std::string_view();
+    return name.empty() ? std::to_string(value_of(write, symbols)) : std::string(name);
+}
+
 std::string order_text(const sequencer::MotorOrder& order, const Symbols* symbols) {
     if (!order.is_register_write) return describe_command(order.command);
-    return fmt::format("{} := {}", register_name(order.reg, symbols), value_of(order, symbols));
+    return fmt::format("{} := {}", register_name(order.reg, symbols), value_text(order, symbols));
+}
+
+namespace {
+
+std::string register_as_named(std::string_view reg, const Symbols* symbols) {
+    if (symbols == nullptr) return std::string(reg);
+    const auto& names = symbols->motor_names;
+    const auto found =
+        std::find_if(names.begin(), names.end(), [&](const MotorName& n) { return n.reg == reg; });
+    return found == names.end() ? std::string(reg) : found->name;
+}
+
+}  // namespace
+
+std::string named_order_text(const sequencer::MotorOrder& order, const Symbols* symbols) {
+    if (order.is_register_write) {
+        const std::int64_t value = value_of(order, symbols);
+        return fmt::format("{} := {}", register_as_named(register_name(order.reg, symbols), symbols),
+                           with_unit(value, order.reg, symbols).value_or(value_text(order, symbols)));
+    }
+    const std::string text = describe_command(order.command);
+    const std::size_t open = text.find('(');
+    const std::size_t close = text.find(')');
+    if (open == std::string::npos || close == std::string::npos) return text;
+    const std::string reg = text.substr(open + 1, close - open - 1);
+    return text.substr(0, open + 1) + register_as_named(reg, symbols) + text.substr(close);
+}
+
+std::string time_text(std::uint16_t milliseconds) {
+    const int seconds = milliseconds / 1000;
+    const int rest = milliseconds % 1000;
+    if (seconds == 0) return fmt::format("T#{}ms", rest);
+    return rest == 0 ? fmt::format("T#{}s", seconds) : fmt::format("T#{}s{}ms", seconds, rest);
 }
 
 std::vector<std::string> action_texts(const ScanResult& outcome, const Symbols* symbols) {
     std::vector<std::string> texts;
     for (const auto& order : outcome.orders) texts.push_back(order_text(order, symbols));
-    if (outcome.timer != 0) texts.push_back(fmt::format("TIMER := T#{}ms", outcome.timer));
+    if (outcome.timer != 0) texts.push_back("TIMER := " + time_text(outcome.timer));
     switch (outcome.counter) {
         case CounterChange::none:
             break;
@@ -177,8 +220,9 @@ std::optional<std::string> with_unit(std::int64_t value, std::uint8_t number, co
     if (!raw || *raw == 1) return std::nullopt;
     const double exact = static_cast<double>(value) / *raw;
     std::string text;
-    for (int places = 0; places <= kMostPlaces; ++places) {
-        text = fmt::format("{:.{}f}", exact, places);
+    for (int places = -kMostPlaces; places <= kMostPlaces; ++places) {
+        const double tens = std::pow(10.0, std::max(-places, 0));
+        text = fmt::format("{:.{}f}", std::round(exact / tens) * tens, std::max(places, 0));
         if (std::llround(std::strtod(text.c_str(), nullptr) * *raw) == value) break;
     }
     return unit.empty() ? text : fmt::format("{} {}", text, unit);
@@ -186,14 +230,14 @@ std::optional<std::string> with_unit(std::int64_t value, std::uint8_t number, co
 
 namespace {
 
-std::string counter_text(const StepAction& deed) {
-    switch (deed.counter) {
+std::string counter_text(const StepAction& action) {
+    switch (action.counter) {
         case CounterChange::none:
             break;
         case CounterChange::clear:
             return "clears the counter";
         case CounterChange::preset:
-            return fmt::format("sets COUNTER := {}", deed.counter_preset);
+            return fmt::format("sets COUNTER := {}", action.counter_preset);
         case CounterChange::count_down:
             return "counts down";
     }
@@ -220,29 +264,29 @@ bool StepAction::operator==(const StepAction& other) const {
 }
 
 StepAction step_action_of(const ScanResult& outcome, std::size_t c) {
-    StepAction deed;
-    deed.orders = outcome.orders;
-    deed.timer = outcome.timer;
-    deed.counter = outcome.counter;
-    deed.counter_preset = outcome.counter_preset;
+    StepAction action;
+    action.orders = outcome.orders;
+    action.timer = outcome.timer;
+    action.counter = outcome.counter;
+    action.counter_preset = outcome.counter_preset;
     const bool counter_zero = ((c >> kCounterZero) & 1) != 0;
-    if (counter_zero && deed.counter != CounterChange::preset) deed.counter = CounterChange::none;
-    return deed;
+    if (counter_zero && action.counter != CounterChange::preset) action.counter = CounterChange::none;
+    return action;
 }
 
-std::string text_of(const StepAction& deed, const Symbols* symbols) {
+std::string text_of(const StepAction& action, const Symbols* symbols) {
     std::vector<std::string> parts;
     const auto add = [&](std::string part) {
         if (!part.empty()) parts.push_back(std::move(part));
     };
     std::string orders;
-    for (const auto& order : deed.orders) append(orders, order_text(order, symbols), ", ");
+    for (const auto& order : action.orders) append(orders, order_text(order, symbols), ", ");
     add(orders.empty() ? "" : "sends " + orders);
-    add(deed.timer == 0 ? "" : fmt::format("sets TIMER := T#{}ms", deed.timer));
-    add(counter_text(deed));
-    add(outputs_text(deed.outputs, symbols));
-    add(deed.kept_outputs == 0 ? "" : "keeps " + outputs_list(deed.kept_outputs, symbols));
-    add(deed.next.empty() ? "" : "goes to " + deed.next);
+    add(action.timer == 0 ? "" : "sets TIMER := " + time_text(action.timer));
+    add(counter_text(action));
+    add(outputs_text(action.outputs, symbols));
+    add(action.kept_outputs == 0 ? "" : "keeps " + outputs_list(action.kept_outputs, symbols));
+    add(action.next.empty() ? "" : "goes to " + action.next);
     std::string text;
     for (std::size_t i = 0; i < parts.size(); ++i)
         append(text, parts[i], i + 1 == parts.size() ? " and " : ", ");

@@ -31,7 +31,15 @@ std::string register_name(std::uint8_t number, const Symbols* symbols);
 std::int64_t value_of(const sequencer::MotorOrder& write, const Symbols* symbols);
 
 /// "POSITION(P2)", "V1 := 3146".
+/// "GP_MODE" of a register that has names for its values; else the number.
+std::string value_text(const sequencer::MotorOrder& write, const Symbols* symbols);
 std::string order_text(const sequencer::MotorOrder& order, const Symbols* symbols);
+
+/// "POSITION(Press)", "Fast := 1500 rpm": with the program's names and in its units.
+std::string named_order_text(const sequencer::MotorOrder& order, const Symbols* symbols);
+
+/// "T#500ms", "T#2s", "T#1s500ms"
+std::string time_text(std::uint16_t milliseconds);
 
 /// "POSITION(P2)", "TIMER := T#500ms", "COUNT_DOWN" and so on: all but the next step and the outputs.
 std::vector<std::string> action_texts(const ScanResult& outcome, const Symbols* symbols);
@@ -62,6 +70,6 @@ struct StepAction {
 StepAction step_action_of(const ScanResult& outcome, std::size_t c);
 
 /// "sends STOP and goes to Fault"; "nothing".
-std::string text_of(const StepAction& deed, const Symbols* symbols);
+std::string text_of(const StepAction& action, const Symbols* symbols);
 
 }  // namespace nplc::seqc

@@ -19,12 +19,13 @@ class Controller {
         ports::SerialPort* user_line = nullptr;           ///< null: nobody is served
         ports::SerialPort* motor_mactalk_line = nullptr;  ///< the motor's own; null: not wired
         OwnRegisters::Lines shown_lines{};                ///< whose faults LINE_FAULTS shows
+        const store::Area* set_points = nullptr;          ///< of `storage`; null: none are kept
     };
 
     /// Outputs get their safe values, and the tables' area of the storage is looked at. `table`: memory for
     /// the active one.
     Controller(const Ports& ports, const store::Area& tables, std::span<std::uint8_t> table,
-               SettingsKeeper& settings, StartCause cause);
+               SettingsManager& settings, StartCause cause);
     Controller(const Controller&) = delete;
     Controller& operator=(const Controller&) = delete;
 
@@ -37,8 +38,15 @@ class Controller {
 
     Gateway& sequence() { return sequence_; }
     const Gateway& sequence() const { return sequence_; }
-    TableKeeper& tables() { return tables_; }
-    const TableKeeper& tables() const { return tables_; }
+    SetPointsPart& set_points() { return set_points_; }
+    TableManager& tables() { return tables_; }
+    const TableManager& tables() const { return tables_; }
+    /// For faces beside the user's port (firmware/faces).
+    OwnRegisters& registers() { return registers_; }
+    const OwnRegisters& registers() const { return registers_; }
+    UserPort& user_port() { return user_port_; }
+    motor::Motor& motor() { return motor_; }
+    const motor::Motor& motor() const { return motor_; }
     /// A user has asked for a reset: the board reads the settings anew and makes a new Controller.
     bool reset_asked() const { return registers_.reset_asked(); }
 
@@ -48,7 +56,8 @@ class Controller {
     OwnRegisters registers_;
     UserPort user_port_;
     Gateway sequence_;
-    TableKeeper tables_;
+    SetPointsPart set_points_;
+    TableManager tables_;
 };
 
 }  // namespace nplc::gateway

@@ -8,6 +8,7 @@
 #include "base/time.h"
 #include "gateway/event_log.h"
 #include "gateway/hold_control.h"
+#include "gateway/poll_watch.h"
 #include "gateway/safe_state.h"
 #include "gateway/sequence_scan.h"
 #include "gateway/signals.h"
@@ -36,6 +37,8 @@ struct Settings {
     base::Microseconds force_time{5'000'000};     ///< forced signals end when nobody renews them for so long
     std::optional<std::uint8_t> status_output{};  ///< output 0..3 that shows status_light()
     bool require_proof = false;                   ///< a table without a certificate does not start
+    /// us; while the sequence is not stopped, a poll that comes so much later than due is an event.
+    std::uint32_t poll_limit = 5'000;
 };
 
 /// The loop of the NanoPLC (001 §6.1.9) on ports: debounced inputs, scan, orders, outputs, timer. `poll`
@@ -134,6 +137,8 @@ class Gateway {
     void pace(base::Microseconds least) { scan_.pace(least); }
 
     void observe(Observer* observer) { scan_.observe(observer); }
+    /// Whose changes a scan takes before it begins.
+    void take_values_from(ValueSource& source) { scan_.take_values_from(source); }
 
     RunState run_state() const { return run_state_; }
     SafeReason safe_reason() const { return safe_.reason(); }
@@ -150,11 +155,21 @@ class Gateway {
         return scan_.times().last();
     }  ///< between the last two scans' ends
     base::Microseconds worst_scan_time() const { return scan_.times().worst(); }  ///< since run()
-    void clear_worst_scan_time() { scan_.times().clear_worst(); }
+    /// Of scans and of polls.
+    void clear_worst() {
+        scan_.times().clear_worst();
+        polls_.clear_worst();
+    }
+    const PollWatch& polls() const { return polls_; }  ///< its worst() is since run(), too
+    /// For a board that sleeps until another instant than next_poll() said.
+    void expect_poll(base::Instant next, base::Instant now) { polls_.expect(next, now); }
     std::uint8_t terminals() const { return signals_.terminals(); }
     std::uint8_t inputs() const { return signals_.inputs(); }
     std::uint8_t outputs() const { return signals_.outputs(); }
     bool enabled() const;
+    bool is_in_service() const { return permission_.is_in_service(); }  ///< until the next start
+    /// Only while stopped: from now on nothing runs until the next start.
+    void begin_service() { permission_.begin_service(); }
     const motor::Motor& motor() const { return motor_; }
 
     std::uint32_t uptime() const { return log_.uptime(); }
@@ -168,6 +183,7 @@ class Gateway {
     void autostart(base::Instant now);
     base::Status run_until(HoldControl::After hold_after);
     void start_when_ready(base::Instant now);
+    void watch_polls(base::Instant now);
     void serve_sequence(base::Instant now);
     void scan(base::Instant now);
     void leave_safe_state();
@@ -178,7 +194,7 @@ class Gateway {
     void note_motor_fault();
     void expire_forces(base::Instant now);
     void block(SafeReason reason);
-    bool lacks_proof() const;
+    bool needs_proof() const;
     void look_for_proof();
     void enter_safe_state(SafeReason reason, base::Instant now);
     void set_safe_reason(SafeReason reason, base::Instant now);
@@ -200,6 +216,7 @@ class Gateway {
     Settings settings_;
     SequenceScan scan_;
     EventLog log_;
+    PollWatch polls_;
 };
 
 }  // namespace nplc::gateway

@@ -10,7 +10,7 @@
 
 namespace nplc::gateway {
 
-/// What of a person's messages to the motor is carried over FlexMAC: register reads and writes, answered as
+/// What of a client's messages to the motor is carried over FlexMAC: register reads and writes, answered as
 /// the motor would. A block is 16 longwords one after the other.
 class MotorBridge {
   public:
@@ -29,6 +29,8 @@ class MotorBridge {
     base::Instant next_poll(base::Instant now, base::Microseconds pause) const;
     /// After `answered`.
     protocol::mactalk::EncodedReply answer() const;
+    /// The same of a read, as the motor has the bytes.
+    std::span<const std::uint8_t> data() const { return data_; }
 
   private:
     bool is_read() const { return request_.kind != protocol::mactalk::Kind::write; }

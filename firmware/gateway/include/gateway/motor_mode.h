@@ -17,6 +17,7 @@ class MotorMode {
     void follow(const sequencer::MotorOrder& order);
 
     bool is_passive() const { return mode_ == kPassive; }
+    bool is_velocity() const { return mode_ == 1; }
     /// MODE_REG := the mode. P_SOLL and V_SOLL are as they were, so nothing is moved twice.
     sequencer::MotorOrder order(bool longword) const;
 

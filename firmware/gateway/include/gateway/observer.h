@@ -5,7 +5,7 @@
 
 namespace nplc::gateway {
 
-/// Someone who watches the sequence: traces, tests, a person's port. Called from Gateway::poll.
+/// Someone who watches the sequence: traces, tests, the user port. Called from Gateway::poll.
 class Observer {
   public:
     /// An order of a true term was handed to the motor, in table order.

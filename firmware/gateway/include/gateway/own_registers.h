@@ -4,8 +4,9 @@
 #include <cstdint>
 #include <span>
 
-#include "gateway/settings_keeper.h"
-#include "gateway/table_keeper.h"
+#include "gateway/firmware_update.h"
+#include "gateway/settings_manager.h"
+#include "gateway/table_manager.h"
 #include "ports/serial.h"
 
 namespace nplc::gateway {
@@ -22,8 +23,9 @@ class OwnRegisters {
     /// Whose faults LINE_FAULTS shows, in its order; null: none.
     using Lines = std::array<const ports::SerialPort*, registers::gateway::kLines>;
 
-    OwnRegisters(Gateway& gateway, TableKeeper& tables, SettingsKeeper& settings, const Lines& lines)
-        : gateway_(gateway), tables_(tables), settings_(settings), lines_(lines) {}
+    OwnRegisters(Gateway& gateway, TableManager& tables, SetPointsPart& set_points, SettingsManager& settings,
+                 const Lines& lines)
+        : gateway_(gateway), tables_(tables), set_points_(set_points), settings_(settings), lines_(lines) {}
 
     /// 4 bytes of one register, or 64 of sixteen. Reading FIRED_SCAN, and a block from TABLE_DATA, have
     /// effects.
@@ -33,17 +35,32 @@ class OwnRegisters {
     void begin_write(std::uint8_t reg, std::span<const std::uint8_t> bytes, base::Instant now);
     /// `bytes` as before. RESULT has the outcome too.
     Progress poll_write(std::span<const std::uint8_t> bytes, base::Instant now);
+    /// The same of a write to SET_POINT_WRITE, which is beside the others: SetPoints::serve().
+    Progress serve_set_points(SetPointsPart::Writer& writer, std::span<const std::uint8_t> bytes,
+                              base::Instant now);
     /// Nobody waits for the write any more.
     void drop_write();
 
+    /// For who writes beside the user's port: RESULT is that port's, and so is put back after such a write.
+    std::uint32_t result() const { return result_; }
+    void set_result(std::uint32_t result) { result_ = result; }
+    /// Another number for every write begun.
+    std::uint8_t writes_begun() const { return writes_begun_; }
+    std::uint8_t written() const { return written_; }  ///< the register of the last of them
+
+    FirmwarePart& firmware() { return firmware_; }
+    const SettingsManager& settings() const { return settings_; }
     PortCounters& port() { return port_; }
-    /// A user has asked for a reset.
-    bool reset_asked() const { return reset_asked_; }
+    /// A user has asked for a reset, and nothing of set-points is being stored.
+    bool reset_asked() const { return reset_asked_ && !set_points_.stores(); }
     void poll();
     /// When poll(), and poll_write() while a write is not done, must be called at the latest.
     base::Instant next_poll(base::Instant now);
 
   private:
+    static constexpr bool kHasSetPoints = SetPointsPart::kIsThere;
+    static constexpr bool kHasFirmware = FirmwarePart::kIsThere;
+
     /// What poll_write() still has to wait for.
     enum class Waiting : std::uint8_t { nothing, room, activation, reset, saving };
 
@@ -65,16 +82,21 @@ class OwnRegisters {
     Progress reset(base::Instant now);
     Progress table_command(registers::gateway::Command command, base::Instant now);
     Progress write_table(std::span<const std::uint8_t> bytes);
+    CommandResult firmware_command(registers::gateway::Command command);
+    Progress write_firmware(std::span<const std::uint8_t> bytes);
     Progress continue_write(std::span<const std::uint8_t> bytes, base::Instant now);
 
     Gateway& gateway_;
-    TableKeeper& tables_;
-    SettingsKeeper& settings_;
+    TableManager& tables_;
+    SetPointsPart& set_points_;
+    SettingsManager& settings_;
     PortCounters port_;
     Lines lines_;
     bool reset_asked_ = false;
+    [[no_unique_address]] FirmwarePart firmware_;  ///< where the firmware has it
 
     std::uint8_t written_ = 0;
+    std::uint8_t writes_begun_ = 0;
     base::Instant write_begun_{};
     Waiting waiting_ = Waiting::nothing;
     Progress outcome_;

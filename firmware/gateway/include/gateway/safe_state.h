@@ -20,6 +20,8 @@ class StartPermission {
         : in_service_(cause == StartCause::service), starting_up_(cause == StartCause::power_up) {}
 
     bool allows_start() const { return !in_service_ && locked_by_ == SafeReason::none; }
+    bool is_in_service() const { return in_service_; }
+    void begin_service() { in_service_ = true; }
     /// The first table may start without a command.
     bool allows_autostart() const { return starting_up_; }
     void end_start_up() { starting_up_ = false; }

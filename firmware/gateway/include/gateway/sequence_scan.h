@@ -7,6 +7,7 @@
 #include "base/time.h"
 #include "gateway/motor_mode.h"
 #include "gateway/observer.h"
+#include "gateway/value_source.h"
 #include "motor/motor.h"
 #include "sequencer/engine.h"
 
@@ -93,6 +94,7 @@ class SequenceScan {
     /// Least time between a scan that did something and the next one.
     void pace(base::Microseconds least) { pace_ = least; }
     void observe(Observer* observer) { observer_ = observer; }
+    void take_values_from(ValueSource& source) { values_ = &source; }
 
     MotorMode& mode() { return mode_; }
     const MotorMode& mode() const { return mode_; }
@@ -110,12 +112,15 @@ class SequenceScan {
   private:
     Result begin(std::uint8_t inputs, base::Instant now);
     bool send_orders(base::Instant now);
+    bool may_take_values() const;
+    bool take_values(base::Instant now);
     void finish(base::Instant now);
     sequencer::InputImage present_image(std::uint8_t inputs) const;
 
     // Small members first: a Thumb instruction of two bytes reaches only an object's first 32 to 128.
     motor::Motor& motor_;
     Observer* observer_ = nullptr;
+    ValueSource* values_ = nullptr;
     bool in_scan_ = false;
     bool resumes_ = false;
     bool idle_ = false;  ///< nothing could change at the last look

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "base/time.h"
-#include "gateway/outcome.h"
+#include "gateway/command_result.h"
 #include "motor/motor.h"
 
 namespace nplc::gateway {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "gateway/modbus_slave.h"
 #include "gateway/motor_bridge.h"
 #include "gateway/own_registers.h"
 #include "ports/serial.h"
@@ -10,7 +11,7 @@
 
 namespace nplc::gateway {
 
-/// The person's port: MacTalk (001 §5.1) for the gateway's own address (REGISTERS.md), and for the motor's
+/// The user port: MacTalk (001 §5.1) for the gateway's own address (REGISTERS.md), and for the motor's
 /// and 255, which are answered as the motor would. One message at a time; a new one ends the wait for the
 /// answer to the one before. Refused messages get no answer.
 class UserPort {
@@ -18,27 +19,36 @@ class UserPort {
     /// `line`: null where nobody is served. `motor_line`: the motor's own MacTalk port if it is wired, for
     /// what FlexMAC cannot carry; or null.
     UserPort(ports::SerialPort* line, ports::SerialPort* motor_line, Gateway& gateway, motor::Motor& motor,
-             OwnRegisters& own, SettingsKeeper& settings)
+             OwnRegisters& own, SettingsManager& settings)
         : line_(line),
           motor_line_(motor_line),
           gateway_(gateway),
           own_(own),
           settings_(settings),
-          bridge_(motor) {}
+          bridge_(motor),
+          modbus_(gateway, own) {}
 
     /// After Gateway::poll and OwnRegisters::poll.
     void poll(base::Instant now);
     /// When it must be polled at the latest if nothing arrives on either line.
     base::Instant next_poll(base::Instant now);
 
+    /// For who else asks the gateway and the motor: what a client waits for here, and whether the gateway
+    /// would carry a message to the motor now.
+    bool awaits_own_write() const { return serving_ == Serving::own_write; }
+    bool awaits_motor() const { return serving_ == Serving::motor; }
+    bool motor_allows(const protocol::mactalk::Request& request) const;
+    /// A stop from elsewhere comes before it.
+    void cancel_own_write();
+
   private:
-    enum class Serving : std::uint8_t { nothing, own_write, motor, motor_line };
+    enum class Serving : std::uint8_t { nothing, own_write, set_points, motor, motor_line };
 
     void receive(base::Instant now);
     void begin(const protocol::mactalk::Request& request, base::Instant now);
+    void begin_modbus(base::Instant now);
     void begin_own(const protocol::mactalk::Request& request, base::Instant now);
     void begin_motor(const protocol::mactalk::Request& request, base::Instant now);
-    bool motor_allows(const protocol::mactalk::Request& request) const;
     bool is_for_motor(std::uint8_t address) const;
     void pass_on(base::Instant now);
     void drop();
@@ -48,14 +58,14 @@ class UserPort {
     void pass_back(base::Instant now);
     void refuse();
     void answer(const protocol::mactalk::EncodedReply& reply);
-    void transmit();
+    void transmit(base::Instant now);
     void transmit_to_motor();
 
     ports::SerialPort* line_;
     ports::SerialPort* motor_line_;
     Gateway& gateway_;
     OwnRegisters& own_;
-    SettingsKeeper& settings_;
+    SettingsManager& settings_;
 
     Serving serving_ = Serving::nothing;
     base::Instant begun_{};
@@ -63,9 +73,12 @@ class UserPort {
     std::size_t passed_sent_ = 0;
     std::size_t data_size_ = 0;
     MotorBridge bridge_;
+    [[no_unique_address]] SetPointsPart::Writer set_points_;
+    [[no_unique_address]] ModbusPart modbus_;  ///< where the firmware has it
+    bool is_modbus_ = false;                   ///< what is being served
     protocol::mactalk::RequestDecoder decoder_;
     protocol::mactalk::EncodedReply out_;
-    std::array<std::uint8_t, protocol::mactalk::kBareRequestBytes> passed_{};
+    std::array<std::uint8_t, protocol::mactalk::kBareRequestBytes> passed_;
     /// Of a write that is not done yet; the decoder may be receiving already.
     std::array<std::uint8_t, protocol::mactalk::kMaxLongWrite> data_;
 };

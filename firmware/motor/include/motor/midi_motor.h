@@ -18,7 +18,7 @@
 namespace nplc::motor {
 
 /// Why a MidiMotor shows ERROR, for a user. A trip, and why no drive could do an order, are told by
-/// MidiMotor::drive_status() and lack().
+/// MidiMotor::drive_status() and limitation().
 using MidiFault = registers::gateway::DriveFault;
 
 /// What it is and what to do. Without a full stop.
@@ -42,7 +42,7 @@ class MidiMotor final : public Motor {
     /// or earlier: at once.
     base::Instant next_poll(base::Instant now) const;
     bool settled() const override;
-    bool can_execute(const Order& order) const override { return lack_of(order) == Lack::none; }
+    bool can_execute(const Order& order) const override { return limitation_of(order) == Limitation::none; }
     bool has_room() const override { return !orders_.full(); }
     void send(const Order& order) override { orders_.push(order, session_.is_up()); }
     void stop() override;
@@ -57,13 +57,19 @@ class MidiMotor final : public Motor {
     Counters counters() const override;
     bool longwords_only() const override { return false; }
 
-    using Lack = registers::midi::Lack;
-    Lack lack_of(const Order& order) const;
+    using Limitation = registers::midi::Limitation;
+    Limitation limitation_of(const Order& order) const;
 
     /// The first reason for the present ERROR; stays until "reset error" (01h).
     MidiFault fault() const;
-    Lack lack() const { return lack_; }                             ///< of a `bad_value`
+    Limitation limitation() const { return limitation_; }           ///< of a `bad_value`
     std::uint32_t drive_status() const { return drive_.status(); }  ///< GET_STATUS, as last heard
+    const MidiDrive& drive() const { return drive_; }
+    bool is_at_target() const { return registers_.mode() == 2 && in_position(); }
+    /// A mode that moves, and V_SOLL 0, which holds every move back.
+    bool has_no_speed() const {
+        return registers_.mode() != 0 && registers_.is_set(registers::V_SOLL) && registers_.v_soll() == 0;
+    }
     /// How the last message ended while the link was down.
     const MidiOutcome& probe() const { return probe_; }
 
@@ -84,7 +90,7 @@ class MidiMotor final : public Motor {
     void on_refused_motion(base::Instant now);
     void forget_parameter();
     void begin_reset(base::Instant now);
-    void raise(MidiFault fault, Lack lack = Lack::none);
+    void raise(MidiFault fault, Limitation limitation = Limitation::none);
     /// Whatever the module was told that waits is ended too.
     void raise_and_stop(MidiFault fault);
     void drop_orders();
@@ -94,10 +100,7 @@ class MidiMotor final : public Motor {
     Message next_message(base::Instant now);
     Message next_query(base::Instant now);
     Message next_command(base::Instant now);
-    Message next_for_run();
-    Message next_for_move();
     Message next_access();
-    bool fit_ramp(std::uint16_t period, std::uint8_t& ramp);
     bool has_work() const;
 
     // What an order does.
@@ -126,7 +129,7 @@ class MidiMotor final : public Motor {
     std::uint8_t repeats_ = 0;    ///< of the command that is to be sent
     std::uint8_t refusals_ = 0;   ///< of the motion that is to begin
     MidiFault fault_ = MidiFault::none;
-    Lack lack_ = Lack::none;
+    Limitation limitation_ = Limitation::none;
     MidiSession session_;
     MidiMotion motion_;
     MidiDrive drive_;

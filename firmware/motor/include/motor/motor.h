@@ -61,7 +61,7 @@ class Motor {
     /// for the next poll(). Reads nothing.
     virtual void begin_orders(base::Instant now) = 0;
 
-    /// Every order has been executed or given up and in_position() and error() are newer than the last of
+    /// Every order has been executed or dropped and in_position() and error() are newer than the last of
     /// them: a scan may begin. Also true while the link is down (the scan then sees error()).
     virtual bool settled() const = 0;
 

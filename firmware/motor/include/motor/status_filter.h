@@ -6,7 +6,7 @@
 
 namespace nplc::motor {
 
-/// Believes a status byte only when it comes twice in a row: one byte has no redundancy.
+/// Takes a status byte as valid only when it comes twice in a row: one byte has no redundancy.
 class StatusFilter {
   public:
     void receive(std::uint8_t byte) {

@@ -128,8 +128,6 @@ class AnswerDecoder {
   public:
     void expect(const Request& request);
     Answer receive(std::uint8_t byte);
-    /// Ack was heard: the module has the whole frame. Without it, and without Nack, nobody knows.
-    bool acknowledged() const { return acknowledged_; }
     bool waiting() const { return waiting_; }
     void abandon() { waiting_ = false; }
 

@@ -32,6 +32,8 @@ enum Number : std::uint8_t {
     STORED_BYTES = 7,
     STORED_MAX = 8,
     STORE_FLAGS = 9,
+    PASSWORD_STATE = 10,
+    PASSWORD = 11,
 
     STATUS = 16,
     SAFE_REASON = 17,
@@ -59,6 +61,8 @@ enum Number : std::uint8_t {
     MESSAGES = 38,
     REFUSED = 39,
     LINE_FAULTS = 40,
+    POLL_WORST = 43,
+    LATE_POLLS = 44,
 
     COMMAND = 48,
     FORCE_IN = 49,
@@ -78,14 +82,36 @@ enum Number : std::uint8_t {
     FIRED_SCAN = 80,
     FIRED_STEP = 81,
     FIRED_KEY = 82,
+
+    SET_POINT_COUNT = 83,
+    SET_POINT_STATE = 84,
+    SET_POINT_CRC = 85,
+    SET_POINT_CHANGES = 86,
+    SET_POINT_RECORD = 87,
+    SET_POINT_BYTES = 88,
+    SET_POINT_POINTER = 89,
+    SET_POINT_DATA = 90,
+    SET_POINT_WRITE = 91,
     FIRED = 96,
 
     LOG = 128,
+    SET_POINT = 160,
+    SET_POINT_WANTED = 176,
+
+    FIRMWARE_BOARD = 192,
+    FIRMWARE_STATE = 193,
+    FIRMWARE_VERSION = 194,
+    FIRMWARE_SLOT = 196,
+    FIRMWARE_RECEIVED = 198,
+    FIRMWARE_DATA = 199,
     SETTINGS = 200,
 };
 
-inline constexpr std::uint8_t kProofWords = 8;     ///< PROOF and the 7 after it
-inline constexpr std::uint8_t kLines = 3;          ///< LINE_FAULTS and the two after it
+inline constexpr std::uint8_t kProofWords = 8;  ///< PROOF and the 7 after it
+inline constexpr std::uint8_t kSetPoints = 16;  ///< SET_POINT and the 15 after it, SET_POINT_WANTED too
+inline constexpr std::uint8_t kLines = 3;       ///< LINE_FAULTS and the two after it
+inline constexpr std::uint8_t kFirmwareSlots =
+    2;  ///< FIRMWARE_VERSION and FIRMWARE_SLOT and the one after each
 inline constexpr std::uint8_t kFiredWords = 32;    ///< FIRED and the 31 after it: a bit a term
 inline constexpr std::uint8_t kLogEntries = 16;    ///< two registers each, from LOG on
 inline constexpr std::uint8_t kMostSettings = 31;  ///< registers of settings, from SETTINGS + 1 on
@@ -95,10 +121,40 @@ constexpr std::uint8_t register_of(Setting setting) {
     return static_cast<std::uint8_t>(SETTINGS + static_cast<unsigned>(setting));
 }
 
+/// Bytes of PASSWORD: a long write, filled up with zeros to a multiple of 4.
+inline constexpr std::size_t kLeastPassword = 8;
+inline constexpr std::size_t kMostPassword = 128;
+
+/// Where a write changes nothing but what a later command or read goes by: it needs no operator's seat.
+constexpr bool only_prepares(std::uint8_t reg) {
+    return reg == UPLOAD_BYTES || reg == TABLE_POINTER || reg == SET_POINT_POINTER;
+}
+
 /// What follows the end term of a table that is uploaded with a certificate: this, then its SHA-256.
 inline constexpr std::array<std::uint8_t, 8> kProofMark{'N', 'P', 'L', 'P', 'R', 'O', 'O', 'F'};
 inline constexpr std::size_t kDigestBytes = std::size_t{4} * kProofWords;
 inline constexpr std::size_t kProofBytes = kProofMark.size() + kDigestBytes;
+
+/// SET_POINT_STATE.
+enum SetPointBit : std::uint32_t {
+    kChangeWaits = 1U << 0,      ///< wanted values are not in force yet
+    kValuesDamaged = 1U << 1,    ///< the stored ones; older ones or defaults stand in
+    kRecipeDiffers = 1U << 2,    ///< wanted values are not those of the recipe that was loaded last
+    kActiveRecipe = 0xFFU << 8,  ///< its number; 0: none
+};
+
+/// Bits 31..16 of SET_POINT_POINTER: what SET_POINT_DATA shows from the byte in bits 15..0 on, in a block
+/// from SET_POINT_POINTER.
+enum class SetPointView : std::uint8_t { record = 0, first_recipe = 1, requests = 254, changes = 255 };
+inline constexpr std::size_t kSetPointDataBytes = 60;
+
+/// A change as the view `changes` has it, 16 bytes each, the last one first.
+inline constexpr std::size_t kChangeBytes = 16;
+
+/// How the last requests ended, as the view `requests` has it: each one's own number and RESULT, 4 bytes
+/// each.
+inline constexpr std::size_t kKeptRequests = 4;
+inline constexpr std::uint32_t kRequestUnderWay = 0xFFFF'FFFF;  ///< in the place of RESULT
 
 enum class Access : std::uint8_t { read, read_write, write };
 

@@ -32,6 +32,19 @@ constexpr Cells cells_of_write(Model model, std::uint8_t number, std::uint8_t by
     return {number, static_cast<std::uint8_t>(two ? 2 : 1)};
 }
 
+/// 2 or 4 as bytes_of(), and whether it has a sign, of a number on MAC50-141: what a board that has no room
+/// for the maps knows of them.
+struct Width {
+    std::uint8_t bytes;
+    bool is_signed;
+};
+Width small_width_of(std::uint8_t number);
+
+/// The bits of ERR_STAT that are settings, not errors (001 §3.2.35; 004).
+constexpr std::uint32_t settings_of_err_stat(Model model) {
+    return model == Model::mac800 ? 1U << 14 : 0x4600U;
+}
+
 constexpr Cells cells_of(Model model, const Register& reg) {
     return cells_of_write(model, reg.number, bytes_of(model, reg));
 }

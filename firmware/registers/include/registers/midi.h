@@ -162,7 +162,7 @@ enum TerminalBit : std::uint32_t {
 
 struct Bit {
     std::uint32_t mask;
-    std::string_view text;  ///< for a person, when it is 1
+    std::string_view text;  ///< for the user, when it is 1
 };
 std::span<const Bit> status_bits();
 std::span<const Bit> terminal_bits();

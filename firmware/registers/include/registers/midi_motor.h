@@ -13,7 +13,7 @@
 namespace nplc::registers::midi {
 
 /// Why a MIDI drive cannot do what an order asks.
-enum class Lack : std::uint8_t {
+enum class Limitation : std::uint8_t {
     none,             ///< it can
     load_factor,      ///< L registers, KVOUT
     function_error,   ///< P_FNC, and what moves by it: 04h, 08h, 09h, 16h
@@ -32,16 +32,16 @@ enum class Lack : std::uint8_t {
     window,           ///< INPOSWIN 0, or a tolerance over 255 increments
 };
 
-/// What to tell a person: what it is and what to do. Without a full stop.
-std::string_view text_of(Lack lack);
+/// What to tell the user: what it is and what to do. Without a full stop.
+std::string_view text_of(Limitation limitation);
 
 /// Of a FastMAC command, bits 6..0.
-Lack lack_of_command(std::uint8_t command);
+Limitation limitation_of_command(std::uint8_t command);
 /// Of a register write, as far as its own value tells. What depends on several registers (a ramp, the halves
 /// of a position) only shows when the order is executed.
-Lack lack_of_write(Model model, std::uint8_t reg, bool longword, std::uint32_t value);
+Limitation limitation_of_write(Model model, std::uint8_t reg, bool longword, std::uint32_t value);
 /// Of moving with both values, for whoever knows them together. V_SOLL 0 lacks nothing: the drive stands.
-Lack lack_of_profile(Model model, std::int16_t v_soll, std::uint16_t a_soll);
+Limitation limitation_of_profile(Model model, std::int16_t v_soll, std::uint16_t a_soll);
 
 /// 4096 counts are 2000 increments on MAC23 and 10000 on MAC34; to the nearest, a half upwards. Nothing
 /// beyond kMinPosition..kMaxPosition.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "registers/midi.h"
-#include "registers/scale.h"
 
 /// From physical units to what a MIDI module's commands and replies hold, and back, in whole numbers only.
 /// What cannot be said exactly is rounded as each function says; what does not fit is nothing.
@@ -14,14 +13,6 @@ inline constexpr std::uint32_t kRampIncrements = 120;        ///< a unit of RAMP
 /// rpm x period: 240000 on MAC23, 48000 on MAC34 (000 §VI 0Dh).
 std::uint32_t rpm_times_period(Model model);
 
-/// Speed to VVVV, to the nearest; nothing for 0, below what 65535 means, and above what 1 means.
-std::optional<std::uint16_t> period_of_rpm(Model model, Ratio rpm);
-/// The same from increments a second, in 32 bits: for a running path.
-std::optional<std::uint16_t> period_of_speed(std::uint32_t increments_per_second);
-/// Exact; the period is 1..65535.
-Ratio rpm_of_period(Model model, std::uint16_t period);
-Ratio speed_of_period(std::uint16_t period);
-
 /// Speed to VV of UNSTALL, the next slower one; nothing beyond 1..255, that is 5000 to 20 increments a
 /// second.
 std::optional<std::uint8_t> unstall_of_speed(std::uint32_t increments_per_second);
@@ -29,16 +20,6 @@ std::optional<std::uint8_t> unstall_of_speed(std::uint32_t increments_per_second
 /// The ramp that accelerates to `speed` with at most `acceleration`: v^2 / (2 a x 120) rounded up. Nothing if
 /// more than 255 were needed, or for acceleration 0. No division. Increments a second, and a second^2.
 std::optional<std::uint8_t> ramp_of(std::uint32_t speed, std::uint32_t acceleration);
-/// Increments a second^2, exactly: v^2 / (240 x ramp), for ramp 1..255. Ramp 0 bounds nothing (003 §IV).
-Ratio acceleration_of(std::uint8_t ramp, std::uint32_t speed);
-
-/// The share part / whole of full torque as CC, rounded down so that it is never more; nothing above the
-/// whole. `part` and `whole` up to 65535.
-std::optional<std::uint8_t> torque_of(std::uint32_t part, std::uint32_t whole, std::uint8_t imax);
-/// The share of full torque, exactly; `imax` is not 0.
-constexpr Ratio torque_share(std::uint8_t torque, std::uint8_t imax) {
-    return Ratio{torque, 1} / Ratio{imax, 1};
-}
 
 /// GET_MEASURES's temperature in thousandths of a degree, exactly (000 §VI 27h; good from 0 to 100 °C).
 std::int32_t temperature_of(Model model, std::uint8_t measure);

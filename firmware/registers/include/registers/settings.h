@@ -32,6 +32,7 @@ enum class Setting : std::uint8_t {
     motor_kind = 20,
     midi_address = 21,
     require_proof = 22,
+    poll_limit = 23,
 };
 
 /// `none` in enable_input and status_output.
@@ -49,7 +50,7 @@ struct SettingInfo {
     std::string_view help;
 };
 
-inline constexpr std::size_t kSettings = 22;
+inline constexpr std::size_t kSettings = 23;
 const std::array<SettingInfo, kSettings>& all_settings();
 /// nullptr if there is none.
 const SettingInfo* find_setting(std::uint8_t id);

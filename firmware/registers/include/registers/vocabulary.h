@@ -58,8 +58,9 @@ enum class SafeReason : std::uint8_t {
     bad_run_mark = 10,  ///< what says that the sequence runs is damaged, missing, or cannot be written
     no_lines = 11,      ///< 11 to 13: the board lacks what the axis needs and tries to have it again
     no_store = 12,
-    no_port = 13,   ///< the user's
-    no_proof = 14,  ///< the table has no certificate, and setting require_proof asks for one
+    no_port = 13,         ///< the user's
+    no_proof = 14,        ///< the table has no certificate, and setting require_proof asks for one
+    bad_set_points = 15,  ///< the stored values are damaged: older ones or defaults stand in
 };
 
 constexpr std::string_view name_of(SafeReason reason) {
@@ -78,7 +79,8 @@ constexpr std::string_view name_of(SafeReason reason) {
                                         {no_lines, "GPIO lines missing"},
                                         {no_store, "no store"},
                                         {no_port, "user's port missing"},
-                                        {no_proof, "no certificate"}});
+                                        {no_proof, "no certificate"},
+                                        {bad_set_points, "bad set-points"}});
 }
 
 /// Bits 7..0 of a log entry's second register; below 16 they are a SafeReason.
@@ -94,10 +96,18 @@ enum class Event : std::uint8_t {
     upload_failed = 24,
     settings_kept = 25,
     store_damaged = 26,
-    upload_given_up = 27,
-    gave_up = 28,
-    gave_up_at = 29,
+    upload_aborted = 27,
+    crashed = 28,
+    crashed_at = 29,
+    polled_late = 30,  ///< later than setting poll_limit; detail: milliseconds
     motor_fault = 32,
+    set_points_changed = 33,  ///< detail: how many in bits 7..0, by whom (Origin) in bits 15..8
+    set_points_taken = 34,    ///< the sequence goes by them now; detail: how many
+    set_points_dropped =
+        35,              ///< detail: a bit for each that has its default because nothing that was kept fits
+    recipe_loaded = 36,  ///< 36 to 38: detail: its number in bits 7..0, by whom in bits 15..8
+    recipe_saved = 37,
+    recipe_deleted = 38,
 };
 
 constexpr std::string_view name_of(Event event) {
@@ -113,10 +123,17 @@ constexpr std::string_view name_of(Event event) {
                                   {upload_failed, "upload failed"},
                                   {settings_kept, "settings kept"},
                                   {store_damaged, "stored table or settings damaged"},
-                                  {upload_given_up, "upload given up"},
-                                  {gave_up, "the firmware gave up before this start"},
-                                  {gave_up_at, "it was at this code address"},
-                                  {motor_fault, "the drive's fault"}});
+                                  {upload_aborted, "upload aborted"},
+                                  {crashed, "the firmware crashed before this start"},
+                                  {crashed_at, "it was at this code address"},
+                                  {polled_late, "polled too late"},
+                                  {motor_fault, "the drive's fault"},
+                                  {set_points_changed, "set-points changed"},
+                                  {set_points_taken, "set-points taken"},
+                                  {set_points_dropped, "set-points fell back to their defaults"},
+                                  {recipe_loaded, "recipe loaded"},
+                                  {recipe_saved, "recipe saved"},
+                                  {recipe_deleted, "recipe deleted"}});
 }
 
 /// Of bits 7..0 of a log entry's second register.
@@ -124,6 +141,71 @@ constexpr std::string_view name_of_log_code(std::uint8_t code) {
     constexpr std::uint8_t kFirstEvent = 16;
     return code < kFirstEvent ? name_of(static_cast<SafeReason>(code)) : name_of(static_cast<Event>(code));
 }
+
+/// The same for programs that search and count: lower_case, and never another one. Empty: no such code.
+constexpr std::string_view key_of_log_code(std::uint8_t code) {
+    constexpr std::string_view kKeys[]{"runs",
+                                       "not_started",
+                                       "stop_command",
+                                       "link_down",
+                                       "motor_stuck",
+                                       "bad_table",
+                                       "watchdog",
+                                       "enable_lost",
+                                       "safe_command",
+                                       "bad_settings",
+                                       "bad_run_mark",
+                                       "no_lines",
+                                       "no_store",
+                                       "no_port",
+                                       "no_proof",
+                                       "bad_set_points",
+                                       "started",
+                                       "held",
+                                       "breakpoint",
+                                       "forced",
+                                       "forces_ended",
+                                       "link_up",
+                                       "table_activated",
+                                       "table_stored",
+                                       "upload_failed",
+                                       "settings_kept",
+                                       "store_damaged",
+                                       "upload_aborted",
+                                       "crashed",
+                                       "crashed_at",
+                                       "polled_late",
+                                       "",
+                                       "motor_fault",
+                                       "set_points_changed",
+                                       "set_points_taken",
+                                       "set_points_dropped",
+                                       "recipe_loaded",
+                                       "recipe_saved",
+                                       "recipe_deleted"};
+    return code < sizeof kKeys / sizeof *kKeys ? kKeys[code] : "";
+}
+
+/// Who changed set-points.
+enum class Origin : std::uint8_t { user_port = 1, panel = 2, modbus = 3, mqtt = 4, scenario = 5 };
+
+constexpr std::string_view name_of(Origin origin) {
+    using enum Origin;
+    return word_of<Origin>(origin, {{user_port, "the user's port"},
+                                    {panel, "the panel"},
+                                    {modbus, "Modbus"},
+                                    {mqtt, "MQTT"},
+                                    {scenario, "the scenario"}});
+}
+
+/// What SET_POINT_WRITE asks for.
+enum class SetPointRequest : std::uint8_t {
+    change = 1,
+    save_recipe = 2,  ///< the wanted values
+    put_recipe = 3,   ///< the values of the request
+    load_recipe = 4,
+    delete_recipe = 5,
+};
 
 /// LINK: the line between gateway and motor.
 enum class Link : std::uint8_t {
@@ -199,6 +281,9 @@ enum class Command : std::uint8_t {
     upload_commit = 17,
     upload_abort = 18,
     activate = 19,
+    firmware_begin = 24,
+    firmware_commit = 25,
+    firmware_abort = 26,
 };
 
 constexpr std::string_view name_of(Command command) {
@@ -216,7 +301,10 @@ constexpr std::string_view name_of(Command command) {
                              {upload_begin, "upload_begin"},
                              {upload_commit, "upload_commit"},
                              {upload_abort, "upload_abort"},
-                             {activate, "activate"}},
+                             {activate, "activate"},
+                             {firmware_begin, "firmware_begin"},
+                             {firmware_commit, "firmware_commit"},
+                             {firmware_abort, "firmware_abort"}},
                             "unknown command");
 }
 
@@ -244,11 +332,26 @@ enum class Result : std::uint8_t {
     too_late = 19,
     cannot_go_on = 20,
     no_proof = 21,
+    seat_taken = 22,
+    out_of_range = 23,
+    wrong_unit = 24,
+    other_table = 25,
+    no_recipe = 26,
+    other_recipe = 27,
+    no_recipe_left = 28,
+    interrupted = 29,
+    no_password = 30,
     table_no_end = 32,
     table_ragged = 33,
     bad_next_step = 34,
     bad_register = 35,
     not_for_motor = 36,
+    bad_set_points = 37,
+    not_confirmed = 38,
+    bad_firmware = 39,
+    other_board = 40,
+    not_newer = 41,
+    not_in_service = 42,
 };
 
 /// One line for the user, "the sequence is not stopped; stop it first".
@@ -284,13 +387,53 @@ constexpr std::string_view describe(Result result) {
           "else told it); stop, then run from the start"},
          {no_proof,
           "the table has no certificate, and setting require_proof asks for one; upload it with --proof"},
+         {seat_taken,
+          "another client operates, or operating is switched to where this one is not; only stop, safe and "
+          "hold are taken"},
+         {out_of_range, "a set-point is out of its range"},
+         {wrong_unit, "a value has another unit than its set-point"},
+         {other_table, "the set-points are not those of the table in use; read them anew"},
+         {no_recipe, "there is no such recipe"},
+         {other_recipe, "the recipe of this number has another name by now; read them anew"},
+         {no_recipe_left, "all recipes are taken; delete one, or save under a name that is there"},
+         {no_password,
+          "this port takes changes only from who has given its password; give it with --password-file"},
+         {interrupted, "the gateway restarted meanwhile; look whether it was stored"},
          {table_no_end, "the table has no end term"},
          {table_ragged, "the table ends inside a term"},
          {bad_next_step, "NEXT_STATE 3Fh in a term"},
          {bad_register, "register 0 in a term"},
-         {not_for_motor, "the motor does not have an order of the table"}},
+         {not_for_motor, "the motor does not have an order of the table"},
+         {bad_set_points, "the set-points that follow the table do not fit it; build and upload it anew"},
+         {not_confirmed,
+          "the firmware that runs is on trial, and the other slot is what it falls back to; wait until it is "
+          "confirmed, or restart the board"},
+         {bad_firmware, "that is no firmware for this slot, or a part of one"},
+         {other_board, "the firmware is for another board"},
+         {not_newer, "the firmware that runs is as new or newer"},
+         {not_in_service, "only while the board is in service"}},
         "unknown result");
 }
+
+/// FIRMWARE_STATE: the phase in bits 7..0, of a failed one a Result in bits 15..8.
+enum FirmwareBit : std::uint32_t {
+    kFirmwareSlot = 1U << 16,       ///< the one that runs
+    kFirmwareConfirmed = 1U << 17,  ///< the one that runs is
+};
+
+/// FIRMWARE_SLOT.
+enum FirmwareSlotBit : std::uint32_t {
+    kSlotComplete = 1U << 0,
+    kSlotConfirmed = 1U << 1,
+    kSlotTries = 0xFFU << 8,  ///< starts on trial
+};
+
+/// PASSWORD_STATE.
+enum class PasswordState : std::uint8_t {
+    none = 0,    ///< the port asks for none
+    wanted = 1,  ///< this client has not given it: it may read, and stop, safe and hold
+    given = 2,
+};
 
 /// Bits of STATUS.
 enum StatusBit : std::uint32_t {

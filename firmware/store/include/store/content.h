@@ -19,4 +19,12 @@ class Content {
     ~Content() = default;
 };
 
+/// Whatever reads back as it was sent.
+class AnyContent final : public Content {
+  public:
+    void begin() override {}
+    base::Status take(std::span<const std::uint8_t>) override { return {}; }
+    base::Status end() override { return {}; }
+};
+
 }  // namespace nplc::store

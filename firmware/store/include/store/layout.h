@@ -12,7 +12,7 @@
 /// last unit a byte that is no longer FFh once another slot has taken its place.
 namespace nplc::store {
 
-enum class Kind : std::uint8_t { table = 1, settings = 2 };
+enum class Kind : std::uint8_t { table = 1, settings = 2, set_points = 3 };
 
 /// Where two slots lie, one behind the other.
 struct Area {

@@ -9,7 +9,7 @@ namespace nplc::store {
 class SettingsStore {
   public:
     SettingsStore(ports::Storage& storage, const Area& area)
-        : slots_(storage, area, Kind::settings, check_) {}
+        : slots_(storage, area, Kind::settings, content_) {}
 
     /// For the start-up. Without stored settings the initial ones; with `damaged` if there were some and none
     /// is whole, or bad_setting if they are not this firmware's: then the caller goes on with initial ones
@@ -26,20 +26,9 @@ class SettingsStore {
     const Slots& slots() const { return slots_; }
 
   private:
-    class Check final : public Content {
-      public:
-        void begin() override { have_ = 0; }
-        base::Status take(std::span<const std::uint8_t> bytes) override;
-        base::Status end() override;
-
-      private:
-        std::array<std::uint8_t, kMaxSettingsBytes> bytes_{};
-        std::size_t have_ = 0;
-    };
-
-    Check check_;
+    AnyContent content_;
     Slots slots_;
-    std::array<std::uint8_t, kMaxSettingsBytes> bytes_{};
+    std::array<std::uint8_t, kMaxSettingsBytes> bytes_;
 };
 
 }  // namespace nplc::store

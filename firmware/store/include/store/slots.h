@@ -17,8 +17,7 @@
 namespace nplc::store {
 
 enum class SlotState : std::uint8_t {
-    empty,
-    unfinished,  ///< a writing that never came to its end
+    unfinished,  ///< new, or a writing that never came to its end
     good,
     damaged,  ///< it was finished once, or may have been, and its bytes are not what was written
 };
@@ -62,7 +61,7 @@ class Slots {
 
     std::uint32_t capacity() const { return layout_.capacity(); }
 
-    /// Gives up what was being written, and begins anew.
+    /// Cancels what was being written, and begins anew.
     base::Status begin();
     /// The piece for `offset`: all of it is taken or nothing. A piece that came before, within the last 256
     /// bytes, is taken again if it is the same. Errors: busy (no room yet), not_begun, bad_offset, no_space.
@@ -83,7 +82,7 @@ class Slots {
     static constexpr std::uint32_t kBuffer = kLargestUnit;
 
     struct Slot {
-        SlotState state = SlotState::empty;
+        SlotState state = SlotState::unfinished;
         bool header_known = false;  ///< and its mark is there
         bool superseded = false;
         Header header{};

@@ -26,6 +26,7 @@ enum class Error : std::uint8_t {
     bad_setting,     ///< no such setting, or not one of its values
     cannot_go_on,    ///< nobody knows what the motor did before it was held
     no_proof,        ///< the table has no certificate, and one is required
+    bad_set_points,  ///< what follows the table as its set-points does not fit it
 };
 
 }  // namespace nplc::base

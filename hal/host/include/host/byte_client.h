@@ -35,7 +35,7 @@ class ByteClient {
     /// `baud`: 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800 or 921600, on Windows what
     /// the port takes; sockets have none.
     static Opened open(const std::string& endpoint, std::uint32_t baud, Holding holding = Holding::alone);
-    /// For a person: what an endpoint may be on this system, "a serial line's path such as ...".
+    /// For the user: what an endpoint may be on this system, "a serial line's path such as ...".
     static std::string forms();
 
     virtual ~ByteClient() = default;

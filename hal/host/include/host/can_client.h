@@ -20,7 +20,7 @@ class CanClient {
     };
     /// `interface`: can0, vcan0. Not on Windows.
     static Opened open(const std::string& interface);
-    /// For a person: how such a port is written here; empty where there are none.
+    /// For the user: how such a port is written here; empty where there are none.
     static std::string forms();
 
     virtual ~CanClient() = default;

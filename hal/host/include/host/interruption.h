@@ -2,8 +2,9 @@
 
 namespace nplc::host {
 
-/// From now on a person's wish to end the program (Ctrl-C, SIGTERM, a closed console window) is noted instead
-/// of carried out; a second one ends it at once. A pipe that nobody reads any more is an error of writing.
+/// From now on the user's request to end the program (Ctrl-C, SIGTERM, a closed console window) is noted
+/// instead of carried out; a second one ends it at once. A pipe that nobody reads any more is an error of
+/// writing.
 void note_interruptions();
 
 /// The same, and further ones do not end it either, until the program has ended: for who must stop a machine

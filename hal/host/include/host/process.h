@@ -8,10 +8,14 @@ namespace nplc::host {
 /// Another number for each program that runs at the same time.
 unsigned long own_process();
 
+/// The folder of the program that runs; empty where the system does not say.
+std::string own_folder();
+
 struct Ran {
     bool missing = false;  ///< there is no such program
     std::string problem;   ///< why it could not be run or watched; empty when it ended by itself
     bool done = false;     ///< it ended with 0
+    int status = -1;       ///< what it ended with, if by itself
     std::string output;
     std::string errors;
 };

@@ -13,7 +13,7 @@
 /// on, outputs with their first level from that moment. When a program ends in whatever way, the kernel takes
 /// its lines back, and what level one then has is the driver's affair: some hold the last one, others make it
 /// an input. So a line that moves something needs a resistor that pulls it to its safe level. A chip that has
-/// no bias ignores the wish for one in silence.
+/// no bias ignores a request for one without an error.
 namespace nplc::hal_linux {
 
 enum class GpioBias : std::uint8_t { as_is, off, pull_up, pull_down };

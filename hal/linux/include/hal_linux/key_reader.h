@@ -16,8 +16,8 @@ class KeyReader {
     KeyReader(const KeyReader&) = delete;
     KeyReader& operator=(const KeyReader&) = delete;
 
-    /// A key, or nothing after `wait` (also when a signal came).
-    std::optional<char> key(std::chrono::milliseconds wait);
+    /// A key, or nothing after `wait` (also when a signal came, or `other`, a descriptor, is readable).
+    std::optional<char> key(std::chrono::milliseconds wait, int other = -1);
     bool has_keys() const { return saved_ != nullptr; }
 
   private:

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "ports/clock.h"
 
 namespace nplc::hal_linux {
@@ -9,5 +11,8 @@ class SteadyClock final : public ports::Clock {
   public:
     base::Instant now() override;
 };
+
+/// The calendar, in ms since 1970; it may be set, and jumps then.
+std::uint64_t calendar_milliseconds();
 
 }  // namespace nplc::hal_linux

@@ -17,14 +17,18 @@ struct Rs485 {
     std::uint32_t after_ms = 0;
 };
 
+enum class Parity : std::uint8_t { none, even, odd };
+
 struct UartSettings {
     std::string path;  ///< /dev/ttyAMA0, /dev/serial/by-id/...
     std::uint32_t baud = 19'200;
     std::optional<Rs485> rs485{};
+    Parity parity = Parity::none;
+    bool two_stop_bits = false;
 };
 
-/// A serial line, 8N1, held exclusively. An adapter that was pulled out swallows what is written and is
-/// silent, like a line that was cut, until `reopen` finds it again.
+/// A serial line of 8 data bits, held exclusively. An adapter that was pulled out swallows what is written
+/// and is silent, like a line that was cut, until `reopen` finds it again.
 class Uart final : public ports::SerialPort {
   public:
     struct Opened {

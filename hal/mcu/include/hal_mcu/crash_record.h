@@ -4,7 +4,7 @@
 
 namespace nplc::hal_mcu {
 
-/// Why the firmware gave up. The numbers are those of the event log (REGISTERS.md).
+/// Why the firmware crashed. The numbers are those of the event log (REGISTERS.md).
 enum class EndCause : std::uint8_t {
     none = 0,
     watchdog = 1,

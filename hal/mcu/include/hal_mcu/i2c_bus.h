@@ -29,7 +29,7 @@ class I2cBus {
     /// Only while not busy.
     virtual void begin(const Transfer& transfer) = 0;
     virtual State state() = 0;
-    /// Gives up the transfer and frees the bus.
+    /// Aborts the transfer and frees the bus.
     virtual void abandon() = 0;
 
   protected:

@@ -13,6 +13,18 @@ struct StorageGeometry {
     std::uint32_t erase_block = 0;   ///< what one erasure sets to FFh
     std::uint32_t program_page = 0;  ///< one programming stays inside such a page
     std::uint32_t program_unit = 0;  ///< the least that can be programmed, and programmed once only
+
+    // What Storage answers bad_geometry to is none of these.
+    constexpr bool can_read(std::uint32_t address, std::size_t bytes) const {
+        return address <= size && size - address >= bytes;
+    }
+    constexpr bool can_program(std::uint32_t address, std::size_t bytes) const {
+        const bool aligned = address % program_unit == 0 && bytes % program_unit == 0;
+        return aligned && address < size && bytes <= program_page - address % program_page;
+    }
+    constexpr bool can_erase(std::uint32_t address) const {
+        return address < size && address % erase_block == 0;
+    }
 };
 
 enum class StorageState : std::uint8_t {

@@ -28,21 +28,13 @@ class MidiVirtual final : public VirtualDrive {
     void reseed(std::uint64_t seed) override { drive_.line().reseed(seed); }
     void power(bool on) override { drive_.power(on); }
     bool fail() override;
-    bool load(int torque) override;
     void store(const StoredRegister& parameter) override;
-    bool stop(const action::StopMotor& stop) override;
-    void free() override { drive_.module().free_shaft(); }
-    bool set_input(const action::SetDriveInput& input) override;
-    bool connect(const action::DriveSwitch& connected) override;
-    bool set_supply(double volts) override;
-    bool set_temperature(int celsius) override;
-    bool break_encoder() override;
+    std::string_view act(const action::OnMotor& what) override;
 
   private:
     MidiDriveOptions options_;
     MidiDrive drive_;
     std::int32_t shaft() const;
-    std::int64_t increments_of(std::int64_t counts) const;
 
     std::int32_t before_ = 0;
     std::int32_t speed_ = 0;

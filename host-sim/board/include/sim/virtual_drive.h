@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "motor/any_driver.h"
 #include "registers/family.h"
@@ -19,6 +20,9 @@ struct VirtualDriveOptions {
     std::uint32_t rate = 0;    ///< baud or bit/s; 0: what the drive comes with
     std::uint64_t seed = 1;    ///< of the line's faults
 };
+
+/// What a drive does not have that cannot do it: "a brake".
+std::string_view missing_for(const action::OnMotor& what);
 
 /// A virtual drive in the place of the JVL motor, and the line to it, in virtual time. Shaft and speed are in
 /// JVL's counts and samples.
@@ -52,18 +56,12 @@ class VirtualDrive {
     virtual void reseed(std::uint64_t seed) = 0;
     virtual void power(bool on) = 0;
 
-    // What the world does to a drive. False: it has none of this.
+    /// The drive reports an error; false: it has none.
     virtual bool fail() { return false; }
-    virtual bool load(int /*torque*/) { return false; }  ///< 1023 = full
     /// Before the run begins.
     virtual void store(const StoredRegister&) {}
-    virtual bool stop(const action::StopMotor&) { return false; }
-    virtual void free() {}
-    virtual bool set_input(const action::SetDriveInput&) { return false; }
-    virtual bool connect(const action::DriveSwitch&) { return false; }
-    virtual bool set_supply(double /*volts*/) { return false; }
-    virtual bool set_temperature(int /*celsius*/) { return false; }
-    virtual bool break_encoder() { return false; }
+    /// Empty, or missing_for() it.
+    virtual std::string_view act(const action::OnMotor& what) { return missing_for(what); }
 };
 
 /// Null for a JVL motor, which the board's world has itself.

@@ -38,7 +38,9 @@ struct WorldOptions {
     LineFaults faults;  ///< both directions
     bool safe_communication = true;
     bool old_register_codes = false;
-    gateway::Settings gateway{};  ///< where nothing is stored
+    Servo::Depth depth = Servo::Depth::current_loop;  ///< of the motor's computation
+    Load load{};                                      ///< of the motor's shaft
+    gateway::Settings gateway{};                      ///< where nothing is stored
     std::uint32_t user_baud =
         19'200;  ///< where nothing is stored; whoever talks there has the gateway's rate
     std::vector<StoredRegister> registers{};  ///< in the drive's flash, beside what comes from the box
@@ -61,6 +63,7 @@ class World final : public Stage, private gateway::Observer {
         .size = 32 * 1024, .erase_block = 2048, .program_page = 256, .program_unit = 8};
     static constexpr store::Area kTableArea{.begin = 0, .slot_bytes = 5 * 2048};
     static constexpr store::Area kSettingsArea{.begin = 10 * 2048, .slot_bytes = 2048};
+    static constexpr store::Area kSetPointArea{.begin = 12 * 2048, .slot_bytes = 2048};
 
     /// `table` must be one that Table::load takes; an empty one is the stored one, or none. After an upload
     /// the stored one is what a restart runs.
@@ -79,7 +82,7 @@ class World final : public Stage, private gateway::Observer {
     /// What the JVL motor has executed since the last call; mac().orders() forgets it.
     std::deque<Order> take_executed() { return mac_.take_orders(); }
 
-    /// The orders that the driver has neither executed nor given up, by their numbers among all orders given,
+    /// The orders that the driver has neither executed nor dropped, by their numbers among all orders given,
     /// counted from 0. The motor may have executed one of them already, unknown to the driver.
     const std::deque<std::size_t>& on_their_way() const { return on_their_way_; }
 
@@ -87,7 +90,10 @@ class World final : public Stage, private gateway::Observer {
     /// What the gateway said of the table; it may still not be for this motor.
     const gateway::Gateway::LoadResult& load_result() const { return load_result_; }
     const motor::Motor& driver() const { return *motor_; }
+    const motor::AnyDriver& any_driver() const { return driver_; }
     const MacMotor& mac() const { return mac_; }
+    /// For what a person changes by hand between two steps of the world.
+    MacMotor& mac() { return mac_; }
     /// Null: the JVL motor is led.
     const VirtualDrive* drive() const { return drive_.get(); }
     VirtualDrive* drive() { return drive_.get(); }
@@ -98,9 +104,9 @@ class World final : public Stage, private gateway::Observer {
     const VirtualSerialLine& line() const { return line_; }
     const SimBoard& board() const { return board_; }
 
-    /// What a person's program puts on the gateway's port; it waits for the line.
+    /// What a client program puts on the gateway's port; it waits for the line.
     void user_sends(std::span<const std::uint8_t> bytes) {
-        user_waiting_.insert(user_waiting_.end(), bytes.begin(), bytes.end());
+        waiting_.user.insert(waiting_.user.end(), bytes.begin(), bytes.end());
     }
     /// What has arrived there since the last call.
     std::vector<std::uint8_t> user_received() { return std::exchange(user_received_, {}); }
@@ -108,8 +114,11 @@ class World final : public Stage, private gateway::Observer {
     std::uint32_t setting(store::Setting setting) const { return settings_->at_start(setting); }
     std::uint8_t gateway_address() const;
     std::uint8_t motor_address() const;  ///< on the user's port
-    const gateway::TableKeeper& tables() const { return controller_->tables(); }
-    bool motor_powered() const { return motor_powered_; }
+    const gateway::TableManager& tables() const { return controller_->tables(); }
+    /// For faces, between two steps. Another one for every start of the gateway.
+    gateway::Controller& controller() { return *controller_; }
+    std::uint64_t starts() const { return starts_; }
+    base::Instant instant() const;
 
     /// What `log` actions say.
     void on_log(std::function<void(const std::string&)> callback) { on_log_ = std::move(callback); }
@@ -123,20 +132,10 @@ class World final : public Stage, private gateway::Observer {
     void spoil_line(const action::SpoilLine& faults) override;
     void seed(std::uint64_t value) override;
     void fail_motor() override { motor_fails_ = true; }
-    void load_motor(int torque) override;
-    void set_brake(int torque) override;
     void power_motor(bool on) override;
-    void stop_motor(const action::StopMotor& stop) override;
-    void free_motor() override;
-    void connect_sensor(const action::MotorSensor& sensor) override;
-    void set_drive_input(const action::SetDriveInput& input) override;
-    void connect_switch(const action::DriveSwitch& connected) override;
-    void set_analogue(double volts) override;
-    void set_pulses(const action::MotorPulses& pulses) override;
-    void set_supply(const action::MotorSupply& supply) override;
-    void set_temperature(int celsius) override;
-    void break_encoder() override;
+    void act(const action::OnMotor& what) override;
     void gateway(action::Gateway what) override;
+    void set_points(const action::SetPoints& asked) override;
     void log(const std::string& text) override;
 
   private:
@@ -146,9 +145,8 @@ class World final : public Stage, private gateway::Observer {
 
     Time next_event() const;
     Time next_of_motor() const;
-    base::Instant instant() const;
     void start_driver();
-    void drive_has_no(const char* what);
+    void drive_has_no(std::string_view what);
     void start_gateway(gateway::StartCause cause);
     void start_table(bool first);
     void move_characters();
@@ -156,6 +154,9 @@ class World final : public Stage, private gateway::Observer {
     void move_mactalk_characters();
     void sample_motor();
     void poll_gateway();
+    void serve_set_points();
+    void lose_set_points();
+    void refused(gateway::Result why);
     Time next_poll();
     void follow_orders();
     /// Something has arrived that a board would wake up for.
@@ -170,11 +171,16 @@ class World final : public Stage, private gateway::Observer {
     motor::AnyDriver driver_;
     motor::Motor* motor_ = nullptr;
     std::array<std::uint8_t, gateway::kTableMemory> table_memory_{};
-    std::optional<gateway::SettingsKeeper> settings_;
+    std::optional<gateway::SettingsManager> settings_;
     std::optional<gateway::Controller> controller_;
-    VirtualSerialLine user_line_;     ///< its "motor" is the person
+    VirtualSerialLine user_line_;     ///< its "motor" is the client
     VirtualSerialLine mactalk_line_;  ///< to the motor's own MacTalk port
-    std::deque<std::uint8_t> user_waiting_;
+    struct Waiting {
+        std::deque<std::uint8_t> user;  ///< bytes for the user
+        std::deque<action::SetPoints> set_points;
+        std::optional<gateway::SetPoints::Writer> writer;  ///< of the first of them
+    };
+    Waiting waiting_;
     std::vector<std::uint8_t> user_received_;
     SimStorage flash_{kFlash};
     gateway::Gateway::LoadResult load_result_;
@@ -182,6 +188,7 @@ class World final : public Stage, private gateway::Observer {
     Time now_{0};
     Time next_poll_{0};
     std::uint64_t polls_ = 0;
+    std::uint64_t starts_ = 0;  ///< of the gateway
     Time next_sample_;
     Time motor_asks_{0};  ///< when the motor's transmitter is looked at next
     bool motor_powered_ = true;

@@ -34,6 +34,8 @@ class VirtualDevices {
     virtual std::string advance(Time to) = 0;
     /// Where clients find it, a line each.
     virtual std::string endpoints() const = 0;
+    /// Standard output belongs to somebody: no status line.
+    virtual bool has_console() const { return false; }
     /// One line for a terminal.
     virtual std::string status() const = 0;
     /// The program ends. Answers what went wrong.

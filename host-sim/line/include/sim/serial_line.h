@@ -25,6 +25,8 @@ struct LineCounters {
     std::uint64_t delivered = 0;
     std::uint64_t dropped = 0;
     std::uint64_t damaged = 0;
+    std::uint64_t damaged_alike =
+        0;  ///< changed by the same bits as the character before: no repeat shows it
     std::uint64_t framing = 0;
     std::uint64_t delayed = 0;
     std::uint64_t cut = 0;  ///< lost because the line was cut
@@ -84,6 +86,7 @@ class LineDirection {
     bool cut_ = false;
     LineFaults faults_;
     bool has_faults_ = false;
+    std::uint8_t last_mask_ = 0;  ///< by which the character before was damaged
     LineCounters counters_;
     std::mt19937_64 random_;
     std::uint64_t undrawn_ = 0;  ///< of good characters, whose draws come to nothing

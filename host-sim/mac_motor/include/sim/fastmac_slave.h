@@ -68,7 +68,6 @@ class FastMacSlave {
 
     bool flexmac() const { return flexmac_; }
     bool safe_communication() const { return receiver_.safe(); }
-    bool transmits_slowly() const { return slow_; }
     bool toggle() const { return receiver_.toggle(); }
 
   private:

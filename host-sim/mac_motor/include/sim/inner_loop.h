@@ -358,7 +358,7 @@ class QuickLoop {
     void rest() { torque_before_ = 0; }
 
     /// A sample with `torque` asked for and `volts` on the bus.
-    Step drive(std::int32_t torque, double volts, Plant& plant) {
+    Step drive(double torque, double volts, Plant& plant) {
         const double asked = torque_before_ + (torque - torque_before_) * kRise;
         torque_before_ = torque;
         const double before = plant.velocity();

@@ -12,7 +12,7 @@ namespace nplc::sim {
 
 inline constexpr std::size_t kSampledRegisters = 4;  ///< SAMPLE1..SAMPLE4 (001 §3.2.112)
 
-/// What the person's line asks of the motor behind it (001 §5.1, §4.4.16).
+/// What the user line asks of the motor behind it (001 §5.1, §4.4.16).
 class MacTalkTarget {
   public:
     virtual std::uint8_t my_address() const = 0;
@@ -38,7 +38,6 @@ class MacTalkSlave {
     void receive(std::uint8_t byte, bool framing_error, MacTalkTarget& motor);
     /// The next byte of an answer; nothing while there is none.
     std::optional<std::uint8_t> transmit();
-    bool has_answer() const { return !answer_.empty(); }
 
     /// Forgets a message half received and an answer half sent.
     void power_up();

@@ -19,10 +19,15 @@ struct MechanicalStop {
 
 /// What the motor's shaft is coupled to. Torques as in T_SOLL: 1023 is the motor's full torque.
 struct Load {
-    std::int32_t inertia_256 = 256;  ///< motor and load over the motor's own inertia, x 256 (KVOUT's meaning)
-    std::int32_t friction_torque = 5;           ///< Coulomb friction
-    std::int32_t brake_torque = 0;              ///< of a holding brake (MAC800's output); 0: none is built in
-    std::int32_t torque = 0;                    ///< constant pull, positive turns the shaft forward
+    static constexpr std::int32_t kLatest = 90;
+
+    double inertia_256 = 256;       ///< motor and load over the motor's own inertia, x 256 (KVOUT's meaning)
+    double friction_torque = 5;     ///< Coulomb friction
+    std::int32_t brake_torque = 0;  ///< of a holding brake (MAC800's output); 0: none is built in
+    double torque = 0;              ///< constant pull, positive turns the shaft forward
+    double viscous_torque = 0;      ///< friction more for each count/sample of the outer loop
+    std::int32_t late_inner_samples =
+        0;  ///< by which torque comes later than the current loop gives it, to kLatest
     std::optional<MechanicalStop> low_stop{};   ///< below which the shaft is held
     std::optional<MechanicalStop> high_stop{};  ///< above which it is
 };
@@ -40,11 +45,12 @@ class Plant {
     void take_load() {
         if (taken_) return;
         taken_ = true;
-        const std::int32_t friction = std::max(load_.friction_torque + holding_, 0);
+        const double friction = std::max(load_.friction_torque + holding_, 0.0);
         of_one_ = acceleration_of_one_ * 256 / std::max(load_.inertia_256 - elsewhere_256_, 1.0);
         friction_ = friction * of_one_;
         sticking_ = friction == 0 ? 0 : (friction + kStick) * of_one_;
         pull_ = load_.torque;
+        drag_ = std::max(load_.viscous_torque, 0.0) * steps_ * of_one_;
         has_stops_ = load_.low_stop || load_.high_stop;
     }
     /// One step with the motor's `torque`.
@@ -54,6 +60,8 @@ class Plant {
 
     /// Encoder counts since the motor was built.
     std::int64_t counts() const { return (position_ + kCount / 2) >> kFractionBits; }
+    /// The same with its fraction.
+    double position() const { return static_cast<double>(position_) / kCount; }
     /// The holding brake is on or off: a friction more.
     void hold(bool on) {
         const std::int32_t holding = on ? std::clamp(load_.brake_torque, 0, kStrongestBrake) : 0;
@@ -93,6 +101,7 @@ class Plant {
     /// On to the velocity that this would be without friction.
     void move(double pushed) {
         const double before = velocity_;
+        if (drag_ != 0) pushed /= 1 + drag_;
         const double friction = before > -slow_ && before < slow_ ? sticking_ : friction_;
         velocity_ = within(rubbed(pushed, friction), fastest_);
         const std::int64_t from = position_;
@@ -105,6 +114,7 @@ class Plant {
 
     double acceleration_of_one_;  // of torque 1 on the bare motor, counts/step^2
     double elsewhere_256_;
+    int steps_;
     double fastest_;
     double slow_;    // below it the shaft sticks, counts/step
     double thrown_;  // of the velocity with which a spring throws, what is left after a step
@@ -115,6 +125,7 @@ class Plant {
     double friction_ = 0;       // counts/step^2
     double sticking_ = 0;       // the same where the shaft is slow
     double pull_ = 0;           // torque
+    double drag_ = 0;           // of a velocity, what viscous friction takes in a step
     bool has_stops_ = false;
     std::int64_t position_ = 0;  // 1/kCount counts
     double velocity_ = 0;        // counts/step

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "sim/inner_loop.h"
@@ -79,10 +81,16 @@ class Servo {
     [[gnu::flatten, gnu::noinline]] void run_inner(MotorMemory& memory, const Terminals& terminals,
                                                    InnerWatcher* watcher);
     [[gnu::cold]] void show_inner_sample(MotorMemory& memory, InnerWatcher& watcher) const;
-    [[gnu::noinline]] void set_voltages(const MotorMemory& memory, const Terminals& terminals);
+    [[gnu::noinline]] void set_voltages(const MotorMemory& memory, const Terminals& terminals,
+                                        std::int32_t acting);
     Regulator::Input regulator_input(const Drive& drive) const;
     std::int32_t unregulated_torque(const Drive& drive, const MotorMemory& memory);
     void run_outer(const MotorMemory& memory, const Terminals& terminals);
+    std::int32_t asked(std::int32_t samples_ago) const {
+        return asked_[(asked_next_ + asked_.size() - 1 - static_cast<std::size_t>(samples_ago)) %
+                      asked_.size()];
+    }
+    double acting_torque() const;
     std::int32_t analogue_torque(const MotorMemory& memory, const Terminals& terminals) const;
     void follow_offsets(MotorMemory& memory) const;
     void show_currents(MotorMemory& memory) const;
@@ -108,6 +116,9 @@ class Servo {
     std::int32_t umeas_ = 0;
     int test_samples_ = 0;
     std::int32_t torque_ = 0;
+    std::array<std::int32_t, Load::kLatest / kInnerSamples + 2> asked_{};  // torque_ of the last samples
+    std::size_t asked_next_ = 0;
+    std::int32_t late_ = 0;  // inner samples by which torque_ acts later
     double i2t_ = 0;
     double uit_ = 0;
     std::int32_t i2t_shown_ = 0;

@@ -24,6 +24,23 @@ struct MidiMemory {
     bool operator==(const MidiMemory&) const = default;
 };
 
+/// The chip that keeps it, and how often it was written.
+struct MidiEeprom {
+    MidiMemory values;
+    std::uint32_t writes = 0;
+
+    void write(const MidiMemory& to) {
+        if (values == to) return;
+        values = to;
+        ++writes;
+    }
+    void write_position(std::int32_t position) {
+        if (values.position == position) return;
+        values.position = position;
+        ++writes;
+    }
+};
+
 /// As from the factory (000 §VI 01h). Address 00 on V24 and 1 on CAN, 38400 baud and tolerance 0 are the
 /// manuals'; R: the rest is ours: full torque, 100 rpm on MAC34 and 300 rpm on MAC23, unstall 1 ms an
 /// increment, a ramp of 1920 increments, standby, no stops. The position is none of the factory's.

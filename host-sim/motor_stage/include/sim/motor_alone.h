@@ -1,6 +1,9 @@
 #pragma once
 
+#include <utility>
+
 #include "sim/mac_motor.h"
+#include "sim/motor_stage.h"
 #include "sim/scenario_runner.h"
 
 namespace nplc::sim {
@@ -15,31 +18,15 @@ class MotorAlone final : private Stage {
     bool powered() const { return powered_; }
     /// When the scenario wants to be looked at.
     std::optional<Time> next_due() const { return runner_.next_due(); }
+    /// Does these too, from now on; with the next observe().
+    void also(Actions actions, Time now) { runner_.also(std::move(actions), now); }
     /// After each sample, and when it is due. Throws EndlessRules.
     void observe(Time now);
 
   private:
-    void set_input(unsigned, bool) override {}
-    void toggle_input(unsigned) override {}
-    void cut_line(bool) override {}
-    void spoil_line(const action::SpoilLine&) override {}
-    void seed(std::uint64_t) override {}
     void fail_motor() override { motor_.overload(); }
-    void load_motor(int torque) override;
-    void set_brake(int torque) override;
     void power_motor(bool on) override;
-    void stop_motor(const action::StopMotor& stop) override;
-    void free_motor() override;
-    void connect_sensor(const action::MotorSensor& sensor) override;
-    void set_drive_input(const action::SetDriveInput&) override {}
-    void connect_switch(const action::DriveSwitch&) override {}
-    void set_analogue(double volts) override;
-    void set_pulses(const action::MotorPulses& pulses) override;
-    void set_supply(const action::MotorSupply& supply) override;
-    void set_temperature(int celsius) override;
-    void break_encoder() override;
-    void gateway(action::Gateway) override {}
-    void log(const std::string&) override {}
+    void act(const action::OnMotor& what) override { sim::act(motor_, what); }
 
     MacMotor& motor_;
     ScenarioRunner runner_;

@@ -7,17 +7,9 @@
 
 namespace nplc::sim {
 
-void act(MacMotor& motor, const action::LoadMotor& load);
-void act(MacMotor& motor, const action::MotorBrake& brake);
-/// One that the shaft is beyond holds it where it is, but for a spring.
-void act(MacMotor& motor, const action::StopMotor& stop);
-void act(MacMotor& motor, const action::FreeMotor& free);
-void act(MacMotor& motor, const action::MotorSensor& sensor);
-void act(MacMotor& motor, const action::MotorAnalogue& analogue);
-void act(MacMotor& motor, const action::MotorPulses& pulses);
-void act(MacMotor& motor, const action::MotorSupply& supply);
-void act(MacMotor& motor, const action::MotorTemperature& temperature);
-void act(MacMotor& motor, const action::BreakEncoder& encoder);
+/// A stop that the shaft is beyond holds it where it is, but for a spring. Inputs of a MIDI module it has
+/// not.
+void act(MacMotor& motor, const action::OnMotor& what);
 
 /// Off and on again: registers from its flash, a whole encoder.
 void switch_on(MacMotor& motor);

@@ -93,10 +93,20 @@ struct MotorTemperature {
 };
 struct BreakEncoder {};  ///< of a MAC800, until its power is switched off
 enum class Gateway : std::uint8_t { stop, run, restart };
+/// A request to the gateway's set-points, as SET_POINT_WRITE takes it.
+struct SetPoints {
+    std::vector<std::uint8_t> request;
+    std::string text;  ///< as the scenario has it
+};
 struct Log {
     std::string text;
 };
 struct End {};
+
+/// What happens to the motor's shaft, terminals and surroundings.
+using OnMotor =
+    std::variant<LoadMotor, MotorBrake, StopMotor, FreeMotor, MotorSensor, SetDriveInput, DriveSwitch,
+                 MotorAnalogue, MotorPulses, MotorSupply, MotorTemperature, BreakEncoder>;
 
 }  // namespace action
 
@@ -106,7 +116,8 @@ struct Action {
                  action::Seed, action::FailMotor, action::PowerMotor, action::LoadMotor, action::MotorBrake,
                  action::StopMotor, action::FreeMotor, action::MotorSensor, action::SetDriveInput,
                  action::DriveSwitch, action::MotorAnalogue, action::MotorPulses, action::MotorSupply,
-                 action::MotorTemperature, action::BreakEncoder, action::Gateway, action::Log, action::End>
+                 action::MotorTemperature, action::BreakEncoder, action::Gateway, action::SetPoints,
+                 action::Log, action::End>
         what;
 };
 using Actions = std::vector<Action>;
@@ -167,14 +178,22 @@ struct StoredRegister {
     std::uint32_t bits = 0;
 };
 
+/// A plant file that the scenario names.
+struct NamedPlant {
+    std::string file;  ///< as it is written there
+    int line = 0;
+};
+
 struct Scenario {
     std::string file;
+    std::optional<NamedPlant> plant;
     std::vector<StoredRegister> registers;
     std::vector<AtRule> at;
     std::vector<EveryRule> every;
     std::vector<WhenRule> when;
     std::vector<FollowRule> follow;
     std::vector<Expectation> expectations;
+    std::vector<std::string> recipes;  ///< that it saves
     std::optional<Time> end;
 
     bool can_end() const;  ///< has an end, or a rule with the action `end`
@@ -195,5 +214,12 @@ struct ParsedScenario {
 
 /// The language: this folder's README. `file` is for messages only.
 ParsedScenario parse_scenario(std::string_view text, const std::string& file, const Names& names);
+
+/// What happens now: actions, without a time, a rule or an expectation.
+struct ParsedActions {
+    Actions actions{};
+    std::string mistake{};  ///< empty: there is none
+};
+ParsedActions parse_actions(std::string_view line, const Names& names);
 
 }  // namespace nplc::sim

@@ -1,47 +1,39 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/scenario.h"
 
 namespace nplc::sim {
 
-/// What a scenario acts upon.
+/// What a scenario acts upon. A stage without a gateway has its motor only.
 class Stage {
   public:
-    virtual void set_input(unsigned index, bool level) = 0;
-    virtual void toggle_input(unsigned index) = 0;
-    virtual void cut_line(bool cut) = 0;
-    virtual void spoil_line(const action::SpoilLine& faults) = 0;
-    virtual void seed(std::uint64_t value) = 0;
+    virtual void set_input(unsigned /*index*/, bool /*level*/) {}
+    virtual void toggle_input(unsigned /*index*/) {}
+    virtual void cut_line(bool /*cut*/) {}
+    virtual void spoil_line(const action::SpoilLine& /*faults*/) {}
+    virtual void seed(std::uint64_t /*value*/) {}
+    virtual void gateway(action::Gateway /*what*/) {}
+    virtual void set_points(const action::SetPoints& /*asked*/) {}
+    virtual void log(const std::string& /*text*/) {}
     virtual void fail_motor() = 0;
-    virtual void load_motor(int torque) = 0;
-    virtual void set_brake(int torque) = 0;
     virtual void power_motor(bool on) = 0;
-    virtual void stop_motor(const action::StopMotor& stop) = 0;
-    virtual void free_motor() = 0;
-    virtual void connect_sensor(const action::MotorSensor& sensor) = 0;
-    virtual void set_drive_input(const action::SetDriveInput& input) = 0;
-    virtual void connect_switch(const action::DriveSwitch& connected) = 0;
-    virtual void set_analogue(double volts) = 0;
-    virtual void set_pulses(const action::MotorPulses& pulses) = 0;
-    virtual void set_supply(const action::MotorSupply& supply) = 0;
-    virtual void set_temperature(int celsius) = 0;
-    virtual void break_encoder() = 0;
-    virtual void gateway(action::Gateway what) = 0;
-    virtual void log(const std::string& text) = 0;
+    virtual void act(const action::OnMotor& what) = 0;
 
   protected:
     ~Stage() = default;
 };
 
-struct Outcome {
+struct ExpectationResult {
     int line = 0;
     std::string expectation;  ///< as the scenario has it
     bool passed = false;
@@ -67,13 +59,20 @@ class ScenarioRunner {
     /// at the same time. Throws EndlessRules.
     bool observe(const Snapshot& snapshot);
 
+    /// Does these too, at the next observe().
+    void also(Actions actions, Time now) { plan(also_.emplace_back(std::move(actions)), now, 0, false); }
+
     bool ended() const { return ended_; }
     /// To be called once, with the last snapshot.
     void finish(const Snapshot& snapshot);
 
     /// An expectation was decided against; called as soon as that is known.
-    void on_failure(std::function<void(const Outcome&, Time)> callback) { on_failure_ = std::move(callback); }
-    const std::vector<Outcome>& outcomes() const { return outcomes_; }  ///< all of them, after finish()
+    void on_failure(std::function<void(const ExpectationResult&, Time)> callback) {
+        on_failure_ = std::move(callback);
+    }
+    const std::vector<ExpectationResult>& outcomes() const {
+        return outcomes_;
+    }  ///< all of them, after finish()
     std::size_t failures() const;
 
   private:
@@ -126,13 +125,14 @@ class ScenarioRunner {
     const Names& names_;
     Stage& stage_;
     std::multimap<Time, Planned> planned_;
+    std::deque<Actions> also_;  ///< planned_ points there
     std::uint64_t batches_ = 0;
     std::vector<Followed> followed_;
     std::vector<Time> every_next_;
     std::vector<Watched> watches_;
     std::vector<Judgement> judgements_;
-    std::vector<Outcome> outcomes_;
-    std::function<void(const Outcome&, Time)> on_failure_;
+    std::vector<ExpectationResult> outcomes_;
+    std::function<void(const ExpectationResult&, Time)> on_failure_;
     Time last_shown_{-1};
     int rounds_ = 0;
     bool ended_ = false;

@@ -34,6 +34,8 @@ class SimStorage final : public ports::Storage {
   public:
     /// An operation takes `busy_polls` calls of state().
     explicit SimStorage(const ports::StorageGeometry& geometry, unsigned busy_polls = 1);
+    /// From the next operation on.
+    void work_for(unsigned busy_polls) { busy_polls_ = busy_polls; }
 
     ports::StorageGeometry geometry() const override { return geometry_; }
     base::Status read(std::uint32_t address, std::span<std::uint8_t> out) override;
@@ -66,7 +68,6 @@ class SimStorage final : public ports::Storage {
         unsigned bit;
     };
 
-    bool accepts(std::uint32_t address, std::uint32_t size, std::uint32_t alignment) const;
     void begin(const StorageOperation& operation);
     void carry_out(const StorageOperation& operation);
     void change(std::uint32_t address, std::uint8_t value, std::uint8_t mask);

@@ -28,11 +28,15 @@ std::optional<double> parse_percent(std::string_view text);
 
 /// Milliseconds with three decimals: `12.250`.
 std::string in_milliseconds(Time time);
-/// As a person writes it: `250 us`, `1.5 ms`, `2 s`.
+/// As the user writes it: `250 us`, `1.5 ms`, `2 s`.
 std::string in_words(Time time);
 
 bool same_name(std::string_view a, std::string_view b);  ///< case counts not
 std::string lower(std::string_view text);
+
+/// For XML, in attributes too: characters with a meaning by their names, what is no character in UTF-8 as a
+/// question mark.
+std::string in_xml(std::string_view text);
 
 /// Without blanks, tabs and carriage returns at its ends.
 std::string_view trim(std::string_view text);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "registers/family.h"
+#include "set_points/record.h"
 #include "sim/text.h"
 
 namespace nplc::sim {
@@ -23,8 +24,8 @@ struct SentOrder {
 };
 
 /// Everything a trace or a condition can look at, as it stands at one instant. `inputs` are the levels at the
-/// terminals, before the gateway's debouncing; `in_position` and `error` are what the gateway believes of the
-/// motor; `p_ist` and `v_ist` are what the motor really does.
+/// terminals, before the gateway's debouncing; `in_position` and `error` are what the gateway has taken as
+/// valid of the motor; `p_ist` and `v_ist` are what the motor really does.
 struct Snapshot {
     Time time{0};
     std::uint8_t step = 0;
@@ -57,9 +58,11 @@ struct Names {
     std::array<std::string, kInputs> inputs;
     std::array<std::string, kOutputs> outputs;
     std::map<std::uint8_t, std::string> steps;
+    std::map<std::uint8_t, std::uint8_t> copy_of;  ///< steps that are copies: `step = Name` means them too
     registers::Model motor = registers::Model::mac140;
     const registers::DriveModel* drive = nullptr;  ///< of another family, in the motor's place
     std::optional<MachineUnit> machine;
+    set_points::Record set_points;
     bool motor_alone = false;  ///< no gateway, no line to it
     bool free_pins = false;    ///< the motor's user interface is its pulse input, not FastMAC
 

@@ -85,6 +85,7 @@ class App {
     Option* add_option_function(const std::string& name, const std::function<void(const std::string&)>& take,
                                 const std::string& description);
     Option* add_flag(const std::string& name, bool& variable, const std::string& description);
+    /// Prints `text`, and which commit the program was built from (commit.h).
     void set_version_flag(const std::string& name, const std::string& text);
 
     App* add_subcommand(const std::string& name, const std::string& description);

@@ -48,6 +48,7 @@ class UserError : public Failure {
 struct Common {
     std::string program;  ///< its name
     std::string port;
+    std::string password_file;  ///< of a gateway's port that asks for one; empty: none
     std::uint32_t baud = 19'200;
     bool has_baud = false;  ///< it was said
     std::uint32_t baud_or(std::uint32_t usual) const { return has_baud ? baud : usual; }
@@ -118,6 +119,15 @@ int run(arguments::App& app, Common& common, int argc, char** argv);
 /// Throws UserError without a port, LineError if it cannot be opened.
 std::unique_ptr<host::ByteClient> open_port(
     const Common& common, host::ByteClient::Holding holding = host::ByteClient::Holding::alone);
+
+/// --password-file, or the environment's PROGRAM_PASSWORD_FILE.
+void add_password_option(arguments::App& app, Common& common);
+
+/// The same as open_port, and gives the password of --password-file to the gateway of this address, if its
+/// port asks for one. Throws UserError for the file, Failure if the password is another one.
+std::unique_ptr<host::ByteClient> open_with_password(
+    const Common& common, std::uint8_t gateway,
+    host::ByteClient::Holding holding = host::ByteClient::Holding::alone);
 
 /// A line for a user, or the same as a JSON document on one line, with "ok".
 void tell(const Common& common, const std::string& text, const Json& document);

@@ -36,16 +36,6 @@ std::string errors_text(registers::Model model, std::int64_t err_stat);
 /// §4.4.11; 004: "reserved").
 std::string danger(registers::Model model, const registers::Register& reg, std::int64_t raw);
 
-/// The command that clears the errors and leaves ERR_STAT's settings (RELPOSPFNC, DIS_P_LIM ...) as they are.
-std::string clear_errors_command(registers::Model model, std::int64_t err_stat);
-/// The command that gives CNTRL_BITS these settings more (`set`) and less (`clear`), the others as they are.
-std::string control_command(registers::Model model, std::int64_t now, std::int64_t set, std::int64_t clear);
-/// The commands that give P_SOLL, P_IST and P_FNC one value (001 §3.2.163); the motor does not move.
-std::string resynchronise_command(registers::Model model, std::int64_t control_bits, std::int64_t p_ist);
-
-/// ERR_STAT's bits that keep the motor in INIT_MODE (001 §3.2.35, §4.4.1; R: 004's by their kind).
-std::uint32_t error_bits(registers::Model model);
-
 /// What a gateway did not let through.
 enum class Asked : std::uint8_t {
     write,    ///< of a register

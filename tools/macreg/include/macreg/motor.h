@@ -2,13 +2,13 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "macreg/causes.h"
 #include "mactalk_client/master.h"
 #include "registers/layout.h"
 #include "registers/mac.h"
@@ -16,77 +16,12 @@
 /// A MAC motor's registers over its MacTalk line, whichever model (001 §3.2, §5.1, 004).
 namespace nplc::macreg {
 
-/// MODE_REG (001 §4.4).
-enum Mode : std::int64_t {
-    kInit = 0,
-    kVelocity = 1,
-    kPosition = 2,
-    kGearPosition = 3,
-    kAnalogueTorque = 4,
-    kAnalogueVelocity = 5,
-    kAnalogueVelocityGear = 6,
-    kManual = 7,
-    kTestU = 8,
-    kTestA = 9,
-    kBreak = 10,
-    kStop = 11,
-    kHome1 = 12,
-    kHome3 = 14,
-    kSafe = 15,
-    kAnalogueVelocityZero = 16,
-    kVelocityAnalogueTorque = 17,
-    kAnalogueGear = 18,
-    kCoil = 19,
-    kAnalogue2Position = 20,
-    kAnaloguePosition = 21,  ///< the last of a MAC800
-    kTestKi = 22,
-    kTestTorque = 23,
-    kGearFollow = 24,
-    kDefaultsToFlash = 256,  ///< what follows acts on memory and flash (001 §4.4.16)
-    kFactoryDefaults = 257,
-    kReload = 258,
-};
-/// The maker's tests, which turn the shaft without regulating it (001 §4.4.8 to §4.4.11; 004: "reserved").
-constexpr bool is_test(std::int64_t mode) {
-    return (mode >= kManual && mode <= kBreak) || mode == kTestKi || mode == kTestTorque;
-}
-constexpr bool is_passive(std::int64_t mode) {
-    return mode == kInit || mode == kSafe;
-}
-
-/// DIS_P_LIM of ERR_STAT: MIN_P_IST and MAX_P_IST do not act (001 §3.2.35, 004).
-inline constexpr std::int64_t kDisPLim = 1 << 14;
-/// USERINTF of CNTRL_BITS on MAC50 to MAC141; all of it set, the pins of the pulse input are FastMAC's (001
-/// §3.2.36).
-inline constexpr std::int64_t kUserInterface = 3;
-
 /// MYADDR, or as a MAC800 calls it.
 const registers::Register& address_register(registers::Model model);
 /// SERIAL_NMB.
 const registers::Register& serial_register(registers::Model model);
 /// "MAC800", "MAC50 to MAC141": what a motor's own answers tell of its model.
 std::string family_words(registers::Model model);
-
-/// Values by number, as the registers' own width and sign have them.
-class Snapshot {
-  public:
-    explicit Snapshot(base::Instant time = {}) : time_(time) {}
-
-    /// When the last of them came.
-    base::Instant time() const { return time_; }
-    std::optional<std::int64_t> find(std::uint8_t number) const;
-    /// 0 if it was not read.
-    std::int64_t at(std::uint8_t number) const { return find(number).value_or(0); }
-    void set(std::uint8_t number, std::int64_t value, base::Instant time) {
-        values_[number] = value;
-        time_ = time;
-    }
-    const std::map<std::uint8_t, std::int64_t>& values() const { return values_; }
-
-  private:
-    base::Instant time_;
-    std::map<std::uint8_t, std::int64_t> values_;
-};
 
 /// What answers is no motor.
 class WrongUnit : public mactalk_client::EndedWith<mactalk_client::kNoAnswer> {

@@ -15,8 +15,6 @@ namespace nplc::macreg {
 /// What the motor keeps in its flash: no measurement, no target, no state. ERR_STAT and CNTRL_BITS count with
 /// the bits that are settings.
 bool is_parameter(registers::Model model, const registers::Register& reg);
-/// The bits of it that are settings; all ones for most.
-std::uint32_t setting_bits(registers::Model model, const registers::Register& reg);
 
 struct ParameterSet {
     registers::Model model = registers::Model::mac140;

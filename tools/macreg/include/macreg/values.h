@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "macreg/causes.h"
 #include "registers/convert.h"
 #include "registers/details.h"
 #include "registers/mac.h"
@@ -12,18 +13,6 @@
 /// A register's value as people read and type it.
 namespace nplc::macreg {
 
-/// The unit that values are shown in: counts for positions, in which single steps can be told apart, else the
-/// usual one; empty for a plain number.
-std::string_view shown_unit(const registers::Register& reg);
-/// "762.94 rpm", "20480 counts", "P_MODE", "IN_POS ACC_FLAG"; names where the register has them, else the
-/// number in its shown unit.
-std::string value_text(const registers::Register& reg, registers::Model model, std::int64_t raw);
-/// The same where there is room: a position in turns too, "20480 counts (5.00000 rev)".
-std::string long_value_text(const registers::Register& reg, registers::Model model, std::int64_t raw);
-/// As `set` takes it, in one word: "HICLK+INPSIGN", "none"; as 0x.. what has no names.
-std::string bits_word(const registers::Register& reg, registers::Model model, std::int64_t raw);
-/// The names of bits that are set and of fields' values, "USERINTF=FASTMAC HICLK"; empty for a plain number.
-std::string names_text(const registers::Register& reg, registers::Model model, std::int64_t raw);
 /// "0 to 1023 (0 to 100 %peak)".
 std::string range_text(const registers::Register& reg, registers::Model model);
 

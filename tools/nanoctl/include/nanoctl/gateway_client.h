@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -74,13 +75,15 @@ class GatewayClient {
     mactalk_client::Master& master() { return master_; }
     std::uint8_t address() const { return address_; }
 
-  private:
+    /// RESULT: of the last write, whoever's.
     struct LastResult {
         gw::Result result;
         std::uint8_t reg;
         std::uint16_t detail;
     };
     LastResult last_result();
+
+  private:
     std::optional<LastResult> try_last_result();
     [[noreturn]] static void refuse(const LastResult& last, const std::string& what, const std::string& why);
     [[noreturn]] void lost(const std::string& what) const;

@@ -56,6 +56,8 @@ class Names {
     std::optional<unsigned> find_input(const std::string& text) const;
     std::optional<unsigned> find_output(const std::string& text) const;
     std::optional<unsigned> find_step(const std::string& text) const;
+    /// A bit for the step and for each copy that the compiler made of it.
+    std::uint64_t with_copies(unsigned step) const;
 
   private:
     std::optional<seqc::SymbolFile> symbols_;

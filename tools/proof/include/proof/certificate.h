@@ -6,8 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "proof/sha256.h"
-
 /// What `seqc verify` has proved of one table, as a file F.proof. README.md describes it.
 namespace nplc::proof {
 

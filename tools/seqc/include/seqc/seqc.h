@@ -12,6 +12,9 @@
 #include "registers/family.h"
 #include "registers/mac.h"
 #include "seqc/diagnostic.h"
+#include "seqc/sources.h"
+#include "seqc/written.h"
+#include "set_points/record.h"
 
 namespace nplc::seqc {
 
@@ -41,11 +44,23 @@ struct Symbols {
     std::optional<Scale> scale;
     std::array<std::string, 63> steps;     ///< by step number; empty where the table has no such step
     std::array<std::string, 63> made_for;  ///< why the compiler made the step; empty: the program has it
-    std::array<std::string, 6> inputs;     ///< as declared, else IN0..IN5
-    std::array<std::string, 4> outputs;    ///< as declared, else OUT0..OUT3
-    std::vector<MotorName> motor_names;    ///< in source order
+    /// Of which step it is a copy; a step's name means its copies too.
+    std::array<std::optional<std::uint8_t>, 63> copy_of;
+    std::array<std::string, 6> inputs;   ///< as declared, else IN0..IN5
+    std::array<std::string, 4> outputs;  ///< as declared, else OUT0..OUT3
+    std::vector<MotorName> motor_names;  ///< in source order
+    set_points::Record set_points;       ///< values that a user may change
     bool operator==(const Symbols&) const = default;
 };
+
+/// A bit for the step and for each copy of it, by number.
+inline std::uint64_t with_copies(const Symbols& symbols, std::uint8_t step) {
+    std::uint64_t bits = std::uint64_t{1} << step;
+    for (std::size_t i = 0; i < symbols.copy_of.size(); ++i) {
+        if (symbols.copy_of[i] == step) bits |= std::uint64_t{1} << i;
+    }
+    return bits;
+}
 
 /// Where a step comes from, and what its OUT without WHEN switches on.
 struct StepOrigin {
@@ -70,6 +85,11 @@ struct TermOrigin {
 struct Rounding {
     Span span;
     std::string text;  ///< "V1 := 1500 rpm is 3146 (1500.13 rpm, +0.009 %)"
+    double lost = 0;   ///< what was written minus what the register gets, in its own steps
+    double per_unit = 1;
+    std::string unit = {};
+    bool is_negative = false;
+    bool is_made_good = false;  ///< a value of another register counts on the rounded one
 };
 
 struct Compilation {
@@ -81,18 +101,23 @@ struct Compilation {
     std::vector<Rounding> roundings;
     std::vector<Span> properties;  ///< PROPERTY Name: ... ; in source order, what it names not looked up
     std::vector<Allowance> allowances;
+    Written written;
     bool more_diagnostics = false;  ///< there were more than 100
     bool ok = false;                ///< no errors; warnings do not count
 };
 
 /// Compiles the text of one program. Takes any bytes; never throws on bad input.
 Compilation compile(std::string_view source);
+/// The same with the files that it includes.
+Compilation compile(const Sources& sources);
 
 /// All diagnostics as the user sees them, whether there are more, and their number. Empty if there are none.
 std::string render_all(const Compilation& compilation, std::string_view source, std::string_view file_name,
                        Colour colour = Colour::off);
+std::string render_all(const Compilation& compilation, const Sources& sources, Colour colour = Colour::off);
 
 /// Every term with its bytes, what it does and its source line, then the rounded constants, room and time.
+std::string listing(const Compilation& compilation, const Sources& sources);
 std::string listing(const Compilation& compilation, std::string_view source, std::string_view file_name);
 
 struct Disassembly {

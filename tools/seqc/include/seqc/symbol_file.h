@@ -26,6 +26,8 @@ struct SymbolFile {
 /// `file_name` is how the program was named. The compilation must be good.
 std::string write_symbols(const Compilation& compilation, std::string_view source,
                           std::string_view file_name);
+/// Lines of included files have the file's name beside them.
+std::string write_symbols(const Compilation& compilation, const Sources& sources);
 
 struct SymbolReading {
     SymbolFile file;

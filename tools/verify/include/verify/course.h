@@ -19,4 +19,16 @@ struct PlayedScan {
 
 using Course = std::vector<PlayedScan>;
 
+/// What a preset that stands for a range is in a course.
+struct ChosenPreset {
+    std::uint16_t preset = 0;  ///< the range's `value`
+    std::uint16_t chosen = 0;
+};
+
+/// A course, and the presets with which it can be played.
+struct Played {
+    Course course;
+    std::vector<ChosenPreset> presets;  ///< those of ranges that it meets
+};
+
 }  // namespace nplc::verify

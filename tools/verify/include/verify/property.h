@@ -3,6 +3,7 @@
 #include <array>
 #include <bitset>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,10 +16,14 @@ struct Names {
     std::array<std::string, 63> steps;
     std::array<std::string, 6> inputs;
     std::array<std::string, 4> outputs;
+    /// Of which step it is a copy: `step = Name` means its copies too.
+    std::array<std::optional<std::uint8_t>, 63> copy_of = {};
 };
 
 /// A set of images of HW_INP, one bit for each of the 256.
 using ImageSet = std::bitset<256>;
+/// Those that have a bit of HW_INP on.
+const ImageSet& images_with_bit(std::size_t bit);
 
 /// What a condition sees of a finished scan beside its image.
 struct View {
@@ -70,6 +75,8 @@ enum class Form : std::uint8_t {
     changes_only_in,  ///< condition CHANGES ONLY IN then
     scan_ends,        ///< EVERY_SCAN FROM condition ENDS IN then
     followed_by,      ///< WHENEVER condition FOLLOWED BY then THEN third
+    only_from,        ///< condition ONLY FROM then
+    only_after_both,  ///< condition ONLY AFTER then FOLLOWED BY third
 };
 
 struct Property {
@@ -82,15 +89,13 @@ struct Property {
     std::uint32_t within_ms = 0;
 };
 
-/// The five forms that foreign checkers are asked for too.
-bool is_basic(const Property& property);
-
 /// What may be taken for granted.
 struct Assumption {
     std::string text;
-    Condition never{};            ///< of inputs, INPOS and ERROR alone; false if it is about `input`
+    Condition never{};            ///< of inputs, INPOS and ERROR alone; false if it is about something else
     std::uint8_t input = 0;       ///< 0..5, keeps its level
-    std::uint32_t stable_ms = 0;  ///< for so long; 0 if it is about `never`
+    std::uint32_t stable_ms = 0;  ///< for so long; 0 if it is about something else
+    std::uint32_t move_ms = 0;    ///< a move to a place ends within; 0 if it is about something else
 };
 
 struct PropertyReading {

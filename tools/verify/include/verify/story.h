@@ -18,6 +18,9 @@ std::string story_of(const Course& course, const Names& names);
 /// For `nanoplc-sim scan`: a row a scan.
 std::string stimulus_of(const Course& course);
 
+/// For `tools/plot_trace`: a row a scan, with the state after it; where the shaft is stays empty.
+std::string trace_of(const Course& course);
+
 /// For `nanoplc-sim run`: inputs at their times, ERROR as a fault of the drive or a cut line, and the step
 /// that the course ends in. What INPOS does there is up to the virtual motor.
 std::string scenario_of(const Result& result, const Names& names);

@@ -22,18 +22,23 @@ struct Result {
     std::string text{};                  ///< the property, or what was checked
     Verdict verdict = Verdict::undecided;
     Severity severity = Severity::fault;
-    std::string reason{};            ///< why it is broken or undecided
-    std::string allowed{};           ///< a finding of a check that was switched off in its step: why
-    std::optional<Course> course{};  ///< the shortest way to break it, or to reach what IS REACHABLE
+    std::string reason{};                 ///< why it is broken or undecided
+    std::string allowed{};                ///< a finding of a check that was switched off in its step: why
+    std::optional<Course> course{};       ///< the shortest way to break it, or to reach what IS REACHABLE
+    std::vector<ChosenPreset> presets{};  ///< values of ranges with which the course can be played
 };
 
 struct Options {
     Assume assume = Assume::driver;
     OrderTime order_time;
     std::uint32_t debounce_ms = 3;
-    std::size_t most_states = 4'000'000;
+    std::size_t most_states = 2'000'000;
     std::vector<Allowance> allowances;
     std::vector<Assumption> assumptions;
+    PresetRanges ranges;  ///< what is proved holds for each value of them
+    /// Motor registers whose range has 0 in it: V1..V8, V_SOLL.
+    std::vector<std::uint8_t> may_be_zero;
+    bool checks = true;  ///< those that every table gets; else properties alone
 };
 
 struct Report {

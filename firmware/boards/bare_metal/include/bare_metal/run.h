@@ -10,6 +10,7 @@
 #include "ports/storage.h"
 #include "ports/watchdog.h"
 #include "store/layout.h"
+#include "update/receiver.h"
 
 /// The gateway on a board without an operating system: in what order it starts, its loop, its restart.
 namespace nplc::bare_metal {
@@ -27,7 +28,9 @@ struct Parts {
     const store::Area& table_area;
     const store::Area& settings_area;
     std::span<std::uint8_t> table;  ///< memory for the active one
-    bool for_service = false;       ///< a person is served, and nothing runs until the next start
+    const store::Area* set_point_area =
+        nullptr;               ///< null: none are kept, as in a build without NPLC_SET_POINTS
+    bool for_service = false;  ///< the user is served, and nothing runs until the next start
 };
 
 /// The chip's interrupts are allowed already.
@@ -42,5 +45,7 @@ void begin_watchdog(base::Milliseconds time);
 void set_watchdog_time(base::Milliseconds time);
 /// The chip says that its watchdog has reset it since this was last asked.
 bool take_watchdog_reset();
+/// Only in a build with NPLC_UPDATE.
+update::Receiver& firmware_receiver();
 
 }  // namespace nplc::bare_metal

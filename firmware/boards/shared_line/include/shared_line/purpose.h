@@ -12,6 +12,9 @@ enum class Purpose : std::uint8_t {
     stops,     ///< writes the command stop, safe or hold
     operates,  ///< everything else: it may start or move something
 };
+/// Of one that operates: whether it needs the operator's seat, which all do that change more than what a
+/// later command goes by.
+bool needs_seat(const protocol::mactalk::Request& request, std::uint8_t gateway_address);
 Purpose purpose_of(const protocol::mactalk::Request& request, std::uint8_t gateway_address);
 
 }  // namespace nplc::boards

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "registers/mac.h"
 
 namespace nplc::registers {
@@ -51,6 +53,15 @@ const Details* details_of(Model model, std::uint8_t number);
 std::span<const Field> fields_of(Model model, std::uint8_t number);
 /// By the manual's name, as ERR_STAT's IN_POS. Case counts not.
 const Field* field_of(Model model, std::uint8_t number, std::string_view name);
+/// The register's bits that a name stands for: a bit, or a value of a field as wide as the register. With
+/// `part` the field's name and a value of it: HOME_MODE's BY_COMMAND, HOME2_MODE. Case counts not.
+std::optional<std::uint32_t> bits_named(Model model, const Register& reg, std::string_view name);
+std::optional<std::uint32_t> bits_named(Model model, const Register& reg, std::string_view part,
+                                        std::string_view value);
+/// The name of a value of a whole register, such as a mode; empty if it has none.
+std::string_view name_of_value(Model model, const Register& reg, std::uint32_t bits);
+/// Whether some register of the motor has a mode, a bit or a field of this name.
+bool is_name_of_value(Model model, std::string_view name);
 /// Null if the value has no name.
 const NamedValue* named(const Field& field, std::uint32_t value);
 

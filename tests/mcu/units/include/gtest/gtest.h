@@ -49,6 +49,10 @@ std::array<T, 1 + sizeof...(More)> Values(T first, More... more) {
     return {first, more...};
 }
 
+constexpr std::array<bool, 2> Bool() {
+    return {false, true};
+}
+
 template <class Fixture>
 struct Instantiated {
     explicit Instantiated(std::span<const typename Fixture::ParamType> values) {

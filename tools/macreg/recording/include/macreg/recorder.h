@@ -82,6 +82,11 @@ inline constexpr std::size_t kMostSamples = 895;
 /// what `progress` throws; `broken` then holds what had been read, each sample with its time.
 Recording record_buffer(Motor& motor, const RecordOptions& options, Recording* broken = nullptr);
 
+/// What the buffer holds, whoever recorded it, TESTU_MODE and TESTA_MODE too (001 §4.4.9, §4.4.10): REC_CNT
+/// samples, or `samples` if not 0, of what SAMPLE1..4 name, at the rate that RECINNERBIT says. Nothing is
+/// recorded and no parameter changes. Throws as record_buffer does.
+Recording fetch_buffer(Motor& motor, const RecordOptions& options, Recording* broken = nullptr);
+
 /// Reads the registers as fast as the line permits; each row has the time in the middle of its questions.
 /// `into` holds what came so far even if it throws.
 void record_polling(Motor& motor, const RecordOptions& options, Recording& into);

@@ -57,8 +57,6 @@ constexpr VectorsOfCore vectors_of_core(std::uint32_t* stack, Handler systick) {
 
 /// A word of stack that nothing has used since the start.
 inline constexpr std::uint32_t kPaint = 0xA5A5'A5A5U;
-/// The most bytes of stack that were in use since the start.
-std::uint32_t stack_used();
 
 }  // namespace nplc::hal_mcu::cortex_m
 

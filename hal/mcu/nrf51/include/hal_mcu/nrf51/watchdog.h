@@ -21,6 +21,9 @@ class Watchdog final : public ports::Watchdog {
     /// Only after begin(); feeds.
     void set_time(base::Milliseconds time);
     void feed() override { fed_ = true; }
+    /// The chip's own alone, and its food: for a loader, after which begin() finds it running.
+    static void begin_chip();
+    static void feed_chip();
     /// From the clock's interrupt; `now` in microseconds, may wrap.
     void on_tick(std::uint32_t now);
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "macreg/finding.h"
+#include "macreg/causes.h"
 #include "macreg/midi/module.h"
 
 /// Why does it not move? (000 §VI, 003 §IV, §VII)

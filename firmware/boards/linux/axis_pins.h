@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config.h"
+#include "hal_linux/event_loop.h"
+#include "hal_linux/gpio.h"
+
+namespace nplc::boards {
+
+/// The GPIO lines of an axis.
+class AxisPins {
+  public:
+    /// Those that it has, and whose chip is there, it keeps. Outputs get the levels `safe` first, and those
+    /// of set_safe() at the end. Answers why some cannot be had, a line each; then it may be tried again.
+    std::vector<std::string> open(const AxisConfig& config, std::uint8_t safe);
+    hal_linux::GpioInputs& inputs() { return *inputs_; }
+    hal_linux::GpioOutputs& outputs() { return *outputs_; }
+    void set_safe(std::uint8_t levels);
+    /// From a signal's handler too; nothing where there are none.
+    void write(std::uint8_t levels);
+
+    /// Edges wake with `mark` and the marks behind it.
+    void watch(hal_linux::EventLoop& loop, std::uint32_t mark);
+    void note_edge(std::uint32_t descriptor) { edges_ |= 1U << descriptor; }
+    bool has_edges() const { return edges_ != 0; }
+    void read_inputs();
+
+    /// True once when a chip is gone. Its descriptors, which are readable all the time then, are not watched
+    /// any more.
+    bool is_newly_lost(hal_linux::EventLoop& loop);
+
+  private:
+    hal_linux::GpioBits input_bits_;
+    hal_linux::GpioBits output_bits_;
+    bool has_inputs_ = false;
+    bool has_outputs_ = false;
+    std::optional<hal_linux::GpioInputs> inputs_;
+    std::optional<hal_linux::GpioOutputs> outputs_;
+    std::uint32_t edges_ = 0;  ///< descriptors of inputs at which some wait, bit 0 is the first
+    bool told_lost_ = false;
+};
+
+}  // namespace nplc::boards

@@ -1,0 +1,88 @@
+#include "axis_reporter.h"
+
+#include "faces/set_point_book.h"
+#include "log_messages.h"
+
+namespace nplc::boards {
+namespace {
+
+/// A motor that has not answered so long after the start is told of; one that is switched on with us needs
+/// some time.
+constexpr base::Milliseconds kFirstAnswer{5'000};
+
+using registers::gateway::Event;
+
+bool is_of_recipe(Event event) {
+    return event == Event::recipe_loaded || event == Event::recipe_saved || event == Event::recipe_deleted;
+}
+
+/// Values with what they were, and names, which the log only counts.
+std::string changes_of(const gateway::EventLog::Entry& entry, gateway::Controller& controller) {
+    const auto event = static_cast<Event>(entry.event);
+    const bool changes = event == Event::set_points_changed || event == Event::recipe_loaded;
+    if (!changes && event != Event::set_points_dropped && event != Event::recipe_saved) return {};
+    const faces::SetPointBook book = faces::book_of(controller);
+    if (event == Event::set_points_dropped) return set_points::names_of(book.record, entry.detail);
+    std::string text =
+        changes ? set_points::changes_text(book.changes, book.record, entry.milliseconds) : std::string();
+    const set_points::Recipe* recipe = is_of_recipe(event) ? book.find_recipe(entry.detail & 0xFF) : nullptr;
+    if (recipe == nullptr) return text;
+    return "'" + recipe->name + "'" + (text.empty() ? "" : ", " + text);
+}
+
+/// Who holds the seat, which every change needs.
+std::string client_of(const gateway::EventLog::Entry& entry, const faces::Sitter* holder) {
+    using registers::gateway::Origin;
+    const auto event = static_cast<Event>(entry.event);
+    if (holder == nullptr || (event != Event::set_points_changed && !is_of_recipe(event))) return {};
+    const auto origin = static_cast<Origin>(entry.detail >> 8);
+    const bool by_person = origin == Origin::user_port || origin == Origin::panel;
+    return by_person == (holder->side == faces::Side::person) ? holder->name : std::string();
+}
+
+}  // namespace
+
+void AxisReporter::start(base::Instant now) {
+    events_.restart();
+    tell_silence_at_ = now + kFirstAnswer;
+}
+
+void AxisReporter::report(gateway::Controller& controller, MotorPart& motor, const faces::Sitter* holder,
+                          base::Instant now) {
+    report_events(controller, holder);
+    for (const LogMessage& message : motor.news())
+        journal_.write(message.level, message.text, {{"EVENT", "drive"}});
+    report_link(motor, now);
+}
+
+void AxisReporter::report_events(gateway::Controller& controller, const faces::Sitter* holder) {
+    events_.look(controller.sequence().log(), [&](const gateway::EventLog::Entry& entry) {
+        LogMessage message = in_words(entry);
+        if (const std::string changes = changes_of(entry, controller); !changes.empty())
+            message.text += ": " + changes;
+        JournalFields fields = fields_of(entry);
+        if (const std::string client = client_of(entry, holder); !client.empty()) {
+            message.text += "; " + client;
+            fields.push_back({"CLIENT", client});
+        }
+        journal_.write(message.level, message.text, fields);
+    });
+}
+
+void AxisReporter::report_link(MotorPart& motor, base::Instant now) {
+    const motor::Link link = motor.driver().link();
+    if (motor::delivers(link)) tell_silence_at_ = base::kNever;
+    if (now >= tell_silence_at_) {
+        tell_silence_at_ = base::kNever;
+        journal_.write(LogLevel::warning, motor.silence_in_words(), {{"EVENT", "motor_silent"}});
+    }
+    if (motor::delivers(link) == motor::delivers(told_link_)) return;
+    told_link_ = link;
+    if (motor::delivers(link))
+        journal_.write(LogLevel::notice, "the motor answers on " + motor.line_in_words(),
+                       {{"EVENT", "motor_answers"}});
+    else
+        journal_.write(LogLevel::warning, motor.loss_in_words(), {{"EVENT", "motor_lost"}});
+}
+
+}  // namespace nplc::boards

@@ -1,0 +1,105 @@
+#include "axis_store.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+namespace nplc::boards {
+namespace {
+
+namespace fs = std::filesystem;
+using Found = hal_linux::RunMarker::Found;
+
+}  // namespace
+
+ports::Storage& AxisStore::storage() {
+    if (storage_) return *storage_;
+    return no_storage_;
+}
+
+std::string AxisStore::open(const std::string& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        return fmt::format(
+            "{}: cannot be made: {}; name another state_directory, or let this user write there", folder,
+            error.message());
+    const std::string path = store_file(folder);
+    if (!marker_) {
+        if (std::string why = check_marker(folder, path); !why.empty()) return why;
+    }
+    auto opened = hal_linux::FileStorage::open(path, kMemory);
+    if (!opened.storage) return opened.error;
+    file_ = std::move(opened.storage);
+    storage_.emplace(*file_);
+    return {};
+}
+
+/// What was stored is lost where a run is known and its store is missing.
+std::string AxisStore::check_marker(const std::string& folder, const std::string& path) {
+    std::error_code error;
+    marker_.emplace(folder + "/running");
+    const bool has_store = fs::exists(path, error);
+    const Found found = marker_->found();
+    const bool is_new = found == Found::missing && !has_store;
+    if (is_new) static_cast<void>(marker_->make());  // mark_running() reports it
+    marker_is_bad_ = !is_new && (found == Found::missing || found == Found::damaged);
+    if (has_store || is_new || found == Found::fresh) return {};
+    std::string why = replace_lost_store(path);
+    if (!why.empty()) marker_.reset();
+    return why;
+}
+
+std::string AxisStore::replace_lost_store(const std::string& path) {
+    journal_.write(LogLevel::error,
+                   path +
+                       " is missing, and with it what was stored; upload the table again, and set and "
+                       "keep the settings, or put a copy there while the service is stopped");
+    const std::string beside = path + ".new";
+    std::error_code error;
+    fs::remove(beside, error);
+    {
+        const auto made = hal_linux::FileStorage::open(beside, kMemory);
+        if (!made.storage) return made.error;
+        for (const store::Area& area : {kTableArea, kSettingsArea, kSetPointArea}) {
+            if (!store::note_loss(*made.storage, area)) return beside + ": cannot be written";
+        }
+    }
+    fs::rename(beside, path, error);
+    return error ? path + ": cannot be made: " + error.message() : "";
+}
+
+/// A watchdog's reset is over once a run has ended in order since then.
+bool AxisStore::is_after_crash(const BoardStart& board) {
+    const bool is_cut_off = marker_->found() == Found::running;
+    const bool of_this_boot = marker_->of_this_boot();
+    if (is_cut_off && of_this_boot) return true;
+    if (board.by_watchdog && !(of_this_boot && marker_->found() == Found::ended)) {
+        journal_.write(LogLevel::error, "a watchdog has reset the board");
+        return true;
+    }
+    if (is_cut_off)
+        journal_.write(
+            LogLevel::notice,
+            "the board has restarted in the middle of a run, and no watchdog says that it did this: a power "
+            "cut");
+    return is_cut_off && board.power_cut_waits;
+}
+
+bool AxisStore::take_bad_marker() {
+    return std::exchange(marker_is_bad_, false);
+}
+
+std::string AxisStore::mark_running() {
+    if (!storage_) return {};
+    std::string error = marker_->set();
+    is_marked_ = error.empty();
+    return error;
+}
+
+std::string AxisStore::mark_ended() {
+    return storage_ ? marker_->clear() : std::string();
+}
+
+}  // namespace nplc::boards

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "mqtt/options.h"
+#include "section.h"
+
+namespace nplc::boards {
+
+/// Table `mqtt`. Without `broker` there is no client.
+struct MqttConfig {
+    LocatedText broker;
+    mqtt::Options options{};
+};
+MqttConfig read_mqtt(Section& root, Findings& findings);
+
+/// "run", "stop", ... that may come over MQTT.
+std::vector<std::string> mqtt_command_names();
+
+}  // namespace nplc::boards

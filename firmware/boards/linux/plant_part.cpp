@@ -1,0 +1,133 @@
+#include "plant_part.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <utility>
+
+#include "faces/program_version.h"
+#include "mqtt/client.h"
+
+namespace nplc::boards {
+namespace {
+
+constexpr base::Milliseconds kBetweenTries{5'000};
+
+std::string orders_in_words(const deployment::Settings& settings) {
+    constexpr const char* kHow[]{"while the sequence is stopped", "and stops the sequence for it",
+                                 "and restarts the sequence for it"};
+    return fmt::format("MQTT takes tables that a key of {} has signed, {}{}", settings.keys,
+                       kHow[static_cast<std::size_t>(settings.activation)],
+                       settings.window ? ", at " + settings.window->text() : "");
+}
+
+}  // namespace
+
+std::vector<std::string> faces_in_words(const Config& config) {
+    std::vector<std::string> lines;
+    if (config.panel.listen.is_there())
+        lines.push_back(fmt::format("the panel listens at {}", config.panel.listen.text));
+    const ModbusConfig& modbus = config.modbus;
+    const char* const rights = modbus.options.settings.writes ? "and operates" : "for reading and stopping";
+    if (modbus.listen.is_there())
+        lines.push_back(fmt::format("Modbus TCP listens at {}, {}", modbus.listen.text, rights));
+    if (modbus.rtu_port.is_there()) {
+        const std::size_t last = modbus.rtu.unit + config.axes.size() - 1;
+        lines.push_back(
+            fmt::format("Modbus RTU answers on {}, {} baud, as {}, {}", modbus.rtu_port.text, modbus.rtu.baud,
+                        config.axes.size() == 1 ? fmt::format("unit {}", last)
+                                                : fmt::format("units {} to {}", modbus.rtu.unit, last),
+                        rights));
+    }
+    if (config.metrics.listen.is_there())
+        lines.push_back(
+            fmt::format("metrics are served at {}, for reading only", config.metrics.listen.text));
+    if (config.mqtt.broker.is_there()) {
+        const mqtt::Options& mqtt = config.mqtt.options;
+        std::vector<std::string> commands;
+        for (const auto command : mqtt.commands) commands.emplace_back(registers::gateway::name_of(command));
+        if (mqtt.may_set("*"))
+            commands.emplace_back("all set-points");
+        else
+            for (const auto& name : mqtt.set_points) commands.push_back("set-point " + name);
+        if (mqtt.recipes) commands.emplace_back("recipes");
+        lines.push_back(
+            fmt::format("MQTT goes out to {}{}, as {}/{}, and takes {}", config.mqtt.broker.text,
+                        mqtt.ca_file.empty() ? " without TLS" : " with TLS", mqtt.group, mqtt.node,
+                        commands.empty() ? "no commands" : fmt::format("{}", fmt::join(commands, ", "))));
+        if (mqtt.orders.takes_orders()) lines.push_back(orders_in_words(mqtt.orders));
+    }
+    return lines;
+}
+
+void PlantPart::open(faces::Axes axes, base::Instant now) {
+    axes_ = std::move(axes);
+    if (config_.modbus.listen.is_there()) add_modbus();
+    if (config_.modbus.rtu_port.is_there()) add_modbus_rtu();
+    if (config_.metrics.listen.is_there()) add_metrics();
+    if (config_.mqtt.broker.is_there()) add_mqtt();
+    look(now);
+}
+
+void PlantPart::look(base::Instant now) {
+    again_ = base::kNever;
+    for (Face& face : faces_) {
+        if (face.running) continue;
+        std::string where;
+        std::string error;
+        face.running = face.open(where, error);
+        if (face.running) {
+            journal_.write(LogLevel::notice, fmt::format("{}: {}", face.name, where));
+            continue;
+        }
+        again_ = now + kBetweenTries;
+        if (!std::exchange(face.was_told, true))
+            journal_.write(LogLevel::error, fmt::format("{}: {}; tries again", face.name, error));
+    }
+}
+
+void PlantPart::add_modbus() {
+    faces_.push_back({"Modbus", [this](std::string& where, std::string& error) {
+                          auto opened = modbus::TcpServer::open(config_.modbus.options, axes_);
+                          error = opened.error;
+                          if (opened.server) where = "listens at " + opened.server->name();
+                          return std::shared_ptr<void>(std::move(opened.server));
+                      }});
+}
+
+void PlantPart::add_modbus_rtu() {
+    faces_.push_back({"Modbus RTU", [this](std::string& where, std::string& error) {
+                          auto opened = modbus::RtuServer::open(config_.modbus.rtu, axes_);
+                          error = opened.error;
+                          where = "answers on " + config_.modbus.rtu.port;
+                          return std::shared_ptr<void>(std::move(opened.server));
+                      }});
+}
+
+void PlantPart::add_mqtt() {
+    faces_.push_back({"MQTT", [this](std::string& where, std::string& error) {
+                          mqtt::Options options = config_.mqtt.options;
+                          options.orders.folder = config_.state_directory;
+                          options.tell = [this](bool is_error, const std::string& text) {
+                              journal_.write(is_error ? LogLevel::warning : LogLevel::notice, "MQTT: " + text,
+                                             {{"EVENT", is_error ? "mqtt_lost" : "mqtt"}});
+                          };
+                          auto opened = mqtt::Client::open(options, axes_);
+                          error = opened.error;
+                          where = "goes out to " + config_.mqtt.broker.text;
+                          return std::shared_ptr<void>(std::move(opened.client));
+                      }});
+}
+
+void PlantPart::add_metrics() {
+    faces_.push_back({"metrics", [this](std::string& where, std::string& error) {
+                          auto opened = metrics::Server::open(
+                              {.listen = config_.metrics.listen.text, .program = faces::program_version()},
+                              axes_);
+                          error = opened.error;
+                          if (opened.server) where = "served at " + opened.server->url();
+                          return std::shared_ptr<void>(std::move(opened.server));
+                      }});
+}
+
+}  // namespace nplc::boards

@@ -1,0 +1,101 @@
+#include "user_connection.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "host/endpoint.h"
+#include "registers/gateway.h"
+#include "seat/secret.h"
+
+namespace nplc::boards {
+namespace {
+
+constexpr base::Milliseconds kBetweenWarnings{10'000};
+
+}  // namespace
+
+std::string UserConnection::open(const AxisConfig& config, std::uint32_t stored_baud, bool at_once,
+                                 faces::Seat& operators) {
+    if (!config.user_port.is_there()) return {};
+    std::string error;
+    if (!is_endpoint(config.user_port.text)) {
+        line_.reset();
+        error = open_serial_port(config, stored_baud);
+        if (!error.empty()) uart_.reset();
+        return error;
+    }
+    if (server_) return {};
+    error = open_server(config, at_once, operators);
+    if (!error.empty()) server_.reset();
+    return error;
+}
+
+/// Without the password that it is to ask for it would let everybody in.
+std::string UserConnection::open_server(const AxisConfig& config, bool at_once, faces::Seat& operators) {
+    faces::Secret password;
+    if (config.password_file.is_there())
+        password = faces::read_secret(config.password_file.text, registers::gateway::kMostPassword);
+    if (!password.error.empty()) return "no user's port: " + password.error;
+    is_terminal_ = host::Endpoint(config.user_port.text).kind == host::Endpoint::Kind::pty;
+    return server_.emplace().open(
+        config.user_port.text,
+        {.mode = config.socket_mode, .group = config.socket_group.text, .at_once = at_once}, &operators,
+        password.text);
+}
+
+/// A stored speed that this port cannot do must not keep the user out who would set it back.
+std::string UserConnection::open_serial_port(const AxisConfig& config, std::uint32_t stored_baud) {
+    const std::uint32_t configured = config.settings.get(store::Setting::user_baud);
+    const std::string& path = config.user_port.text;
+    std::string error = uart_.emplace().open(config.name, {.path = path, .baud = stored_baud});
+    if (error.empty() || stored_baud == configured) return error;
+    if (!uart_->open(config.name, {.path = path, .baud = configured}).empty()) return error;
+    journal_.write(
+        LogLevel::warning,
+        fmt::format("{}; the configuration's {} baud are used: set user_baud anew", error, configured));
+    return {};
+}
+
+ports::SerialPort* UserConnection::start() {
+    readable_ = true;
+    if (uart_) return &line_.emplace(uart_->uart());
+    return server_ ? &*server_ : nullptr;
+}
+
+void UserConnection::watch_server(hal_linux::EventLoop& loop, std::uint32_t mark) {
+    using Wakes = hal_linux::EventLoop::Wakes;
+    if (server_)
+        loop.watch(server_->descriptor(), mark, is_terminal_ ? Wakes::at_news : Wakes::while_readable);
+}
+
+void UserConnection::watch_serial_port(hal_linux::EventLoop& loop, std::uint32_t mark) {
+    if (uart_) loop.watch(uart_->uart().descriptor(), mark);
+}
+
+void UserConnection::look(base::Instant now, const SharedLine::Addresses& addresses) {
+    if (server_ && (std::exchange(readable_, false) || server_->next_turn(now) <= now))
+        server_->look(now, addresses);
+    if (line_) line_->look(now, addresses.gateway);
+    tell_wrong_passwords(now);
+}
+
+void UserConnection::tell_wrong_passwords(base::Instant now) {
+    if (!server_ || server_->wrong_passwords() == told_wrong_passwords_ || now < tell_again_) return;
+    journal_.write(LogLevel::warning, fmt::format("{}: a wrong password was given, {} times since the start",
+                                                  server_->name(), server_->wrong_passwords()));
+    told_wrong_passwords_ = server_->wrong_passwords();
+    tell_again_ = now + kBetweenWarnings;
+}
+
+bool UserConnection::look_for_serial_port(base::Instant now) {
+    return uart_ && uart_->look(journal_.journal(), now);
+}
+
+base::Instant UserConnection::next_look(base::Instant now) const {
+    if (server_) return server_->next_turn(now);
+    return uart_ ? std::min(uart_->next_look(), line_->next_look()) : base::kNever;
+}
+
+}  // namespace nplc::boards

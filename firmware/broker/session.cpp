@@ -1,0 +1,62 @@
+#include "broker/session.h"
+
+#include <fmt/format.h>
+#include <mosquitto.h>
+#include <nss.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+namespace nplc::broker {
+
+const bool kIsBuiltIn = true;
+
+Library::Library() {
+    ::mosquitto_lib_init();
+    // A static program must not load the system's modules for names, which are another C library's.
+    if (NPLC_STATIC) ::__nss_configure_lookup("hosts", "files dns");
+}
+
+Library::~Library() {
+    ::mosquitto_lib_cleanup();
+}
+
+Session new_session(const std::string& name, void* self) {
+    return {::mosquitto_new(name.c_str(), true, self), ::mosquitto_destroy};
+}
+
+Secrets read_secrets(const Options& options) {
+    for (const std::string& file : {options.ca_file, options.certificate_file, options.key_file}) {
+        if (!file.empty() && ::access(file.c_str(), R_OK) != 0)
+            return {.error = fmt::format("{}: {}; it must be a file that this program may read", file,
+                                         std::strerror(errno))};
+    }
+    Secrets secrets;
+    if (options.password_file.empty()) return secrets;
+    std::ifstream file(options.password_file);
+    std::getline(file, secrets.password);
+    if (secrets.password.empty())
+        secrets.error =
+            fmt::format("{}: its first line must be the password, and this program must be let read it",
+                        options.password_file);
+    return secrets;
+}
+
+std::string set_secrets(mosquitto* session, const Options& options, const std::string& password) {
+    const auto or_null = [](const std::string& text) { return text.empty() ? nullptr : text.c_str(); };
+    int code = MOSQ_ERR_SUCCESS;
+    if (!options.user.empty())
+        code = ::mosquitto_username_pw_set(session, options.user.c_str(), or_null(password));
+    if (code == MOSQ_ERR_SUCCESS && !options.ca_file.empty())
+        code = ::mosquitto_tls_set(session, options.ca_file.c_str(), nullptr,
+                                   or_null(options.certificate_file), or_null(options.key_file), nullptr);
+    return code == MOSQ_ERR_SUCCESS ? std::string() : reason_of(code);
+}
+
+std::string reason_of(int code) {
+    return code == MOSQ_ERR_ERRNO ? std::strerror(errno) : ::mosquitto_strerror(code);
+}
+
+}  // namespace nplc::broker

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+/// The numbers of causes, for faces that have no texts. They stay for good: none is changed or used again.
+namespace nplc::causes {
+
+struct Code {
+    std::uint16_t number;
+    std::string_view name;  ///< Finding::code
+    std::string_view text;  ///< in a few words
+};
+
+/// In ascending order of number.
+std::span<const Code> codes();
+/// 0: there is none of that name.
+std::uint16_t number_of(std::string_view name);
+/// Null: there is none of that number.
+const Code* find_code(std::uint16_t number);
+
+}  // namespace nplc::causes

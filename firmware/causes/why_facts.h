@@ -1,0 +1,121 @@
+#pragma once
+
+#include <cstdlib>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "causes/why.h"
+#include "registers/gateway.h"
+
+/// What the rules of `why` ask of a condition, and the words they use.
+namespace nplc::causes {
+
+/// A condition by name and number. Beside registers there are names for what one of them is, as the motor's
+/// mode and family have it: SPEED (V_HOME or V_SOLL), TORQUE (T_HOME or T_SOLL), SUPPLY (U_SUPPLY or U_BUS).
+class Facts {
+  public:
+    explicit Facts(const Condition& condition) : condition_(condition) {}
+
+    bool large() const { return condition_.model == registers::Model::mac800; }
+    registers::Model model() const { return condition_.model; }
+    /// 0 of a register that the motor does not have.
+    std::int64_t at(std::string_view name) const { return condition_.now.at(number(name)); }
+    std::int64_t before(std::string_view name) const { return condition_.before.at(number(name)); }
+    std::uint8_t number(std::string_view name) const;
+    /// As the model's map has it; empty if the motor has none of that name.
+    std::string_view name_of(std::string_view name) const;
+    bool knows(std::string_view name) const { return number(name) != 0; }
+    bool all_zero(std::string_view names) const;
+
+    /// "1500 rpm", for a sentence.
+    std::string text(std::string_view name) const;
+    /// "V_SOLL": name and value; "=V_SOLL": the name that the model has for it; "#V_SOLL": its raw value;
+    /// "flash save": the command for a motor in this mode; else one of the words in why_facts.cpp.
+    std::string word(std::string_view key) const;
+
+    std::int64_t mode() const { return at("MODE_REG"); }
+    bool has_error(std::string_view bit) const;
+    bool has_any_error() const;
+    bool homes() const { return mode() >= kHome1 && mode() <= kHome3; }
+    bool gears() const;
+    bool positions() const;
+    bool is_passive() const { return causes::is_passive(mode()); }
+    bool has_velocity_limit() const;
+    /// Both regulators are on.
+    bool is_driven() const;
+    /// The torque, the acceleration and so on that a mode needs are looked at: it is in one, or, in
+    /// INIT_MODE, one will be chosen. A gateway's sequence sets what it needs.
+    bool has_demands() const;
+    bool demands_velocity() const;
+    bool moves() const;
+    /// It turns much faster than its mode asks for, and is not slowing down.
+    bool runs_away() const;
+    /// Its profile has reached the target.
+    bool has_arrived() const;
+    /// By P_IST, it is elsewhere than its profile.
+    bool is_apart() const;
+    bool lags() const;
+    /// With all the torque that it may use, and stands.
+    bool pushes() const;
+
+    /// MIN_P_IST and MAX_P_IST act.
+    bool limited() const;
+    bool has_limits() const;
+    bool limits_leave_none() const { return at("MIN_P_IST") >= at("MAX_P_IST"); }
+    /// P_MODE with this target ends inside of them (001 §4.4.3).
+    bool allows(std::int64_t p_soll) const;
+    bool ends_inside() const { return allows(at("P_SOLL")); }
+    /// 001 §4.1.10, §4.1.11: the analogue input can send it out of them.
+    bool voltage_leads_out() const;
+    bool follow_limit_is_small() const;
+
+    bool is_near(std::string_view value, std::string_view limit) const;
+    bool undervoltage_is_over() const;
+    bool undervoltage_stops() const;
+    bool coil_is_set_up() const;
+    /// Pulses are to lead it, and none come.
+    bool has_no_pulses() const;
+    bool pulse_pins_are_taken() const;
+    bool counts_pulses() const;
+    /// CNTRL_BITS asks for another user interface than the one that acts (001 §3.2.36).
+    bool user_interface_waits() const;
+    /// A gateway's orders arrive, so FastMAC has the pins, whatever CNTRL_BITS has been set to since the last
+    /// reset.
+    bool speaks_fastmac() const;
+
+    const std::optional<GatewayState>& gateway() const { return condition_.gateway; }
+    bool gateway_has(registers::gateway::StatusBit bit) const;
+    bool gateway_is(registers::gateway::RunState state) const;
+
+    /// Of V_SOLL; what is slower looks like standing.
+    std::int64_t tiny_velocity() const { return large() ? 14 : 10; }
+    /// 10 V at the analogue input.
+    std::int64_t full_voltage() const { return large() ? 2047 : 1023; }
+    std::int64_t voltage() const { return std::abs(at("ANINP")); }
+    /// That the mode allows, 1023 is full; AT_MODE and passive modes have none.
+    std::int64_t torque_limit() const;
+    /// That a move will have: V_SOLL, or what `why` names for one that is next to nothing.
+    std::int64_t velocity_of_moves() const;
+    /// P_IST less what P_SOLL would be there: both count from one place, unless P_IST was written alone.
+    std::int64_t apart() const;
+    /// P_SOLL for another place that the limits allow: a turn on, a turn back, or as far as there is room.
+    std::int64_t other_target() const;
+    /// P_SOLL for where it is, or the nearest place inside.
+    std::int64_t target_here() const;
+
+    /// What has to come before a remedy that lets the motor turn, or it would leave the position limits.
+    /// Empty: nothing.
+    std::string before_it_turns() const;
+
+  private:
+    std::int64_t p_soll_of(std::int64_t place) const;
+
+    const Condition& condition_;
+};
+
+/// In the order in which causes are to be mended: nothing that stands in a row helps while one before it is
+/// there.
+std::span<const Rule<Facts>> rules();
+
+}  // namespace nplc::causes

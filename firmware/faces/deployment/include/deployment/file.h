@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace nplc::deployment {
+
+/// What is to be written.
+struct File {
+    std::string path;
+    std::vector<std::uint8_t> bytes;
+};
+
+}  // namespace nplc::deployment

@@ -1,0 +1,132 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "faces/axis_model.h"
+#include "modbus/map.h"
+#include "modbus/set_point_words.h"
+#include "protocol/modbus_pdu.h"
+
+namespace nplc::modbus {
+
+enum class Silence : std::uint8_t { nothing, stop, safe };
+
+struct Settings {
+    bool low_word_first = false;  ///< of what takes two registers
+    bool writes = true;           ///< false: only stop, safe and hold
+    /// When the master that operates says nothing for `silence`, or has left.
+    Silence on_silence = Silence::nothing;
+    base::Milliseconds silence{5'000};
+};
+
+/// An axis as a slave: what its clients share. Belongs to the server's thread.
+class Unit {
+  public:
+    Unit(faces::AxisModel& axis, const Settings& common) : model(axis), settings(common) {}
+
+    faces::AxisModel& model;
+    const Settings& settings;
+
+    // The handshake. Until command_number has been written 0 since the start nothing is carried out: a master
+    // that writes its block in cycles does not start a machine by the gateway's restart.
+    bool is_armed = false;
+    std::uint16_t command = 0;
+    std::uint16_t number = 0;
+    std::uint16_t done_number = 0;
+    std::uint16_t result = 0;
+    std::uint16_t detail = 0;
+    std::uint16_t recipe = 0;  ///< for kLoadRecipe
+
+    std::uint8_t coils = 0;           ///< as written last
+    std::uint8_t coils_were_off = 0;  ///< written 0 since the start
+    std::uint32_t acknowledged = 0;   ///< of event_count
+
+    std::uint64_t master = 0;  ///< the session that operated last; 0: none
+    base::Instant heard{};     ///< from it
+
+    /// What on_silence asks for now; once.
+    std::optional<faces::Command> due(base::Instant now);
+};
+
+/// When a request is looked at, and what is older than it.
+struct Moment {
+    base::Instant now{};
+    base::Instant arrived{};  ///< it came later than that; a command that may be older than 1 s is too_late
+};
+
+/// One client. A request is answered at once, or when the axis's loop has carried it out; only then comes its
+/// next one.
+class Session {
+  public:
+    Session(std::vector<std::unique_ptr<Unit>>& units, std::string name, faces::Bell& bell);
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    /// `unit` counts from 1; 0 and 255 are the only one. Nothing: take() has the answer later.
+    std::optional<Answer> serve(std::uint8_t number, std::span<const std::uint8_t> pdu, const Moment& moment);
+    std::uint64_t number() const { return number_; }
+    bool is_waiting() const { return waiting_.has_value(); }
+    std::optional<Answer> take();
+
+  private:
+    struct Waiting {
+        Request request{};
+        std::size_t index = 0;
+        bool is_handshake = false;
+        bool takes_set_points = false;
+        bool is_whole = false;  ///< all of its commands were taken
+        std::vector<std::uint32_t> ids{};
+        std::vector<faces::Completion> ended{};
+    };
+    /// What a request sees.
+    struct Look {
+        Unit& unit;
+        std::size_t index;
+        faces::AxisImage image;
+        std::shared_ptr<const faces::SetPointBook> book;
+        std::shared_ptr<const faces::Findings> why;  ///< null: not asked for, or not known
+        base::Instant now;
+        base::Instant arrived;
+    };
+
+    static SetPointLook set_points_of(const Look& look);
+    /// Nothing is known of the axis.
+    static bool is_old(const Look& look);
+
+    Unit* find(std::uint8_t unit);
+    Answer read(const Look& look, const Request& request);
+    Exception put(const Look& look, Space space, std::uint16_t address, Answer& answer) const;
+    static Word why_word(const Look& look, std::uint16_t address);
+    faces::PointValue status_word(const Look& look) const;
+    std::optional<Word> own_word(const Look& look, std::uint16_t address) const;
+    std::optional<std::uint16_t> own_value(const Look& look, std::uint16_t address) const;
+    Word holding_word(const Look& look, std::uint16_t address) const;
+
+    std::optional<Answer> write_coils(const Look& look, const Request& request);
+    std::optional<Answer> write_holding(const Look& look, const Request& request);
+    void stage(const Look& look, const Request& request);
+    std::optional<faces::Command> handshake(const Look& look, const Request& request);
+    std::optional<faces::Command> ordered(const Look& look);
+    std::optional<faces::Command> end_handshake(Unit& unit, faces::Result result);
+    std::optional<Answer> use_window(const Look& look, const Request& request);
+    std::optional<Answer> begin(const Look& look, const Request& request,
+                                const std::vector<faces::Command>& commands, bool is_handshake);
+    Answer finished();
+    Answer window_answer(const Unit& unit) const;
+
+    std::vector<std::unique_ptr<Unit>>& units_;
+    std::string name_;
+    faces::Bell& bell_;
+    std::uint64_t number_ = faces::Seat::new_number();
+    std::vector<std::unique_ptr<faces::CommandDesk::Client>> clients_;  ///< for each unit; null: not yet
+    std::vector<StagedSetPoints> staged_;                               ///< for each unit
+    std::optional<Waiting> waiting_;
+    std::array<std::uint8_t, kMostPdu> pdu_{};  ///< of the request that is being served
+    std::size_t size_ = 0;
+};
+
+}  // namespace nplc::modbus

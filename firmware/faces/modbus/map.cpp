@@ -1,0 +1,238 @@
+#include "modbus/map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace nplc::modbus {
+namespace {
+
+constexpr Space D = Space::discrete_input;
+constexpr Space I = Space::input_register;
+
+constexpr ValueRow kRows[] = {
+    {D, 0, 1, "ready"},
+    {D, 1, 1, "running"},
+    {D, 2, 1, "waiting"},
+    {D, 3, 1, "held"},
+    {D, 4, 1, "safe"},
+    {D, 5, 1, "error"},
+    {D, 6, 1, "in_position"},
+    {D, 7, 1, "link_up"},
+    {D, 8, 1, "forced"},
+    {D, 9, 1, "at_breakpoint"},
+    {D, 10, 1, "has_table"},
+    {D, 11, 1, "enabled"},
+    {D, 12, 1, "upload"},
+    {D, 13, 1, "settings_differ"},
+    {D, 14, 1, "cannot_go_on"},
+    {I, 2, 1, "run_state"},
+    {I, 3, 1, "step"},
+    {I, 4, 1, "counter"},
+    {I, 5, 1, "inputs"},
+    {I, 6, 1, "terminals"},
+    {I, 7, 1, "outputs"},
+    {I, 8, 1, "written_outputs"},
+    {I, 9, 1, "safe_reason"},
+    {I, 10, 1, "last_event"},
+    {I, 11, 1, "last_event_step"},
+    {I, 12, 1, "last_event_detail"},
+    {I, 13, 1, "heartbeat"},
+    {I, 14, 1, "link"},
+    {I, 15, 1, "seat"},
+    {I, 16, 1, "control"},
+    {I, 18, 2, "timer"},
+    {I, 20, 2, "event_count"},
+    {I, 22, 2, "uptime"},
+    {I, 24, 2, "scans"},
+    {I, 26, 2, "scan_time"},
+    {I, 28, 2, "worst_scan_time"},
+    {I, 30, 2, "link_losses"},
+    {I, 32, 2, "resent"},
+    {I, 34, 2, "orders"},
+    {I, 36, 2, "discarded"},
+    {I, 38, 2, "table_crc"},
+    {I, 46, 2, "worst_poll_gap"},
+    {I, 48, 2, "late_polls"},
+    {I, 100, 2, "position_counts", 1, true},
+    {I, 102, 2, "position", 1000, true},
+    {I, 104, 2, "velocity", 1000, true},
+    {I, 120, 2, "error_word"},
+    {I, 122, 1, "mode"},
+    {I, 123, 1, "torque", 10, true},
+    {I, 124, 2, "follow_error", 1000, true},
+    {I, 126, 2, "target", 1000, true},
+    {I, 130, 1, "load", 10},
+    {I, 140, 1, "temperature", 10, true},
+    {I, kWhy, 1, "why"},
+};
+
+struct OwnRow {
+    Space space;
+    std::uint16_t address;
+    std::string_view name;
+    std::string_view unit;
+    std::string_view access;
+    std::string_view text;
+    std::uint16_t words = 1;
+};
+
+constexpr Space C = Space::coil;
+constexpr Space H = Space::holding_register;
+constexpr OwnRow kOwn[] = {
+    {C, kRun, "run", "", "read_write", "0 to 1: run, from the start or on from where it is held"},
+    {C, kStop, "stop", "", "read_write", "1: the safe state; from everybody, always"},
+    {C, kSafe, "make_safe", "", "read_write", "1: the safe state, forces and breakpoints end; always"},
+    {C, kHold, "hold", "", "read_write", "1: hold at the end of the scan; always"},
+    {C, kStep, "single_step", "", "read_write", "0 to 1: run until the step changes, then hold"},
+    {C, kScan, "single_scan", "", "read_write", "0 to 1: one scan, then hold"},
+    {C, kAcknowledge, "acknowledge", "", "read_write", "1: new_events counts from 0"},
+    {C, kResetError, "reset_error", "", "read_write", "0 to 1: clears the motor's errors"},
+    {H, kCommand, "command", "", "read_write",
+     "1 run, 2 stop, 3 safe, 4 scan, 5 step, 6 hold, 32 acknowledge, 33 reset_error, 34 set the set-points "
+     "written, 35 load the recipe"},
+    {H, kCommandNumber, "command_number", "", "read_write",
+     "another number than before carries the command out; 0 carries nothing out"},
+    {H, kForceInputs, "force_inputs", "", "read_write",
+     "bits 5..0 levels, 13..8 which; to be written again before force_timeout"},
+    {H, kForceOutputs, "force_outputs", "", "read_write", "bits 3..0 levels, 11..8 which; likewise"},
+    {H, kRecipe, "recipe", "", "read_write", "number of the recipe that command 35 loads"},
+    {H, kSetPointsWritten, "set_points_written", "", "read_write",
+     "bit n: set_point_n was written by this client, and command 34 has not taken it; a 0 forgets them"},
+    {I, kSetPointCount, "set_point_count", "", "read", "set-points of the active table, 0 to 16"},
+    {I, kSetPointState, "set_point_state", "", "read",
+     "bit 0: changes wait for the sequence; 1: stored values are damaged; 2: they differ from the recipe"},
+    {I, kActiveRecipe, "active_recipe", "", "read", "number of the recipe that was loaded last; 0: none"},
+    {I, kRecipeRoom, "recipe_room", "", "read", "recipes that there is room for"},
+    {I, kSetPointRecord, "set_point_record", "", "read",
+     "CRC-32 of names, units and ranges: another one, another table", 2},
+    {I, kSetPointChanges, "set_point_changes", "", "read", "values changed since the start", 2},
+    {I, kWhySeverity, "why_severity", "", "read", "0 it cannot move, 1 it may soon stop, 2 good to know"},
+    {I, kWhyText, "why_text", "", "read", "the cause in words; text as of set-points, cut at its end",
+     kWhyEnd - kWhyText},
+    {I, kMapVersion, "map_version", "", "read", "1"},
+    {I, kStatusWord, "status_word", "", "read", "discrete inputs 0..14, a bit each"},
+    {I, kDoneNumber, "done_number", "", "read", "the command_number that has been dealt with"},
+    {I, kResult, "result", "", "read", "of it: 0 done, else REGISTERS.md, Results"},
+    {I, kResultDetail, "result_detail", "", "read", "its detail"},
+    {I, kNewEvents, "new_events", "", "read", "events since the last acknowledge"},
+    {I, kMySeat, "my_seat", "", "read", "1: this client has the seat"},
+    {I, kImageAge, "image_age", "ms", "read", "of all values but the motor's; 1000 and more are not read"},
+};
+
+std::string_view word_of(Space space) {
+    constexpr std::array<std::string_view, 4> kWords{"coil", "discrete_input", "input_register",
+                                                     "holding_register"};
+    return kWords[static_cast<std::size_t>(space)];
+}
+
+/// "0.001 rev" of a register that counts thousandths.
+std::string unit_in_steps(const ValueRow& row, const std::string& unit) {
+    return row.steps > 1 ? fmt::format("{:g} {}", 1 / row.steps, unit) : unit;
+}
+
+struct Line {
+    Space space;
+    std::uint16_t address;
+    unsigned words;
+    std::string name;
+    std::string unit;
+    std::string access;
+    std::string text;
+};
+
+struct SetPointRow {
+    Space space;
+    unsigned address;  ///< of the first one
+    unsigned stride;   ///< words from one to the next
+    unsigned words;
+    std::string_view name;
+    std::string_view text;
+};
+constexpr SetPointRow kSetPointRows[] = {
+    {H, kSetPointsNew, 2, 2, "",
+     "the wanted value, in its unit times 10^decimals, signed; what is written waits for command 34"},
+    {I, kSetPointValues, 2, 2, "_in_force", "the value in force, in its unit times 10^decimals, signed"},
+    {I, unsigned{kSetPointTexts} + kTextOfLowest, kTextWords, 2, "_lowest", "the range, likewise"},
+    {I, unsigned{kSetPointTexts} + kTextOfHighest, kTextWords, 2, "_highest", "the same"},
+    {I, unsigned{kSetPointTexts} + kTextOfDefault, kTextWords, 2, "_default",
+     "the value that the program gives it"},
+    {I, unsigned{kSetPointTexts} + kTextOfStep, kTextWords, 2, "_step", "the STEP of the program; 0: none"},
+    {I, unsigned{kSetPointTexts} + kTextOfDecimals, kTextWords, 1, "_decimals", "digits behind the point"},
+    {I, unsigned{kSetPointTexts} + kTextOfUnit, kTextWords, kTextOfName - kTextOfUnit, "_unit",
+     "text, two characters a word, the first one high, filled up with 0"},
+    {I, unsigned{kSetPointTexts} + kTextOfName, kTextWords, kTextWords - kTextOfName, "_name",
+     "text likewise"},
+};
+
+/// The first `count` set-points and recipes.
+void add_set_points(std::vector<Line>& all, unsigned count) {
+    for (const SetPointRow& row : kSetPointRows) {
+        for (unsigned i = 0; i < std::min<unsigned>(count, registers::gateway::kSetPoints); ++i)
+            all.push_back({row.space, static_cast<std::uint16_t>(row.address + row.stride * i), row.words,
+                           fmt::format("set_point_{}{}", i, row.name), "",
+                           row.space == H ? "read_write" : "read", std::string(row.text)});
+    }
+    for (unsigned i = 0; i < std::min<unsigned>(count, kRecipes); ++i)
+        all.push_back({I, static_cast<std::uint16_t>(kRecipeNames + kRecipeWords * i), kRecipeWords,
+                       fmt::format("recipe_{}_name", i + 1), "", "read", "text; empty: there is none"});
+}
+
+std::vector<Line> lines(const faces::Scaling& scaling, unsigned set_points) {
+    std::vector<Line> all;
+    add_set_points(all, set_points);
+    for (const OwnRow& row : kOwn)
+        all.push_back({row.space, row.address, row.words, std::string(row.name), std::string(row.unit),
+                       std::string(row.access), std::string(row.text)});
+    for (const ValueRow& row : value_rows())
+        all.push_back({row.space, row.address, row.words, std::string(row.name),
+                       unit_in_steps(row, faces::unit_of(*row.point, scaling)), "read",
+                       std::string(row.point->text)});
+    std::sort(all.begin(), all.end(), [](const Line& a, const Line& b) {
+        return a.space != b.space ? a.space < b.space : a.address < b.address;
+    });
+    return all;
+}
+
+}  // namespace
+
+std::span<const ValueRow> value_rows() {
+    static const auto rows = [] {
+        auto all = std::to_array(kRows);
+        for (ValueRow& row : all) row.point = faces::find_point(row.name);
+        return all;
+    }();
+    return rows;
+}
+
+const ValueRow* find_row(Space space, std::uint16_t address) {
+    for (const ValueRow& row : value_rows()) {
+        if (row.space == space && address >= row.address && address < row.address + row.words) return &row;
+    }
+    return nullptr;
+}
+
+std::string map_as_csv(const faces::Scaling& scaling, registers::Model model) {
+    std::string text = "kind,address,words,name,unit,access\n";
+    for (const Line& line : lines(scaling, registers::gateway::kSetPoints))
+        text += fmt::format("{},{},{},{},{},{}\n", word_of(line.space), line.address, line.words, line.name,
+                            line.unit, line.access);
+    for (const registers::Register& reg : registers::map_of(model))
+        text += fmt::format("{},{},2,motor.{},,{}\n", word_of(Space::holding_register),
+                            kMotorWindow + 2 * reg.number, reg.name,
+                            reg.access == registers::Access::read_only ? "read" : "read_write");
+    return text;
+}
+
+std::string map_as_markdown() {
+    std::string text =
+        "| kind | address | words | name | unit | access | meaning |\n|---|---|---|---|---|---|---|\n";
+    for (const Line& line : lines({}, 1))
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", word_of(line.space), line.address,
+                            line.words, line.name, line.unit, line.access, line.text);
+    return text;
+}
+
+}  // namespace nplc::modbus

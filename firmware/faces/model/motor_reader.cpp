@@ -1,0 +1,178 @@
+#include "faces/motor_reader.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+#include "registers/layout.h"
+
+namespace nplc::faces {
+namespace {
+
+constexpr std::uint8_t kMostFailures = 2;
+constexpr base::Microseconds kLongest{1'000'000};
+constexpr base::Microseconds kBusy{1'000};
+
+std::int32_t signed_value(const registers::Register& reg, std::uint32_t value) {
+    if (registers::is_32_bit(reg.format)) return static_cast<std::int32_t>(value);
+    return reg.min < 0 ? static_cast<std::int16_t>(value) : static_cast<std::uint16_t>(value);
+}
+
+}  // namespace
+
+void MotorReader::begin(const motor::Access& access) {
+    wanted_ = access;
+    item_.reset();
+    surveyed_ = nullptr;
+    asked_ = false;
+    failures_ = 0;
+    begun_.reset();
+}
+
+void MotorReader::forget() {
+    wanted_.reset();
+    item_.reset();
+    surveyed_ = nullptr;
+    to_survey_.clear();
+    survey_ended_ = false;
+    asked_ = false;
+    ended_ = {};
+}
+
+void MotorReader::drop(gateway::Controller& controller) {
+    if (asked_ && !controller.user_port().awaits_motor()) controller.motor().drop_access();
+    asked_ = false;
+    wanted_.reset();
+    item_.reset();
+    surveyed_ = nullptr;
+}
+
+base::Microseconds MotorReader::pause(const gateway::Controller& controller) const {
+    if (controller.sequence().run_state() == gateway::RunState::stopped) return {};
+    return base::Milliseconds(controller.registers().settings().get(store::Setting::read_pause));
+}
+
+MotorReader::State MotorReader::poll(gateway::Controller& controller, base::Instant now) {
+    if (!begun_) begun_ = now;
+    if (!motor::delivers(controller.motor().link()) || now - *begun_ > kLongest) {
+        drop(controller);
+        return State::failed;
+    }
+    if (asked_) return take(controller, now);
+    if (!controller.user_port().awaits_motor() && now - ended_ >= pause(controller))
+        asked_ = controller.motor().begin_access(*wanted_);
+    return State::under_way;
+}
+
+/// A write that failed or was dropped may have been executed: it is not repeated.
+MotorReader::State MotorReader::take(gateway::Controller& controller, base::Instant now) {
+    const bool lost = controller.user_port().awaits_motor();
+    const motor::AccessState state = controller.motor().access_state();
+    if (!lost && motor::is_open(state)) return State::under_way;
+    asked_ = false;
+    ended_ = now;
+    if (lost || state != motor::AccessState::done) {
+        if (!wanted_->is_write && (lost || ++failures_ < kMostFailures)) return State::under_way;
+        wanted_.reset();
+        return State::failed;
+    }
+    value_ = controller.motor().access_value();
+    controller.motor().drop_access();
+    wanted_.reset();
+    return State::done;
+}
+
+base::Instant MotorReader::next(const gateway::Controller& controller, base::Instant now) const {
+    if (!wanted_) return base::kNever;
+    const base::Instant patience = begun_.value_or(now) + kLongest + base::Microseconds(1);
+    if (asked_) return motor::is_open(controller.motor().access_state()) ? patience : now;
+    return std::min(patience, std::max(now + kBusy, ended_ + pause(controller)));
+}
+
+/// Position, speed, position, and then the torque or, every second time, one of the others.
+void MotorReader::choose_item(const AxisImage& image) {
+    constexpr unsigned kFrequent = 2;
+    constexpr unsigned kOthers = kMotorItems - kFrequent;
+    const unsigned turn = turn_++;
+    const auto other = static_cast<MotorItem>(kFrequent + turn / 8 % kOthers);
+    const auto item = turn % 8 == 3   ? MotorItem::torque
+                      : turn % 8 == 7 ? other
+                                      : static_cast<MotorItem>(turn % 2);
+    const registers::Register* found = register_of(item, model_of(image));
+    if (found == nullptr) return;
+    begin({.reg = found->number, .longword = registers::is_32_bit(found->format)});
+    item_ = item;
+}
+
+void MotorReader::begin_survey(registers::Model model) {
+    const auto before = causes::judged_before(model);
+    to_survey_ = causes::judged(model);
+    std::reverse(to_survey_.begin(), to_survey_.end());
+    to_survey_.insert(to_survey_.end(), before.begin(), before.end());
+    before_left_ = before.size();
+    survey_ = Survey{};
+    survey_.model = model;
+    survey_ended_ = false;
+}
+
+void MotorReader::choose_surveyed() {
+    const registers::Register& next = *to_survey_.back();
+    begin({.reg = next.number, .longword = registers::bytes_of(survey_.model, next) == 4});
+    surveyed_ = &next;
+}
+
+void MotorReader::note_surveyed(base::Instant wall) {
+    const bool is_before = before_left_ != 0;
+    if (is_before) --before_left_;
+    (is_before ? survey_.before : survey_.now).set(surveyed_->number, signed_value(*surveyed_, value_), wall);
+    surveyed_ = nullptr;
+    to_survey_.pop_back();
+    if (!to_survey_.empty()) return;
+    survey_.taken = wall;
+    survey_ended_ = true;
+}
+
+std::optional<Survey> MotorReader::take_survey() {
+    if (!std::exchange(survey_ended_, false)) return std::nullopt;
+    return std::exchange(survey_, Survey{});
+}
+
+void MotorReader::note_item(AxisImage& image, base::Instant wall) {
+    constexpr std::int32_t kMotion = 8;  // counts that noise does not make
+    const MotorItem item = *item_;
+    item_.reset();
+    const registers::Register& found = *register_of(item, model_of(image));
+    MotorValue& kept = image.motor[static_cast<std::size_t>(item)];
+    const std::int32_t value = signed_value(found, value_);
+    if (item == MotorItem::position)
+        image.moves = kept.is_known && std::abs(std::int64_t{value} - kept.value) >= kMotion;
+    kept = {true, value, wall};
+}
+
+void MotorReader::look_around(gateway::Controller& controller, AxisImage& image, base::Instant now,
+                              base::Instant wall) {
+    if (period_.count() == 0) return;
+    if (!wanted_) {
+        if (wall >= due_) {
+            due_ = wall + period_;
+            choose_item(image);
+        } else if (surveys()) {
+            choose_surveyed();
+        }
+        if (!wanted_) return;
+    }
+    const bool is_item = item_.has_value();
+    switch (poll(controller, now)) {
+        case State::under_way:
+            return;
+        case State::failed:
+            item_.reset();
+            surveyed_ = nullptr;
+            if (!is_item) to_survey_.clear();
+            return;
+        case State::done:
+            return is_item ? note_item(image, wall) : note_surveyed(wall);
+    }
+}
+
+}  // namespace nplc::faces

@@ -1,0 +1,311 @@
+#include "mqtt/client.h"
+
+#include <fmt/format.h>
+#include <mosquitto.h>
+#include <poll.h>
+
+#include <algorithm>
+#include <atomic>
+#include <optional>
+#include <set>
+
+#include "broker/session.h"
+#include "edge_node.h"
+#include "hal_linux/quiet_thread.h"
+#include "hal_linux/steady_clock.h"
+#include "hal_linux/wakeup.h"
+#include "order_node.h"
+
+namespace nplc::mqtt {
+namespace {
+
+constexpr int kLookMilliseconds = 50;
+constexpr int kKeepAliveSeconds = 10;
+constexpr base::Milliseconds kFirstPause{1'000};
+constexpr base::Milliseconds kLongestPause{30'000};
+constexpr base::Milliseconds kBetweenQuestions{2'000};
+/// A broker that has not taken the connection by then is away.
+constexpr base::Milliseconds kPatience{10'000};
+/// A look that took so much longer than it was to: the process was halted, and what comes is as old.
+constexpr base::Milliseconds kHalted{500};
+
+}  // namespace
+
+/// What runs in the thread.
+class Client::Loop {
+  public:
+    Loop(Options options, const faces::Axes& axes)
+        : options_(std::move(options)), node_(options_, axes, bell_), orders_(options_, axes, bell_) {}
+    Loop(const Loop&) = delete;
+    Loop& operator=(const Loop&) = delete;
+
+    /// One line, if they cannot be read.
+    std::string read_secrets() {
+        broker::Secrets secrets = broker::read_secrets(options_);
+        password_ = std::move(secrets.password);
+        return std::move(secrets.error);
+    }
+    void run();
+    void end() {
+        ends_ = true;
+        wakeup_.ring();
+    }
+
+  private:
+    Moment moment() { return {.now = clock_.now(), .milliseconds = hal_linux::calendar_milliseconds()}; }
+    std::string set_up();
+    void connect();
+    void look();
+    void leave();
+    void lose(const std::string& why);
+    std::string reason_of(int code) const;
+    void ask();
+    void tell(bool is_error, const std::string& text) const {
+        if (options_.tell) options_.tell(is_error, text);
+    }
+    bool publish(const std::string& topic, const std::string& payload);
+    OrderNode::Link link_of_orders();
+
+    static Loop& of(void* self) { return *static_cast<Loop*>(self); }
+    static void on_connect(mosquitto*, void* self, int code);
+    static void on_subscribe(mosquitto*, void* self, int id, int count, const int* granted);
+    static void on_log(mosquitto*, void* self, int level, const char* text);
+    static void on_message(mosquitto*, void* self, const mosquitto_message* message);
+
+    broker::Library library_;
+    Options options_;
+    std::string password_;
+    hal_linux::SteadyClock clock_;
+    hal_linux::Wakeup wakeup_;
+    faces::Bell bell_{[this] { wakeup_.ring(); }};
+    EdgeNode node_;
+    OrderNode orders_;
+    std::set<int> order_questions_;  ///< subscriptions of it that wait for their answer
+    broker::Session session_{nullptr, ::mosquitto_destroy};
+    base::Instant begun_{};   ///< the connection
+    base::Instant looked_{};  ///< before the last look
+    bool is_late_ = false;    ///< what comes may have waited
+    bool has_heard_ = false;  ///< in this look
+    base::Instant next_try_{};
+    base::Milliseconds pause_ = kFirstPause;
+    std::string told_;  ///< why there is no connection
+    bool is_subscribed_ = false;
+    int question_ = 0;  ///< the message whose answer confirms what was sent before it; 0: none
+    base::Instant asked_{};
+    std::string refusal_;  ///< of the broker
+    std::atomic<bool> ends_{false};
+};
+
+/// Empty, or why the library does not take it.
+std::string Client::Loop::set_up() {
+    mosquitto* const session = session_.get();
+    ::mosquitto_connect_callback_set(session, on_connect);
+    ::mosquitto_subscribe_callback_set(session, on_subscribe);
+    ::mosquitto_message_callback_set(session, on_message);
+    ::mosquitto_log_callback_set(session, on_log);
+    if (std::string error = broker::set_secrets(session, options_, password_); !error.empty()) return error;
+    const std::string death = node_.death_payload(moment().milliseconds);
+    const int code = ::mosquitto_will_set(session, node_.death_topic().c_str(),
+                                          static_cast<int>(death.size()), death.data(), 1, false);
+    return code == MOSQ_ERR_SUCCESS ? std::string() : broker::reason_of(code);
+}
+
+void Client::Loop::connect() {
+    begun_ = clock_.now();
+    node_.begin_session();
+    refusal_.clear();
+    is_subscribed_ = false;
+    question_ = 0;
+    order_questions_.clear();
+    const std::string name = fmt::format("nanoplc-{}-{}", options_.group, options_.node);
+    session_ = broker::new_session(name, this);
+    if (!session_) return lose("no memory");
+    if (const std::string error = set_up(); !error.empty()) return lose(error);
+    const int code =
+        ::mosquitto_connect_async(session_.get(), options_.host.c_str(), options_.port, kKeepAliveSeconds);
+    if (code != MOSQ_ERR_SUCCESS) lose(reason_of(code));
+}
+
+/// The broker's own words or the library's, where there are any.
+std::string Client::Loop::reason_of(int code) const {
+    return refusal_.empty() ? broker::reason_of(code) : refusal_;
+}
+
+void Client::Loop::lose(const std::string& why) {
+    session_.reset();
+    node_.disconnected();
+    orders_.disconnected();
+    next_try_ = clock_.now() + pause_;
+    pause_ = std::min(pause_ * 2, kLongestPause);
+    const std::string text =
+        fmt::format("no connection to {}:{}: {}; tries again", options_.host, options_.port, why);
+    if (text != told_) tell(true, text);
+    told_ = text;
+}
+
+/// In order, the death said aloud: the broker keeps the will to itself then.
+void Client::Loop::leave() {
+    if (!session_) return;
+    const std::string death = node_.death_payload(moment().milliseconds);
+    ::mosquitto_publish(session_.get(), nullptr, node_.death_topic().c_str(), static_cast<int>(death.size()),
+                        death.data(), 0, false);
+    ::mosquitto_disconnect(session_.get());
+    session_.reset();
+    node_.disconnected();
+    orders_.disconnected();
+}
+
+void Client::Loop::run() {
+    looked_ = clock_.now();
+    while (!ends_) {
+        if (!session_ && clock_.now() >= next_try_) connect();
+        if (session_) {
+            look();
+        } else {
+            pollfd waits{.fd = wakeup_.descriptor(), .events = POLLIN, .revents = 0};
+            ::poll(&waits, 1, kLookMilliseconds);
+            wakeup_.drain();
+        }
+        node_.tick(moment(),
+                   [this](const auto& topic, const auto& payload) { return publish(topic, payload); });
+        orders_.tick(moment(), link_of_orders());
+        if (!session_ || !node_.wants_to_leave()) continue;
+        tell(false, fmt::format("the primary host {} is offline; values are kept until it is back",
+                                options_.primary_host));
+        leave();
+        next_try_ = clock_.now() + kFirstPause;
+    }
+    leave();
+}
+
+void Client::Loop::look() {
+    looked_ = clock_.now();
+    has_heard_ = false;
+    const int code = ::mosquitto_loop(session_.get(), kLookMilliseconds, 1);
+    const base::Instant now = clock_.now();
+    if (now - looked_ > base::Milliseconds(kLookMilliseconds) + kHalted)
+        is_late_ = true;
+    else if (!has_heard_)
+        is_late_ = false;
+    if (code != MOSQ_ERR_SUCCESS) return lose(reason_of(code));
+    if (!is_subscribed_ && now - begun_ > kPatience) return lose("the broker does not answer");
+    ask();
+}
+
+/// An answer to a subscription says that all before it has arrived: data goes out with quality 0, as
+/// Sparkplug wants it, and has no answer of its own.
+void Client::Loop::ask() {
+    const base::Instant now = clock_.now();
+    if (!is_subscribed_ || question_ != 0 || !node_.store().wants_asking() ||
+        now - asked_ < kBetweenQuestions)
+        return;
+    asked_ = now;
+    node_.store().ask();
+    if (::mosquitto_subscribe(session_.get(), &question_, node_.subscriptions().front().c_str(), 1) !=
+        MOSQ_ERR_SUCCESS)
+        question_ = 0;
+}
+
+bool Client::Loop::publish(const std::string& topic, const std::string& payload) {
+    return session_ &&
+           ::mosquitto_publish(session_.get(), nullptr, topic.c_str(), static_cast<int>(payload.size()),
+                               payload.data(), 0, false) == MOSQ_ERR_SUCCESS;
+}
+
+OrderNode::Link Client::Loop::link_of_orders() {
+    return {.publish =
+                [this](const std::string& topic, const std::string& payload) {
+                    return session_ && ::mosquitto_publish(session_.get(), nullptr, topic.c_str(),
+                                                           static_cast<int>(payload.size()), payload.data(),
+                                                           1, true) == MOSQ_ERR_SUCCESS;
+                },
+            .subscribe =
+                [this](const std::string& topic) {
+                    int id = 0;
+                    const bool is_asked =
+                        session_ &&
+                        ::mosquitto_subscribe(session_.get(), &id, topic.c_str(), 1) == MOSQ_ERR_SUCCESS;
+                    if (is_asked) order_questions_.insert(id);
+                    return is_asked;
+                },
+            .unsubscribe =
+                [this](const std::string& topic) {
+                    return session_ && ::mosquitto_unsubscribe(session_.get(), nullptr, topic.c_str()) ==
+                                           MOSQ_ERR_SUCCESS;
+                }};
+}
+
+void Client::Loop::on_connect(mosquitto* session, void* self, int code) {
+    Loop& loop = of(self);
+    if (code != 0) {
+        loop.refusal_ = ::mosquitto_connack_string(code);
+        return;
+    }
+    for (const std::string& topic : loop.node_.subscriptions())
+        ::mosquitto_subscribe(session, &loop.question_, topic.c_str(), 1);
+}
+
+/// What the library knows of an error of TLS.
+void Client::Loop::on_log(mosquitto*, void* self, int level, const char* text) {
+    if (level == MOSQ_LOG_ERR) of(self).refusal_ = text;
+}
+
+/// The answer to the last of them: all are taken.
+void Client::Loop::on_subscribe(mosquitto*, void* self, int id, int count, const int* granted) {
+    Loop& loop = of(self);
+    constexpr int kRefused = 128;
+    if (loop.order_questions_.erase(id) != 0) {
+        if (count > 0 && granted[0] >= kRefused)
+            loop.tell(true, "the broker does not let us read orders, or the pieces of their tables");
+        return;
+    }
+    if (count > 0 && granted[0] >= kRefused) {
+        loop.refusal_ = "the broker does not let us subscribe to commands";
+        ::mosquitto_disconnect(loop.session_.get());
+        return;
+    }
+    if (id != loop.question_) return;
+    loop.question_ = 0;
+    if (loop.is_subscribed_) return loop.node_.store().confirm();
+    loop.is_subscribed_ = true;
+    loop.pause_ = kFirstPause;
+    loop.told_.clear();
+    loop.node_.connected();
+    loop.orders_.connected();
+    loop.tell(false, fmt::format("connected to {}:{}, as node {} of group {}", loop.options_.host,
+                                 loop.options_.port, loop.options_.node, loop.options_.group));
+}
+
+void Client::Loop::on_message(mosquitto*, void* self, const mosquitto_message* message) {
+    Loop& loop = of(self);
+    loop.has_heard_ = true;
+    const Moment moment = loop.moment();
+    const std::string_view payload{static_cast<const char*>(message->payload),
+                                   static_cast<std::size_t>(message->payloadlen)};
+    if (loop.orders_.receive(message->topic, payload, moment)) return;
+    const bool is_late =
+        loop.is_late_ || moment.now - loop.looked_ > base::Milliseconds(kLookMilliseconds) + kHalted;
+    loop.node_.receive({.topic = message->topic,
+                        .payload = payload,
+                        .is_retained = message->retain,
+                        .arrived = is_late ? base::Instant{} : loop.looked_},
+                       moment);
+}
+
+Client::Client() = default;
+
+Client::Opened Client::open(const Options& options, const faces::Axes& axes) {
+    std::unique_ptr<Client> client(new Client);
+    client->loop_ = std::make_unique<Loop>(options, axes);
+    if (std::string error = client->loop_->read_secrets(); !error.empty()) return {nullptr, error};
+    client->thread_ = hal_linux::start_quiet_thread([loop = client->loop_.get()] { loop->run(); });
+    return {std::move(client), {}};
+}
+
+Client::~Client() {
+    if (!thread_.joinable()) return;
+    loop_->end();
+    thread_.join();
+}
+
+}  // namespace nplc::mqtt

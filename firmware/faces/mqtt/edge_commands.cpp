@@ -1,0 +1,178 @@
+// What hosts ask for.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "edge_node.h"
+#include "set_points/request.h"
+#include "set_points/values.h"
+
+namespace nplc::mqtt {
+
+namespace gw = registers::gateway;
+using faces::Result;
+
+namespace {
+
+constexpr std::size_t kLongestName = 64;
+
+bool is_true(const Metric& metric) {
+    const auto* flag = std::get_if<bool>(&metric.value);
+    return flag != nullptr && *flag;
+}
+
+std::optional<double> number_in(const Metric& metric) {
+    if (const auto* real = std::get_if<double>(&metric.value)) return *real;
+    if (const auto* whole = std::get_if<std::int64_t>(&metric.value)) return static_cast<double>(*whole);
+    return std::nullopt;
+}
+
+}  // namespace
+
+void EdgeNode::receive(const Incoming& message, const Moment& moment) {
+    if (message.topic.find("STATE/") != std::string_view::npos) return take_host_state(message.payload);
+    const auto payload = decode(message.payload);
+    if (!payload || !is_born_) return;
+    if (message.topic == topic("NCMD")) {
+        for (const Metric& metric : payload->metrics) {
+            const bool is_rebirth =
+                metric.name == kRebirth || (metric.name.empty() && metric.alias == kRebirthAlias);
+            if (is_rebirth && is_true(metric) && !message.is_retained) wants_rebirth_ = true;
+        }
+        return;
+    }
+    for (std::size_t i = 0; i < devices_.size(); ++i) {
+        if (message.topic == topic("DCMD", devices_[i].axis->name()) && devices_[i].is_born)
+            take_device_command(i, *payload, message, moment.milliseconds);
+    }
+}
+
+void EdgeNode::refuse(Device& device, const std::string& what, Result result, const std::string& text) {
+    device.command = what;
+    device.result = static_cast<std::int64_t>(result);
+    device.result_text = text.empty() ? std::string(gw::describe(result)) : text;
+    device.result_changed = true;
+    device.command_id = 0;
+}
+
+void EdgeNode::submit(Device& device, const std::string& what, const faces::Command& command) {
+    const auto id = device.client->submit(command);
+    if (!id) return refuse(device, what, Result::busy);
+    device.command = what;
+    device.command_id = *id;
+    device.sets_values = command.reg == gw::SET_POINT_WRITE;
+}
+
+/// Retained ones, those that may have waited in a queue, and the same one again.
+bool EdgeNode::is_too_late(Device& device, const Given& given) {
+    const auto limit = static_cast<std::uint64_t>(options_.command_age.count());
+    const std::uint64_t apart =
+        given.timestamp > given.now ? given.timestamp - given.now : given.now - given.timestamp;
+    if (given.message.is_retained || apart > limit || given.timestamp <= device.last_command) return true;
+    device.last_command = given.timestamp;
+    return false;
+}
+
+/// One command a message, or values of set-points, which are one change.
+void EdgeNode::take_device_command(std::size_t index, const Payload& payload, const Incoming& message,
+                                   std::uint64_t milliseconds) {
+    std::vector<const Metric*> values;
+    const Metric* command = nullptr;
+    for (const Metric& metric : payload.metrics) {
+        if (metric.name.starts_with(kSetPoints) || set_point_of(index, metric) || is_of_recipe(index, metric))
+            values.push_back(&metric);
+        else if (command == nullptr && is_true(metric))
+            command = &metric;
+    }
+    const Metric* first = values.empty() ? command : values.front();
+    if (first == nullptr) return;
+    const Given given{message, first->timestamp.value_or(payload.timestamp.value_or(0)), milliseconds};
+    if (values.empty()) return take_command(index, *command, given);
+    if (command == nullptr) return take_set_points(index, values, given);
+    refuse(devices_[index], "Set Points", Result::bad_value,
+           "a command and values in one message; nothing was done");
+}
+
+void EdgeNode::take_command(std::size_t index, const Metric& metric, const Given& given) {
+    Device& device = devices_[index];
+    const std::string name = metric.name.substr(0, kLongestName);
+    const auto allowed =
+        std::find_if(options_.commands.begin(), options_.commands.end(), [&](const gw::Command& command) {
+            const auto place = static_cast<std::size_t>(&command - options_.commands.data());
+            const std::string own = fmt::format("{}{}", kCommand, gw::name_of(command));
+            return name.empty() ? metric.alias == alias_of(index, kCommandAlias + place) : name == own;
+        });
+    if (allowed == options_.commands.end() || !device.client)
+        return refuse(device, name, Result::not_allowed);
+    if (is_too_late(device, given))
+        return refuse(device, std::string(gw::name_of(*allowed)), Result::too_late);
+    submit(device, std::string(gw::name_of(*allowed)), faces::Command::of(*allowed, given.message.arrived));
+}
+
+std::optional<std::size_t> EdgeNode::set_point_of(std::size_t index, const Metric& metric) const {
+    const std::vector<Item>& items = devices_[index].items;
+    for (std::size_t i = devices_[index].points; i < items.size(); ++i) {
+        const bool is_meant =
+            metric.name.empty() ? metric.alias == alias_of(index, i) : metric.name == items[i].name;
+        if (is_meant) return items[i].set_point;
+    }
+    return std::nullopt;
+}
+
+bool EdgeNode::is_of_recipe(std::size_t index, const Metric& metric) const {
+    const std::vector<Item>& items = devices_[index].items;
+    if (!metric.name.empty()) return metric.name == kRecipe;
+    return items.size() > devices_[index].points && metric.alias == alias_of(index, items.size() - 1);
+}
+
+/// All of them are one change, whole or not at all; or one recipe is loaded.
+void EdgeNode::take_set_points(std::size_t index, const std::vector<const Metric*>& metrics,
+                               const Given& given) {
+    Device& device = devices_[index];
+    const set_points::Record& record = device.book->record;
+    std::vector<set_points::NewValue> values;
+    const set_points::Recipe* recipe = nullptr;
+    for (const Metric* metric : metrics) {
+        const auto number = number_in(*metric);
+        const auto place = set_point_of(index, *metric);
+        const std::string name = place ? fmt::format("{}{}", kSetPoints, record.values[*place].name)
+                                       : metric->name.substr(0, kLongestName);
+        if (is_of_recipe(index, *metric)) {
+            if (!options_.recipes || !device.client) return refuse(device, name, Result::not_allowed);
+            const bool is_whole = number && *number >= 1 && *number <= 255 && std::trunc(*number) == *number;
+            if (is_whole) recipe = device.book->find_recipe(static_cast<std::size_t>(*number));
+            if (recipe == nullptr) return refuse(device, name, Result::no_recipe);
+            continue;
+        }
+        if (!place) return refuse(device, name, Result::no_register, "the table has no such set-point");
+        if (!options_.may_set(record.values[*place].name) || !device.client)
+            return refuse(device, name, Result::not_allowed);
+        const set_points::SetPoint& point = record.values[*place];
+        const auto steps = number ? set_points::steps_of(point, *number) : std::nullopt;
+        const auto before = std::find_if(values.begin(), values.end(),
+                                         [&](const auto& value) { return value.index == *place; });
+        if (!number || before != values.end()) return refuse(device, name, Result::bad_value);
+        if (!steps)
+            return refuse(
+                device, name, Result::out_of_range,
+                faces::describe_refusal(*device.book, {.result = Result::out_of_range,
+                                                       .detail = static_cast<std::uint16_t>(*place)}));
+        values.push_back({*place, *steps});
+    }
+    const std::string what = metrics.size() == 1 && recipe == nullptr
+                                 ? fmt::format("{}{}", kSetPoints, record.values[values.front().index].name)
+                             : recipe != nullptr ? std::string(kRecipe)
+                                                 : "Set Points";
+    if (recipe != nullptr && metrics.size() != 1)
+        return refuse(device, what, Result::bad_value,
+                      "a recipe and values in one message; nothing was done");
+    if (is_too_late(device, given)) return refuse(device, what, Result::too_late);
+    const auto request = recipe == nullptr
+                             ? set_points::encode_request(record, gw::SetPointRequest::change, values)
+                             : set_points::encode_request(record, gw::SetPointRequest::load_recipe, {},
+                                                          {.number = recipe->number, .name = recipe->name});
+    submit(device, what, faces::Command::set_points(request, gw::Origin::mqtt, given.message.arrived));
+}
+
+}  // namespace nplc::mqtt

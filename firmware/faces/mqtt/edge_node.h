@@ -1,0 +1,129 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "faces/axis_model.h"
+#include "items.h"
+#include "mqtt/options.h"
+#include "sparkplug.h"
+#include "store.h"
+
+namespace nplc::mqtt {
+
+constexpr std::string_view kRebirth = "Node Control/Rebirth";
+constexpr std::uint64_t kRebirthAlias = 1;
+constexpr std::string_view kCommand = "Command/";
+constexpr std::uint64_t kCommandAlias = 910;  ///< of the first one of a device
+
+using deployment::Moment;
+
+/// A message as it came.
+struct Incoming {
+    std::string_view topic{};
+    std::string_view payload{};
+    bool is_retained = false;
+    base::Instant arrived{};  ///< not before; what may have waited longer than 1 s starts nothing
+};
+
+/// The axes as an edge node of Sparkplug B and its devices (Sparkplug 3.0 §6.4). Knows no socket: messages go
+/// out by `publish`, which says whether the connection took them.
+class EdgeNode {
+  public:
+    using Publish = std::function<bool(const std::string& topic, const std::string& payload)>;
+
+    EdgeNode(const Options& options, const faces::Axes& axes, faces::Bell& bell);
+    EdgeNode(const EdgeNode&) = delete;
+    EdgeNode& operator=(const EdgeNode&) = delete;
+
+    /// Before each connect: another bdSeq. Then topic and payload of the will.
+    void begin_session();
+    std::string death_topic() const { return topic("NDEATH"); }
+    std::string death_payload(std::uint64_t milliseconds) const;
+    std::vector<std::string> subscriptions() const;
+
+    /// The broker has taken the subscriptions.
+    void connected() { is_connected_ = true; }
+    void disconnected();
+    void receive(const Incoming& message, const Moment& moment);
+    /// Now and then, connected or not.
+    void tick(const Moment& moment, const Publish& publish);
+    /// The primary host has gone: this session is to end.
+    bool wants_to_leave() const { return wants_to_leave_; }
+
+    Store& store() { return store_; }
+
+  private:
+    /// When and how a command came.
+    struct Given {
+        const Incoming& message;
+        std::uint64_t timestamp;
+        std::uint64_t now;  ///< milliseconds since 1970
+    };
+    struct Device {
+        faces::AxisModel* axis = nullptr;
+        std::unique_ptr<faces::CommandDesk::Client> client{};
+        std::vector<Item> items{};
+        std::size_t points = 0;  ///< items of the model; those of set-points follow
+        std::shared_ptr<const faces::SetPointBook> book{};  ///< that these are of
+        std::uint16_t edition = 0;                          ///< rises with each book
+        bool is_born = false;
+        std::vector<faces::PointValue> last{};  ///< of the items as they were looked at last; empty: never
+        std::uint64_t last_command = 0;         ///< its timestamp
+        std::uint32_t command_id = 0;           ///< under way
+        std::string command{};                  ///< the last one
+        bool sets_values = false;               ///< the last one is of set-points
+        std::int64_t result = 0;
+        std::string result_text{};
+        bool result_changed = false;
+        std::string why{};  ///< why nothing moves, in words; empty: not known
+        bool why_changed = false;
+    };
+
+    std::string topic(std::string_view type, std::string_view device = {}) const;
+    std::uint64_t alias_of(std::size_t device, std::size_t metric) const;
+    bool may_publish() const { return is_connected_ && (options_.primary_host.empty() || host_is_online_); }
+    bool send(const Publish& publish, const std::string& to, std::vector<Metric> metrics,
+              std::uint64_t milliseconds);
+    void bear_node(const Publish& publish, std::uint64_t milliseconds);
+    void bear_device(std::size_t index, const Publish& publish, const Moment& moment);
+    void look(std::size_t index, const Moment& moment);
+    void flush(const Publish& publish, std::uint64_t milliseconds);
+    void report(std::size_t index, const Publish& publish, std::uint64_t milliseconds);
+    std::vector<Metric> result_metrics(std::size_t index) const;
+    Metric why_metric(std::size_t index) const;
+    Metric metric_of(const Record& record) const;
+    void follow_set_points(Device& device);
+    bool is_outdated(const Record& record) const;
+    void take_host_state(std::string_view payload);
+    void take_device_command(std::size_t index, const Payload& payload, const Incoming& message,
+                             std::uint64_t milliseconds);
+    void take_command(std::size_t index, const Metric& metric, const Given& given);
+    void take_set_points(std::size_t index, const std::vector<const Metric*>& metrics, const Given& given);
+    std::optional<std::size_t> set_point_of(std::size_t index, const Metric& metric) const;
+    bool is_of_recipe(std::size_t index, const Metric& metric) const;
+    bool is_too_late(Device& device, const Given& given);
+    void submit(Device& device, const std::string& what, const faces::Command& command);
+    void refuse(Device& device, const std::string& what, faces::Result result, const std::string& text = {});
+
+    Options options_;
+    std::vector<Device> devices_;
+    Store store_;
+    bool is_connected_ = false;
+    bool is_born_ = false;
+    bool wants_rebirth_ = false;
+    bool host_is_online_ = false;
+    bool wants_to_leave_ = false;
+    std::uint64_t host_since_ = 0;  ///< timestamp of its last state
+    std::uint8_t seq_ = 0;
+    std::uint8_t bd_seq_ = 255;
+    std::uint64_t born_at_ = 0;  ///< records from before are historical
+    std::uint64_t told_dropped_ = 0;
+    base::Instant next_look_{};
+};
+
+}  // namespace nplc::mqtt

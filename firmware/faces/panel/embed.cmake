@@ -1,0 +1,26 @@
+# cmake -DOUT=F.cpp -DFOLDER=DIR -DFILES=a;b -P embed.cmake
+#
+# Writes the files as arrays of bytes, with the functions that answer them.
+set(text "#include \"files.h\"\n\nnamespace nplc::panel {\nnamespace {\n\n")
+set(rows "")
+set(types "")
+set(type_html "text/html; charset=utf-8")
+set(type_js "text/javascript; charset=utf-8")
+set(type_css "text/css; charset=utf-8")
+set(type_svg "image/svg+xml")
+set(number 0)
+foreach(name IN LISTS FILES)
+  file(READ "${FOLDER}/${name}" hex HEX)
+  string(REGEX REPLACE "(................................)" "\\1\n" hex "${hex}")
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "'\\\\x\\1'," hex "${hex}")
+  string(REGEX REPLACE "^.*[.]" "" ending "${name}")
+  string(APPEND text "constexpr char kFile${number}[] = {\n${hex}\n};\n\n")
+  string(APPEND rows "    {\"/${name}\", \"${type_${ending}}\", {kFile${number}, sizeof kFile${number}}},\n")
+  if(name STREQUAL "index.html")
+    string(APPEND rows "    {\"/\", \"${type_html}\", {kFile${number}, sizeof kFile${number}}},\n")
+  endif()
+  math(EXPR number "${number} + 1")
+endforeach()
+string(APPEND text "constexpr WebFile kFiles[] = {\n${rows}};\n\n}  // namespace\n\n"
+       "std::span<const WebFile> page_files() {\n    return kFiles;\n}\n\n}  // namespace nplc::panel\n")
+file(WRITE "${OUT}" "${text}")

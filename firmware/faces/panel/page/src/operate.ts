@@ -1,0 +1,190 @@
+// From watching to operating and back: token, seat, commands. Stop, safe and hold need neither.
+import { byId, h, setAttribute, setClass, setText } from "./dom";
+import type { Axis } from "./state";
+import type { Answer, Wire } from "./wire";
+
+const kTokenKey = "nanoplc-token";
+
+export class Operation {
+  operates = false;
+  mayOperate = false;
+  needsPassword = false;
+  private axis: Axis | null = null;
+  private stoppable: string[] = []; // names of all axes, known without a login
+  private readonly dialog = byId<HTMLDialogElement>("token-dialog");
+  private readonly input = byId<HTMLInputElement>("token");
+  private readonly problem = byId("token-problem");
+  private readonly toggle = byId<HTMLButtonElement>("mode");
+  private readonly notices = byId("notices");
+
+  constructor(private readonly wire: Wire, private readonly changed: () => void) {
+    const fragment = new URLSearchParams(location.hash.slice(1)).get("token");
+    if (fragment) {
+      sessionStorage.setItem(kTokenKey, fragment);
+      history.replaceState(null, "", location.pathname + location.search);
+    }
+    this.toggle.addEventListener("click", () => void (this.operates ? this.leave() : this.enter()));
+    byId("token-form").addEventListener("submit", (e) => {
+      e.preventDefault();
+      void this.login(this.input.value.trim());
+    });
+    byId("token-cancel").addEventListener("click", () => this.dialog.close());
+    // In the dialogs too, which cover the page.
+    for (const button of document.querySelectorAll<HTMLElement>("[data-stop]")) button.addEventListener("click", () => void this.stop(button.dataset.stop!));
+    for (const name of ["run", "step", "scan"]) byId(`do-${name}`).addEventListener("click", () => void this.command(name));
+    byId("do-reset-error").addEventListener("click", () => void this.resetError());
+    setInterval(() => this.alive(), 1000);
+  }
+
+  /** After every hello: the connection is new, and so are rights and seat. */
+  async greeted(rights: { read: boolean; operate: boolean }, stoppable: string[]): Promise<void> {
+    this.stoppable = stoppable;
+    this.mayOperate = rights.operate;
+    this.needsPassword = !rights.read;
+    this.setOperates(false);
+    const token = sessionStorage.getItem(kTokenKey);
+    if (token && (!rights.operate || !rights.read)) await this.tryLogin(token);
+    else if (this.needsPassword) this.askToken("This panel asks for its password, or for the token to operate.");
+  }
+
+  show(axis: Axis): void {
+    if (this.axis && this.axis !== axis && this.operates) void this.leave();
+    this.axis = axis;
+  }
+
+  private askToken(text: string): void {
+    setText(byId("token-text"), text);
+    setText(this.problem, "");
+    if (!this.dialog.open) this.dialog.showModal();
+    this.input.focus();
+  }
+
+  private async tryLogin(secret: string): Promise<Answer> {
+    const answer = await this.wire.ask({ do: "login", secret });
+    if (answer.result === "done") {
+      this.mayOperate = (answer.rights as { operate: boolean }).operate;
+      this.needsPassword = false;
+      sessionStorage.setItem(kTokenKey, secret);
+    } else if (answer.result === "wrong_secret") sessionStorage.removeItem(kTokenKey);
+    return answer;
+  }
+
+  private async login(secret: string): Promise<void> {
+    const answer = await this.tryLogin(secret);
+    if (answer.result !== "done") return setText(this.problem, answer.text);
+    this.dialog.close();
+    this.input.value = "";
+    if (this.mayOperate && this.axis) await this.enter();
+  }
+
+  async enter(): Promise<void> {
+    if (!this.axis) return this.needsPassword ? this.askToken("This panel asks for its password, or for the token to operate.") : undefined;
+    if (!this.mayOperate) return this.askToken("Commands move the machine. Give the token that the program printed when it started.");
+    const answer = await this.wire.ask({ do: "seat", axis: this.axis.info.name });
+    if (answer.result !== "done") return this.notice(`Not operating: ${answer.text}${this.axis.seat.holder ? ` (${this.axis.seat.holder} operates)` : ""}`);
+    this.setOperates(true);
+    this.notice("You operate this axis now. Commands move the machine.");
+  }
+
+  async leave(): Promise<void> {
+    this.setOperates(false);
+    if (this.axis) await this.wire.ask({ do: "leave", axis: this.axis.info.name });
+  }
+
+  /** The seat went to somebody else, or its time ran out. */
+  lostSeat(): void {
+    if (!this.operates) return;
+    this.setOperates(false);
+    this.notice("The operator's seat is no longer yours; you are watching.", true);
+  }
+
+  setOperates(on: boolean): void {
+    this.operates = on;
+    setClass(document.body, "operating", on);
+    setAttribute(this.toggle, "aria-pressed", String(on));
+    setText(this.toggle, on ? "Stop operating" : "Operate…");
+    setText(byId("mode-text"), on ? "OPERATING" : "Watching");
+    this.changed();
+  }
+
+  /** Keeps the seat, and the forces that were set here, as long as the page is there. */
+  private alive(): void {
+    if (!this.operates || !this.axis || this.wire.state !== "open") return;
+    const axis = this.axis.info.name;
+    void this.wire.ask({ do: "seat", axis }).then((answer) => {
+      if (answer.result === "refused") this.lostSeat();
+    });
+    if (this.axis.forcedInputs || this.axis.forcedOutputs) void this.wire.ask({ do: "write", axis, register: "FORCE_LEFT", value: 1 });
+  }
+
+  notice(text: string, alarm = false): void {
+    const line = h("div", { class: `notice${alarm ? " alarm" : ""}`, role: alarm ? "alert" : "status" }, text,
+      h("button", { type: "button", class: "plain", "aria-label": "dismiss", onclick: () => line.remove() }, "×"));
+    this.notices.append(line);
+    while (this.notices.childElementCount > 4) this.notices.firstElementChild!.remove();
+    setTimeout(() => line.remove(), alarm ? 20_000 : 6_000);
+  }
+
+  /** Of the axis that is shown; the caller says what was refused. */
+  wireAsk(request: Record<string, unknown>): Promise<Answer> {
+    return this.wire.ask({ axis: this.axis?.info.name, ...request });
+  }
+
+  async ask(request: Record<string, unknown>, what: string): Promise<Answer> {
+    const answer = await this.wireAsk(request);
+    if (answer.result !== "done") this.notice(`${what}: ${answer.text}`, true);
+    return answer;
+  }
+
+  /** Of the axis that is shown; before a login shows one, of all. What comes of it is told where no dialog covers it. */
+  async stop(name: string): Promise<void> {
+    for (const dialog of document.querySelectorAll("dialog")) dialog.close();
+    await Promise.all((this.axis ? [this.axis.info.name] : this.stoppable).map((axis) => this.stopAxis(name, axis)));
+  }
+
+  private async stopAxis(name: string, axis: string): Promise<void> {
+    const answer = await this.ask({ do: "command", name, axis }, name);
+    const of = this.axis ? "" : `${axis}: `;
+    if (answer.result === "done") this.notice(of + (name === "hold" ? "The sequence is being held." : "Stopped; the outputs have their safe values."));
+    else if (answer.code !== 17 && answer.code !== 6) this.notice(`${of}Not confirmed: the machine may still be running.`, true);
+  }
+
+  async command(name: string): Promise<void> {
+    await this.ask({ do: "command", name }, name);
+  }
+
+  /** ERR_STAT's errors are cleared by writing it; the sequence's own way is command 01h. */
+  private async resetError(): Promise<void> {
+    const answer = await this.ask({ do: "motor_write", register: "ERR_STAT", value: 0 }, "reset error");
+    if (answer.result === "done") this.notice("ERR_STAT was cleared in the motor.");
+  }
+
+  async setBreak(step: number, on: boolean): Promise<void> {
+    const low = step < 32;
+    const now = (low ? this.axis!.r.BREAK_LOW : this.axis!.r.BREAK_HIGH) ?? 0;
+    const bit = 2 ** (step & 31);
+    const has = Math.floor(now / bit) % 2 === 1;
+    if (has === on) return;
+    await this.ask({ do: "write", register: low ? "BREAK_LOW" : "BREAK_HIGH", value: on ? now + bit : now - bit }, "breakpoint");
+  }
+
+  async force(isInput: boolean, bit: number, level: 0 | 1 | null): Promise<void> {
+    const axis = this.axis!;
+    const now = (isInput ? axis.r.FORCE_IN : axis.r.FORCE_OUT) ?? 0;
+    const cleared = now & ~((1 << bit) | (1 << (bit + 8)));
+    const value = level === null ? cleared : cleared | (1 << (bit + 8)) | (level << bit);
+    await this.ask({ do: "write", register: isInput ? "FORCE_IN" : "FORCE_OUT", value }, "force");
+  }
+
+  /** Which buttons are of use now. */
+  update(axis: Axis): void {
+    const enable = (id: string, on: boolean): void => setAttribute(byId(id), "aria-disabled", String(!on));
+    const may = this.operates;
+    enable("do-run", may && axis.hasTable && (axis.isStopped || axis.isHeld));
+    enable("do-step", may && axis.hasTable && !axis.isRunning);
+    enable("do-scan", may && axis.hasTable && !axis.isRunning);
+    enable("do-reset-error", may);
+    setText(byId("do-run"), axis.isHeld ? "Go on" : "Run");
+    setText(byId("seat"), axis.seat.mine ? "You operate" : axis.seat.holder ? `${axis.seat.holder} operates` : "Nobody operates");
+  }
+}

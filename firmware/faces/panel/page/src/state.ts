@@ -1,0 +1,205 @@
+// What the page knows of each axis.
+import { decodeTable, keyOf, stepsOf, type Step, type Term } from "./table";
+import type { Cause } from "./why";
+import { kReasons, kRunStates, hex } from "./words";
+
+export interface Symbols {
+  program?: string;
+  source?: string;
+  motor?: string;
+  scale?: { revolutions: number; length: number; unit: string };
+  steps?: { number: number; name: string; line: number; outputs: number; made_for?: string }[];
+  inputs?: string[];
+  outputs?: string[];
+  registers?: { name: string; register: string; number: number }[];
+}
+
+export interface RegisterInfo {
+  name: string;
+  signed: boolean;
+  long: boolean;
+  unit: string; // "" without one
+  per_unit: number;
+}
+
+export interface Program {
+  file: string;
+  crc: number;
+  bytes: Uint8Array;
+  proof: string;
+  since: number; // UPTIME at which it became active; -1: not known
+  symbols: Symbols;
+  hasSymbols: boolean;
+  registers: Record<string, RegisterInfo>;
+  terms: Term[];
+  steps: Map<number, Step>;
+}
+
+export interface LogEvent {
+  n: number;
+  ms: number;
+  code: number;
+  step: number;
+  detail: number;
+  text: string;
+}
+
+export interface Value {
+  raw: number;
+  good: boolean;
+  at: number; // performance.now() at which it was read
+}
+
+export interface AxisInfo {
+  name: string;
+  motor: string;
+  counts_per_rev: number;
+  samples_per_second: number;
+  error_bits: { bit: number; name: string; text: string }[]; // of ERR_STAT
+  modes: Record<string, string>; // of MODE_REG
+}
+
+export interface SetPoint {
+  name: string;
+  unit: string; // "" without one
+  value: number; // wanted, and stored
+  in_force: number;
+  lowest: number;
+  highest: number;
+  step: number; // 0: every value of the range
+  initial: number;
+}
+
+export interface Recipe {
+  number: number;
+  name: string;
+  values: Record<string, number>; // those that fit the program
+}
+
+export interface SetPointsNews {
+  crc: number;
+  values: SetPoint[];
+  waits: boolean;
+  damaged: boolean;
+  recipe: number; // loaded last; 0: none
+  differs: boolean; // from it
+  takes: number[]; // steps that take changes
+  room: number;
+  recipes: Recipe[];
+}
+
+export interface Seat {
+  holder: string; // "" if free
+  mine: boolean;
+}
+
+export class Axis {
+  r: Record<string, number> = {};
+  m = new Map<string, Value>();
+  program: Program | null = null;
+  events: LogEvent[] = [];
+  setPoints: SetPointsNews = { crc: 0, values: [], waits: false, damaged: false, recipe: 0, differs: false, takes: [], room: 0, recipes: [] };
+  why: Cause[] | null = null; // null: not known yet
+  seat: Seat = { holder: "", mine: false };
+  path: { step: number; at: number }[] = []; // newest last
+  imageAt = 0; // performance.now() at which the image was true
+  visits = 0;
+
+  constructor(readonly info: AxisInfo) {}
+
+  get runState(): number { return (this.r.STATUS ?? 0) & 7; }
+  get isRunning(): boolean { return this.runState === 2; }
+  get isHeld(): boolean { return this.runState >= 3; }
+  get isStopped(): boolean { return this.runState === 0; }
+  status(bit: number): boolean { return ((this.r.STATUS ?? 0) >>> bit & 1) === 1; }
+  get inputs(): number { return (this.r.INPUTS ?? 0) & 0x3f; }
+  get terminals(): number { return ((this.r.INPUTS ?? 0) >> 8) & 0x3f; }
+  get inPosition(): boolean { return this.status(5); }
+  get error(): boolean { return this.status(4); }
+  get outputs(): number { return (this.r.OUTPUTS ?? 0) & 0xf; }
+  get written(): number { return ((this.r.OUTPUTS ?? 0) >> 8) & 0xf; }
+  get step(): number { return this.r.STEP ?? 0; }
+  get key(): number {
+    const image = this.inputs | (this.inPosition ? 0x40 : 0) | (this.error ? 0x80 : 0);
+    return keyOf(image, this.r.TIMER ?? 0, this.r.COUNTER ?? 0);
+  }
+  get hasTable(): boolean { return this.status(11); }
+  get forcedInputs(): number { return ((this.r.FORCE_IN ?? 0) >> 8) & 0x3f; }
+  get forcedOutputs(): number { return ((this.r.FORCE_OUT ?? 0) >> 8) & 0xf; }
+  breaksAt(step: number): boolean {
+    const word = step < 32 ? this.r.BREAK_LOW : this.r.BREAK_HIGH;
+    return (((word ?? 0) >>> (step & 31)) & 1) === 1;
+  }
+
+  takeProgram(m: Record<string, unknown>): void {
+    const bytes = Uint8Array.from(atob(m.table as string), (c) => c.charCodeAt(0));
+    const terms = decodeTable(bytes);
+    this.program = {
+      file: (m.file as string) ?? "", crc: m.crc as number, bytes, proof: (m.proof as string) ?? "",
+      since: (m.since as number) ?? -1, symbols: (m.symbols as Symbols | null) ?? {}, hasSymbols: m.symbols !== null,
+      registers: (m.registers as Record<string, RegisterInfo>) ?? {}, terms, steps: stepsOf(terms),
+    };
+  }
+
+  takeImage(m: Record<string, unknown>, now: number): void {
+    const registers = m.r as Record<string, number> | undefined;
+    if (m.full) this.r = {};
+    Object.assign(this.r, registers);
+    this.imageAt = now - (m.age as number);
+    for (const [name, value] of Object.entries((m.m as Record<string, [number, number, boolean]>) ?? {}))
+      this.m.set(name, { raw: value[0], at: now - value[1], good: value[2] });
+    for (const step of (m.path as number[] | undefined) ?? []) this.visit(step, now);
+    if (!this.path.length || this.path[this.path.length - 1].step !== this.step) this.visit(this.step, now);
+  }
+
+  private visit(step: number, at: number): void {
+    this.path.push({ step, at });
+    ++this.visits;
+    if (this.path.length > 40) this.path.shift();
+  }
+
+  takeEvents(list: LogEvent[], fresh: boolean): void {
+    this.events = [...(fresh ? [] : this.events), ...list].slice(-200);
+  }
+
+  // Names of the program.
+  stepName(step: number): string {
+    return this.program?.symbols.steps?.find((s) => s.number === step)?.name ?? `Step ${step}`;
+  }
+  madeFor(step: number): string {
+    return this.program?.symbols.steps?.find((s) => s.number === step)?.made_for ?? "";
+  }
+  inputName(bit: number): string { return this.program?.symbols.inputs?.[bit] || `IN${bit}`; }
+  outputName(bit: number): string { return this.program?.symbols.outputs?.[bit] || `OUT${bit}`; }
+  outputNames(bits: number): string[] {
+    return [0, 1, 2, 3].filter((bit) => bits & (1 << bit)).map((bit) => this.outputName(bit));
+  }
+  /** A motor register by the program's own name, `P2 (Place)`. */
+  registerName(number: number): string {
+    const plain = this.program?.registers[number]?.name ?? `REG(${number})`;
+    const own = this.program?.symbols.registers?.find((r) => r.number === number)?.name;
+    return own && own !== plain ? `${own} (${plain})` : plain;
+  }
+  programName(): string {
+    if (!this.program || !this.hasTable) return "no table";
+    return this.program.symbols.program ?? (this.program.file || `table ${hex(this.program.crc)}`);
+  }
+
+  stateInWords(): string {
+    if (this.status(6) && this.runState !== 2) return `stopped: ${kReasons[this.r.SAFE_REASON]?.short ?? "safe"}`;
+    if (this.status(6)) return `outputs safe: ${kReasons[this.r.SAFE_REASON]?.short ?? ""}`;
+    if (this.status(10)) return "held at a breakpoint";
+    return kRunStates[this.runState] ?? "unknown";
+  }
+
+  /** Of a motor's value, in the machine's unit where the program names one. */
+  position(counts: number): { value: number; unit: string } {
+    const scale = this.program?.symbols.scale;
+    const turns = counts / (this.info.counts_per_rev || 4096);
+    return scale ? { value: (turns * scale.length) / scale.revolutions, unit: scale.unit } : { value: turns, unit: "rev" };
+  }
+  /** V_IST is in counts/sample. */
+  speed(raw: number): number {
+    return ((raw * this.info.samples_per_second) / (this.info.counts_per_rev || 4096)) * 60;
+  }
+}

@@ -1,0 +1,154 @@
+// Another table into the gateway: compared with what runs, and asked about before anything is sent.
+import { termInWords } from "./describe";
+import { byId, h, saveFile, setText } from "./dom";
+import type { Operation } from "./operate";
+import { Axis, type Symbols } from "./state";
+import { conditionsOf, crc32, decodeTable, readHex, stepsOf, tableLength, type Term } from "./table";
+import type { Wire } from "./wire";
+import { hex } from "./words";
+
+interface Chosen {
+  name: string;
+  bytes: Uint8Array;
+  symbols: Symbols | null;
+}
+
+interface Difference {
+  kind: "+" | "−";
+  text: string;
+}
+
+const kMostSize = 48 * 1024;
+
+async function readFiles(files: FileList): Promise<Chosen> {
+  let table: { name: string; bytes: Uint8Array } | null = null;
+  let symbols: Symbols | null = null;
+  for (const file of files) {
+    if (file.size > 4 * kMostSize) throw new Error(`${file.name} is too long for a table or its names`);
+    if (/\.sym$/i.test(file.name)) symbols = JSON.parse(await file.text()) as Symbols;
+    else if (/\.(hex|ihex)$/i.test(file.name)) table = { name: file.name, bytes: readHex(await file.text()) };
+    else table = { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) };
+  }
+  if (!table) throw new Error("choose the table, F.bin or F.hex; F.sym beside it brings the names");
+  const length = tableLength(table.bytes);
+  if (length === 0) throw new Error(`${table.name} is no table: it has no end term. Compile the program first: seqc build F.seq -o F.bin`);
+  if (length !== table.bytes.length) throw new Error(`${table.name} has ${table.bytes.length - length} bytes behind its end term; upload a certificate with nanoctl`);
+  const crc = (symbols as { table?: { crc32?: string } } | null)?.table?.crc32;
+  if (crc && parseInt(crc, 16) !== crc32(table.bytes)) throw new Error("the names are those of another table (their CRC-32 differs)");
+  return { ...table, symbols };
+}
+
+/** Terms that only one of the two tables has, in the words of each. */
+function compare(now: Axis, next: Axis): Difference[] {
+  const key = (axis: Axis, term: Term): string => termInWords(axis, term, conditionsOf(term));
+  const list = (axis: Axis): string[] => (axis.program?.terms ?? []).map((term) => key(axis, term));
+  const before = list(now);
+  const after = list(next);
+  const count = new Map<string, number>();
+  for (const text of before) count.set(text, (count.get(text) ?? 0) + 1);
+  const added = after.filter((text) => {
+    const left = count.get(text) ?? 0;
+    count.set(text, left - 1);
+    return left <= 0;
+  });
+  const gone = before.filter((text) => {
+    const left = count.get(text) ?? 0;
+    if (left <= 0) return false;
+    count.set(text, left - 1);
+    return true;
+  });
+  return [...gone.map((text): Difference => ({ kind: "−", text })), ...added.map((text): Difference => ({ kind: "+", text }))];
+}
+
+const base64 = (bytes: Uint8Array): string => btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));
+
+export class Upload {
+  private chosen: Chosen | null = null;
+  private axis: Axis | null = null;
+  private readonly dialog = byId<HTMLDialogElement>("upload-dialog");
+  private readonly text = byId("upload-text");
+  private readonly list = byId("upload-diff");
+  private readonly progress = byId<HTMLProgressElement>("upload-progress");
+  private readonly files = byId<HTMLInputElement>("upload-files");
+
+  constructor(private readonly wire: Wire, private readonly operation: Operation) {
+    byId("do-upload").addEventListener("click", () => this.open());
+    byId("do-download").addEventListener("click", () => this.download());
+    this.files.addEventListener("change", () => void this.choose());
+    byId("upload-cancel").addEventListener("click", () => this.dialog.close());
+    byId("upload-store").addEventListener("click", () => void this.send(false));
+    byId("upload-activate").addEventListener("click", () => void this.send(true));
+  }
+
+  show(axis: Axis): void {
+    this.axis = axis;
+  }
+
+  private open(): void {
+    if (!this.operation.operates) return this.operation.notice("Switch to operating first.");
+    this.chosen = null;
+    this.files.value = "";
+    this.list.replaceChildren();
+    setText(this.text, "Choose a table (F.bin or F.hex) and, if there is one, its names (F.sym).");
+    this.enable(false);
+    this.progress.hidden = true;
+    this.dialog.showModal();
+  }
+
+  private enable(on: boolean): void {
+    for (const id of ["upload-store", "upload-activate"]) byId<HTMLButtonElement>(id).disabled = !on;
+  }
+
+  private async choose(): Promise<void> {
+    this.enable(false);
+    this.list.replaceChildren();
+    try {
+      this.chosen = await readFiles(this.files.files!);
+    } catch (error) {
+      this.chosen = null;
+      return setText(this.text, (error as Error).message);
+    }
+    const now = this.axis!;
+    const next = new Axis(now.info);
+    const terms = decodeTable(this.chosen.bytes);
+    next.program = {
+      file: this.chosen.name, crc: crc32(this.chosen.bytes), bytes: this.chosen.bytes, proof: "", since: -1,
+      symbols: this.chosen.symbols ?? {}, hasSymbols: this.chosen.symbols !== null, registers: now.program?.registers ?? {}, terms, steps: stepsOf(terms),
+    };
+    const differences = now.program?.crc === next.program.crc ? [] : compare(now, next);
+    const name = this.chosen.symbols?.program ?? this.chosen.name;
+    setText(this.text, differences.length
+      ? `${name}, ${terms.length} terms, CRC-32 ${hex(next.program.crc)}, differs from what is active (${now.programName()}, ${hex(now.program?.crc ?? 0)}) in ${differences.length} terms. Making it active stops the sequence.`
+      : `${name} is the table that is active already (CRC-32 ${hex(next.program.crc)}).`);
+    this.list.replaceChildren(...differences.map((d) => h("li", { class: d.kind === "+" ? "added" : "gone" }, `${d.kind} ${d.text}`)));
+    this.enable(true);
+  }
+
+  private async send(activate: boolean): Promise<void> {
+    if (!this.chosen || !this.axis) return;
+    this.enable(false);
+    this.progress.hidden = false;
+    this.progress.value = 0;
+    const answer = await this.wire.ask(
+      { do: "upload", axis: this.axis.info.name, table: base64(this.chosen.bytes), activate, ...(this.chosen.symbols ? { symbols: this.chosen.symbols } : {}) },
+      (m) => {
+        this.progress.max = m.of as number;
+        this.progress.value = m.bytes as number;
+      });
+    this.progress.hidden = true;
+    if (answer.result !== "done") {
+      this.enable(true);
+      return setText(this.text, `Not done. ${answer.text}`);
+    }
+    this.dialog.close();
+    this.operation.notice(activate ? "The table is stored and active. Run it when the machine is clear." : "The table is stored. It becomes active at the next reset, or by activate.");
+  }
+
+  private download(): void {
+    const program = this.axis?.program;
+    if (!this.axis || !program?.bytes.length) return;
+    const name = program.symbols.program ?? this.axis.info.name;
+    saveFile(`${name}.bin`, program.bytes as BlobPart, "application/octet-stream");
+    if (program.hasSymbols) saveFile(`${name}.sym`, `${JSON.stringify(program.symbols, null, 1)}\n`, "application/json");
+  }
+}

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "gateway/own_registers.h"
+#include "protocol/mactalk.h"
+#include "protocol/modbus_rtu.h"
+
+namespace nplc::gateway {
+
+#ifndef NPLC_MODBUS
+#define NPLC_MODBUS 0
+#endif
+
+/// Modbus RTU on the user's port of a board without an operating system, beside MacTalk: who asks in which of
+/// the two is answered in it. The slave is the setting gateway_address; the map is that of all boards
+/// (registers/modbus_map.h), without scaled values and set-points. Knows no line.
+class ModbusSlave {
+  public:
+    explicit ModbusSlave(Gateway& gateway, OwnRegisters& own) : gateway_(gateway), own_(own) {}
+
+    /// A character has come. True: a request for `unit` is whole, and begin() is due.
+    bool take(std::uint8_t byte, std::uint8_t unit, base::Instant now);
+    /// What has come was a message in the other language.
+    void pass_over() { static_cast<void>(reader_.silence()); }
+    /// With an error, or lost.
+    void damaged(base::Instant now);
+    /// Looks for the pause that ends what was damaged. True: as of take(), of a request whose length nobody
+    /// knows.
+    bool poll(std::uint8_t unit, base::Instant now, std::uint32_t baud);
+
+    /// What a request needs before it is answered.
+    enum class Need : std::uint8_t {
+        nothing,  ///< out() has the answer, or there is none
+        own_write,
+        motor,
+    };
+    Need begin(base::Instant now);
+    /// Of own_write: register and value.
+    std::uint8_t reg() const { return reg_; }
+    std::uint32_t value() const { return value_; }
+    /// Of motor: the same that a MacTalk client would ask.
+    const protocol::mactalk::Request& motor_request() const { return motor_; }
+
+    void end_write(const Progress& outcome);
+    void end_motor(std::span<const std::uint8_t> data);
+    /// Not carried out: `result` says why.
+    void refuse(Result result);
+    /// Another message came, or it was taken: nobody waits.
+    void drop() { size_ = sent_ = 0; }
+
+    /// What of the answer is to go out. `now`: the line was last heard so long ago that it may.
+    std::span<const std::uint8_t> out(base::Instant now, std::uint32_t baud) const;
+    void note_sent(std::size_t count) { sent_ += count; }
+    bool has_out() const { return sent_ < size_; }
+
+  private:
+    using Request = protocol::modbus::Request;
+    using Exception = protocol::modbus::Exception;
+
+    void begin_answer(std::uint8_t function);
+    void put(std::uint8_t byte) { out_[size_++] = byte; }
+    void put_word(std::uint16_t word);
+    Need end_answer();
+    Need refuse_with(Exception exception);
+    Need echo();
+    Need read(base::Instant now);
+    std::uint32_t own(std::uint8_t reg, base::Instant now);
+    std::uint16_t status_bits(base::Instant now);
+    std::uint16_t input_word(std::uint16_t address, base::Instant now);
+    std::uint16_t holding_word(std::uint16_t address, base::Instant now);
+    std::uint16_t event_word(std::uint16_t address, base::Instant now);
+    Need write_coils();
+    Need write_holding(base::Instant now);
+    Need use_window();
+    Need ask_motor(bool writes, std::uint8_t number, std::uint32_t value);
+    Need command(std::uint16_t value);
+    Need write_own(std::uint8_t reg, std::uint32_t value);
+
+    Gateway& gateway_;
+    OwnRegisters& own_;
+    protocol::modbus::RtuReader reader_;
+    Request request_;
+    std::uint8_t unit_ = 0;
+    bool is_handshake_ = false;
+    base::Instant heard_{};
+
+    // As of firmware/faces/modbus: nothing starts before a 0 has been seen.
+    bool is_armed_ = false;
+    std::uint8_t coils_ = 0;
+    std::uint8_t coils_were_off_ = 0;
+    std::uint16_t command_ = 0;
+    std::uint16_t number_ = 0;
+    std::uint16_t done_number_ = 0;
+    std::uint16_t result_ = 0;
+    std::uint16_t detail_ = 0;
+    std::uint32_t acknowledged_ = 0;
+
+    std::uint8_t reg_ = 0;
+    std::uint32_t value_ = 0;
+    protocol::mactalk::Request motor_;
+
+    std::size_t size_ = 0;
+    std::size_t sent_ = 0;
+    std::array<std::uint8_t, protocol::modbus::kMostFrame> out_;
+};
+
+/// In its place in a firmware without Modbus.
+struct NoModbusSlave {
+    using Need = ModbusSlave::Need;
+    NoModbusSlave(Gateway&, OwnRegisters&) {}
+    static constexpr bool take(std::uint8_t, std::uint8_t, base::Instant) { return false; }
+    static void pass_over() {}
+    static void damaged(base::Instant) {}
+    static constexpr bool poll(std::uint8_t, base::Instant, std::uint32_t) { return false; }
+    static constexpr Need begin(base::Instant) { return Need::nothing; }
+    static constexpr std::uint8_t reg() { return 0; }
+    static constexpr std::uint32_t value() { return 0; }
+    static protocol::mactalk::Request motor_request() { return {}; }
+    static void end_write(const Progress&) {}
+    static void end_motor(std::span<const std::uint8_t>) {}
+    static void refuse(Result) {}
+    static void drop() {}
+    static constexpr std::span<const std::uint8_t> out(base::Instant, std::uint32_t) { return {}; }
+    static void note_sent(std::size_t) {}
+    static constexpr bool has_out() { return false; }
+};
+
+#if NPLC_MODBUS
+using ModbusPart = ModbusSlave;
+#else
+using ModbusPart = NoModbusSlave;
+#endif
+
+}  // namespace nplc::gateway

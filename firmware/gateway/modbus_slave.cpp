@@ -1,0 +1,392 @@
+#include "gateway/modbus_slave.h"
+
+#include <algorithm>
+
+#include "base/bytes.h"
+#include "registers/layout.h"
+#include "registers/modbus_map.h"
+
+namespace nplc::gateway {
+
+namespace map = registers::modbus;
+using namespace registers::gateway;
+using protocol::modbus::Exception;
+using protocol::modbus::Space;
+
+namespace {
+
+/// A value of the gateway as it stands in input registers.
+struct Row {
+    std::uint8_t address;
+    std::uint8_t words;
+    std::uint8_t reg;
+    std::uint8_t shift;
+    std::uint32_t mask;
+};
+constexpr std::uint32_t kAll = 0xFFFF'FFFF;
+constexpr Row kRows[] = {
+    {map::kRunState, 1, STATUS, 0, 7},
+    {3, 1, STEP, 0, kAll},
+    {4, 1, COUNTER, 0, kAll},
+    {5, 1, INPUTS, 0, 0x3F},
+    {6, 1, INPUTS, 8, 0x3F},
+    {7, 1, OUTPUTS, 0, 0x0F},
+    {8, 1, OUTPUTS, 8, 0x0F},
+    {9, 1, SAFE_REASON, 0, kAll},
+    {14, 1, LINK, 0, kAll},
+    {18, 2, TIMER, 0, kAll},
+    {20, 2, LOG_COUNT, 0, kAll},
+    {22, 2, UPTIME, 0, kAll},
+    {24, 2, SCANS, 0, kAll},
+    {26, 2, SCAN_TIME, 0, kAll},
+    {28, 2, SCAN_WORST, 0, kAll},
+    {30, 2, LINK_LOSSES, 0, kAll},
+    {32, 2, RESENT, 0, kAll},
+    {34, 2, ORDERS, 0, kAll},
+    {36, 2, DISCARDED, 0, kAll},
+    {38, 2, TABLE_CRC, 0, kAll},
+    {46, 2, POLL_WORST, 0, kAll},
+    {map::kLatePolls, 2, LATE_POLLS, 0, kAll},
+};
+
+/// Of STATUS, for discrete inputs; 0: another condition.
+constexpr std::uint32_t kStatusOfDiscrete[map::kDiscretes] = {0,
+                                                              0,
+                                                              0,
+                                                              0,
+                                                              kSafe,
+                                                              kMotorError,
+                                                              kInPosition,
+                                                              kLinkDelivers,
+                                                              kForcedInputs | kForcedOutputs,
+                                                              kAtBreakpoint,
+                                                              kTable,
+                                                              kEnabled,
+                                                              StatusBit::kUpload,
+                                                              kSettingsDiffer,
+                                                              kCannotGoOn};
+
+constexpr std::uint8_t kCoilCommands[] = {1, 2, 3, 6, 5, 4};  ///< run, stop, safe, hold, step, scan
+
+constexpr bool is_stop(std::uint32_t command) {
+    return command == static_cast<std::uint32_t>(Command::stop) ||
+           command == static_cast<std::uint32_t>(Command::safe) ||
+           command == static_cast<std::uint32_t>(Command::hold);
+}
+
+Exception exception_of(Result result) {
+    if (result == Result::busy) return Exception::busy;
+    return result == Result::link_down ? Exception::target_failed : Exception::device_failure;
+}
+
+}  // namespace
+
+bool ModbusSlave::take(std::uint8_t byte, std::uint8_t unit, base::Instant now) {
+    heard_ = now;
+    return reader_.take(byte) && reader_.unit() == unit;
+}
+
+void ModbusSlave::damaged(base::Instant now) {
+    heard_ = now;
+    reader_.damaged();
+}
+
+bool ModbusSlave::poll(std::uint8_t unit, base::Instant now, std::uint32_t baud) {
+    if (!reader_.is_under_way() || now - heard_ <= protocol::modbus::silence_between_frames(baud))
+        return false;
+    return reader_.silence() && reader_.unit() == unit;
+}
+
+std::span<const std::uint8_t> ModbusSlave::out(base::Instant now, std::uint32_t baud) const {
+    if (sent_ == 0 && now - heard_ < protocol::modbus::silence_between_frames(baud)) return {};
+    return std::span(out_).first(size_).subspan(sent_);
+}
+
+// An answer is put together where it goes out from: a copy would be in the way of the loop's stack.
+
+void ModbusSlave::begin_answer(std::uint8_t function) {
+    size_ = sent_ = 0;
+    put(unit_);
+    put(function);
+}
+
+void ModbusSlave::put_word(std::uint16_t word) {
+    put(static_cast<std::uint8_t>(word >> 8));
+    put(static_cast<std::uint8_t>(word));
+}
+
+ModbusSlave::Need ModbusSlave::end_answer() {
+    const std::uint16_t crc = protocol::modbus::crc16(std::span(out_).first(size_));
+    put(static_cast<std::uint8_t>(crc));
+    put(static_cast<std::uint8_t>(crc >> 8));
+    return Need::nothing;
+}
+
+ModbusSlave::Need ModbusSlave::refuse_with(Exception exception) {
+    begin_answer(static_cast<std::uint8_t>(request_.function | 0x80U));
+    put(static_cast<std::uint8_t>(exception));
+    return end_answer();
+}
+
+/// The request's own bytes, which the reader has until the next one.
+ModbusSlave::Need ModbusSlave::echo() {
+    constexpr std::size_t kEchoed = 5;
+    begin_answer(request_.function);
+    for (const std::uint8_t byte : reader_.pdu().first(kEchoed).subspan(1)) put(byte);
+    return end_answer();
+}
+
+ModbusSlave::Need ModbusSlave::begin(base::Instant now) {
+    drop();
+    unit_ = reader_.unit();
+    is_handshake_ = false;
+    const auto decoded = protocol::modbus::decode(reader_.pdu());
+    request_ = decoded.request;
+    if (decoded.exception != Exception::none) return refuse_with(decoded.exception);
+    if (request_.space == Space::holding_register && request_.address >= map::kMotorWindow)
+        return use_window();
+    if (request_.space == Space::input_register && request_.address == map::kPositionCounts) {
+        if (request_.count != 2) return refuse_with(Exception::illegal_address);
+        return ask_motor(false, registers::P_IST, 0);
+    }
+    if (!request_.writes) return read(now);
+    return request_.space == Space::coil ? write_coils() : write_holding(now);
+}
+
+std::uint32_t ModbusSlave::own(std::uint8_t reg, base::Instant now) {
+    std::array<std::uint8_t, 4> bytes;
+    own_.read(reg, bytes, now);
+    return base::load_u32(bytes.data());
+}
+
+std::uint16_t ModbusSlave::status_bits(base::Instant now) {
+    const std::uint32_t status = own(STATUS, now);
+    const RunState state = run_state_of(status);
+    unsigned bits = 0;
+    for (unsigned i = map::kIsSafe; i < map::kDiscretes; ++i) {
+        if ((status & kStatusOfDiscrete[i]) != 0) bits |= 1U << i;
+    }
+    constexpr std::uint32_t kNeeded = kTable | kEnabled | kLinkDelivers;
+    if (state == RunState::stopped && (status & kNeeded) == kNeeded) bits |= 1U << map::kReady;
+    if (state == RunState::running) bits |= 1U << map::kRunning;
+    if (state == RunState::waiting_for_motor) bits |= 1U << map::kWaiting;
+    if (state == RunState::held || state == RunState::holding) bits |= 1U << map::kHeld;
+    return static_cast<std::uint16_t>(bits);
+}
+
+std::uint16_t ModbusSlave::event_word(std::uint16_t address, base::Instant now) {
+    const std::uint32_t count = own(LOG_COUNT, now);
+    if (count == 0) return 0;
+    const std::uint32_t entry =
+        own(static_cast<std::uint8_t>(LOG + 2 * ((count - 1) % kLogEntries) + 1), now);
+    if (address == map::kLastEventDetail) return static_cast<std::uint16_t>(entry >> 16);
+    return static_cast<std::uint16_t>((address == map::kLastEvent ? entry : entry >> 8) & 0xFF);
+}
+
+std::uint16_t ModbusSlave::input_word(std::uint16_t address, base::Instant now) {
+    constexpr std::uint32_t kTenth = 100;
+    switch (address) {
+        case map::kMapVersion:
+            return map::kMapNumber;
+        case map::kStatusWord:
+            return status_bits(now);
+        case map::kLastEvent:
+        case map::kLastEventStep:
+        case map::kLastEventDetail:
+            return event_word(address, now);
+        case map::kHeartbeat:
+            return static_cast<std::uint16_t>(own(UPTIME, now) / kTenth);
+        case map::kSeat:
+        case map::kControl:
+        case map::kMySeat:
+        case map::kImageAge:
+            return 0;
+        case map::kNewEvents:
+            return static_cast<std::uint16_t>(
+                std::min<std::uint32_t>(own(LOG_COUNT, now) - acknowledged_, 0xFFFF));
+        case map::kDoneNumber:
+            return done_number_;
+        case map::kResult:
+            return result_;
+        case map::kResultDetail:
+            return detail_;
+        default:
+            break;
+    }
+    for (const Row& row : kRows) {
+        if (address < row.address || address >= row.address + row.words) continue;
+        const std::uint32_t value = own(row.reg, now) >> row.shift & row.mask;
+        const bool is_high = row.words == 2 && address == row.address;
+        return static_cast<std::uint16_t>(is_high ? value >> 16 : value);
+    }
+    return 0;
+}
+
+ModbusSlave::Need ModbusSlave::read(base::Instant now) {
+    constexpr std::uint16_t kEnds[] = {map::kResetError, map::kDiscretes, map::kLatePolls + 2, map::kRecipe};
+    constexpr std::uint16_t kNothing = map::kImageAge + 1;  // between two rows
+    const unsigned end = request_.address + request_.count;
+    const bool has_gap =
+        request_.space == Space::input_register && request_.address <= kNothing && end > kNothing;
+    if (has_gap || end > kEnds[static_cast<std::size_t>(request_.space)])
+        return refuse_with(Exception::illegal_address);
+    begin_answer(request_.function);
+    if (request_.space == Space::coil || request_.space == Space::discrete_input) {
+        const unsigned all = request_.space == Space::coil ? coils_ : status_bits(now);
+        const unsigned bits = all >> request_.address & ((1U << request_.count) - 1U);
+        put(static_cast<std::uint8_t>((request_.count + 7U) / 8U));
+        put(static_cast<std::uint8_t>(bits));
+        if (request_.count > 8) put(static_cast<std::uint8_t>(bits >> 8));
+        return end_answer();
+    }
+    put(static_cast<std::uint8_t>(2 * request_.count));
+    for (unsigned i = 0; i < request_.count; ++i) {
+        const auto address = static_cast<std::uint16_t>(request_.address + i);
+        put_word(request_.space == Space::holding_register ? holding_word(address, now)
+                                                           : input_word(address, now));
+    }
+    return end_answer();
+}
+
+std::uint16_t ModbusSlave::holding_word(std::uint16_t address, base::Instant now) {
+    if (address == map::kCommand) return command_;
+    if (address == map::kCommandNumber) return number_;
+    return static_cast<std::uint16_t>(own(address == map::kForceInputs ? FORCE_IN : FORCE_OUT, now));
+}
+
+ModbusSlave::Need ModbusSlave::write_own(std::uint8_t reg, std::uint32_t value) {
+    reg_ = reg;
+    value_ = value;
+    return Need::own_write;
+}
+
+ModbusSlave::Need ModbusSlave::command(std::uint16_t value) {
+    return write_own(COMMAND, value);
+}
+
+/// A level of 1 stops; all else goes by the change from 0. One command at a time.
+ModbusSlave::Need ModbusSlave::write_coils() {
+    if (request_.address + request_.count > map::kResetError) return refuse_with(Exception::illegal_address);
+    std::uint8_t stop = 0;
+    std::uint8_t other = 0;
+    for (unsigned i = 0; i < request_.count; ++i) {
+        const unsigned coil = request_.address + i;
+        const auto bit = static_cast<std::uint8_t>(1U << coil);
+        const bool on = request_.bit(i);
+        const bool rises = on && (coils_ & bit) == 0 && (coils_were_off_ & bit) != 0;
+        if (!on) coils_were_off_ |= bit;
+        coils_ = static_cast<std::uint8_t>(on ? coils_ | bit : coils_ & ~bit);
+        if (coil == map::kAcknowledge) {
+            if (on) acknowledged_ = gateway_.log().count();
+            continue;
+        }
+        const std::uint8_t value = kCoilCommands[coil];
+        if (is_stop(value)) {
+            if (on && (stop == 0 || value != static_cast<std::uint8_t>(Command::hold))) stop = value;
+        } else if (rises) {
+            other = value;
+        }
+    }
+    if (stop != 0) return command(stop);
+    return other != 0 ? command(other) : echo();
+}
+
+ModbusSlave::Need ModbusSlave::write_holding(base::Instant now) {
+    if (request_.address + request_.count > map::kRecipe) return refuse_with(Exception::illegal_address);
+    std::optional<std::uint16_t> written[map::kRecipe];
+    for (unsigned i = 0; i < request_.count; ++i) written[request_.address + i] = request_.word(i);
+    if (written[map::kCommand]) command_ = *written[map::kCommand];
+    const auto number = written[map::kCommandNumber];
+    const bool is_new = number && *number != number_ && *number != 0;
+    if (number) number_ = *number;
+    if (number == std::uint16_t{0}) {
+        is_armed_ = true;
+        done_number_ = 0;
+    }
+    is_handshake_ = is_new;
+    if (written[map::kCommand] && is_stop(command_)) {
+        is_handshake_ = true;
+        return command(command_);
+    }
+    if (is_new) {
+        const bool is_known = command_ >= static_cast<std::uint16_t>(Command::run) &&
+                              command_ <= static_cast<std::uint16_t>(Command::hold);
+        if (is_armed_ && is_known) return command(command_);
+        const bool acknowledges = is_armed_ && command_ == map::kAcknowledgeEvents;
+        if (acknowledges) acknowledged_ = gateway_.log().count();
+        end_write(CommandResult{acknowledges ? Result::done
+                                : is_armed_  ? Result::bad_value
+                                             : Result::too_late});
+        return Need::nothing;
+    }
+    for (const auto& [at, reg] : {std::pair{map::kForceInputs, FORCE_IN}, {map::kForceOutputs, FORCE_OUT}}) {
+        if (written[at] && (*written[at] != 0 || own(reg, now) != 0)) return write_own(reg, *written[at]);
+    }
+    return echo();
+}
+
+/// One register of the motor in a request.
+ModbusSlave::Need ModbusSlave::use_window() {
+    const unsigned place = request_.address - unsigned{map::kMotorWindow};
+    if (place % 2 != 0 || place < 2 || place >= map::kMotorWindowEnd - unsigned{map::kMotorWindow})
+        return refuse_with(Exception::illegal_address);
+    if (request_.count != 2) return refuse_with(Exception::illegal_value);
+    const auto number = static_cast<std::uint8_t>(place / 2);
+    if (!request_.writes) return ask_motor(false, number, 0);
+    return ask_motor(true, number, std::uint32_t{request_.word(0)} << 16 | request_.word(1));
+}
+
+ModbusSlave::Need ModbusSlave::ask_motor(bool writes, std::uint8_t number, std::uint32_t value) {
+    const registers::Width width = registers::small_width_of(number);
+    const bool longword = gateway_.motor().longwords_only() || width.bytes == 4;
+    const auto sign = static_cast<std::int32_t>(value);
+    const bool fits = width.is_signed ? sign >= INT16_MIN && sign <= INT16_MAX : value <= 0xFFFF;
+    if (writes && !longword && !fits) return refuse_with(Exception::illegal_value);
+    motor_ = {.kind = writes ? protocol::mactalk::Kind::write : protocol::mactalk::Kind::read,
+              .address = protocol::mactalk::kEveryone,
+              .reg = number,
+              .length = static_cast<std::uint8_t>(longword ? 4 : 2),
+              .value = longword ? value : value & 0xFFFF};
+    return Need::motor;
+}
+
+void ModbusSlave::end_write(const Progress& outcome) {
+    const std::uint32_t word = outcome.word();
+    result_ = static_cast<std::uint16_t>(word & 0xFF);
+    detail_ = static_cast<std::uint16_t>(word >> 16);
+    if (is_handshake_) {
+        done_number_ = number_;
+        echo();
+        return;
+    }
+    if (outcome.is_done())
+        echo();
+    else
+        refuse_with(exception_of(static_cast<Result>(result_)));
+}
+
+/// A read has the register's bytes; of a write nothing.
+void ModbusSlave::end_motor(std::span<const std::uint8_t> data) {
+    if (request_.writes) {
+        echo();
+        return;
+    }
+    std::uint32_t value = base::load_u32(data.data());
+    if (motor_.length == 2) {
+        value &= 0xFFFF;
+        if (registers::small_width_of(motor_.reg).is_signed && (value & 0x8000) != 0) value |= 0xFFFF'0000;
+    }
+    begin_answer(request_.function);
+    put(sizeof value);
+    put_word(static_cast<std::uint16_t>(value >> 16));
+    put_word(static_cast<std::uint16_t>(value));
+    end_answer();
+}
+
+void ModbusSlave::refuse(Result result) {
+    result_ = static_cast<std::uint16_t>(result);
+    detail_ = 0;
+    refuse_with(exception_of(result));
+}
+
+}  // namespace nplc::gateway

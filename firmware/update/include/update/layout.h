@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+
+#include "ports/storage.h"
+#include "update/image.h"
+
+namespace nplc::update {
+
+inline constexpr unsigned kSlots = 2;
+inline constexpr std::uint32_t kLargestUnit = 8;  ///< program unit of a storage that this can go by
+
+/// Two slots, one behind the other, on a storage that the chip also runs code from.
+class Layout {
+  public:
+    /// `begin`: of slot 0 in the storage; `chip_address`: of the storage's first byte.
+    constexpr Layout(const ports::StorageGeometry& geometry, std::uint32_t begin, std::uint32_t slot_bytes,
+                     std::uint32_t chip_address)
+        : block_(geometry.erase_block),
+          page_(geometry.program_page),
+          unit_(geometry.program_unit),
+          begin_(begin),
+          slot_bytes_(slot_bytes),
+          chip_address_(chip_address) {}
+
+    // Addresses in the storage.
+    constexpr std::uint32_t header(unsigned slot) const { return begin_ + slot * slot_bytes_; }
+    constexpr std::uint32_t image(unsigned slot) const { return header(slot) + kImageAt; }
+    constexpr std::uint32_t marks(unsigned slot) const { return header(slot) + slot_bytes_ - block_; }
+    constexpr std::uint32_t mark(unsigned slot, unsigned number) const {
+        return marks(slot) + number * unit_;
+    }
+
+    /// What the slot's image is linked for.
+    constexpr std::uint32_t address(unsigned slot) const { return chip_address_ + image(slot); }
+    /// Bytes that header and image may have together.
+    constexpr std::uint32_t capacity() const { return slot_bytes_ - block_; }
+    constexpr std::uint32_t block() const { return block_; }
+    constexpr std::uint32_t unit() const { return unit_; }
+    /// How much of `bytes` from `address` on one programming may hold.
+    std::uint32_t one_programming(std::uint32_t address, std::uint32_t bytes) const;
+
+    /// The header is one for this slot of this board.
+    bool fits(const ImageHeader& header, unsigned slot, std::uint32_t board) const;
+
+  private:
+    std::uint32_t block_;
+    std::uint32_t page_;
+    std::uint32_t unit_;
+    std::uint32_t begin_;
+    std::uint32_t slot_bytes_;
+    std::uint32_t chip_address_;
+};
+
+}  // namespace nplc::update

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "plant_file/plant_file.h"
+#include "sim/axis_load.h"
+#include "sim/scenario.h"
+
+namespace nplc::sim {
+
+struct AxisReading {
+    plant_file::Plant plant{};
+    Load load{};
+    std::string error{};  ///< one line, with file, place and what to do; empty if all is well
+};
+/// The file of `--plant`, for a motor of this model.
+AxisReading read_axis(const std::string& file, registers::Model model);
+
+/// What `option` names, else the scenario's line; a motor of its own without either.
+AxisReading read_axis(const std::string& option, const Scenario& scenario, registers::Model model);
+
+}  // namespace nplc::sim

@@ -1,0 +1,7 @@
+#pragma once
+
+#ifdef _WIN32
+#define NPLC_FMI_EXPORT __declspec(dllexport)
+#else
+#define NPLC_FMI_EXPORT [[gnu::visibility("default")]]
+#endif

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "panel/panel.h"
+#include "program.h"
+#include "session.h"
+#include "sim_faces.h"
+
+namespace nplc::sim {
+
+/// Virtual time as it follows the wall clock.
+class Pace {
+  public:
+    using Clock = std::chrono::steady_clock;
+    explicit Pace(Clock::time_point now) : last_(now) {}
+    /// `speed`: virtual seconds in one of the wall clock's since the last call; 0 while time stands.
+    Time virtual_time(Clock::time_point now, double speed) {
+        passed_ += std::chrono::duration<double, std::nano>(now - last_) * speed;
+        last_ = now;
+        return std::chrono::duration_cast<Time>(passed_);
+    }
+
+  private:
+    Clock::time_point last_;
+    std::chrono::duration<double, std::nano> passed_{0};
+};
+
+/// The browser's panel on a run in real time; nothing without --panel. What is clicked comes on the panel's
+/// thread, waits, and is done by serve() on the run's.
+class PanelDoor final : public panel::Simulation, public panel::SymbolShelf {
+  public:
+    /// Throws InputError if it cannot be had at `where`, ADDRESS:PORT.
+    PanelDoor(const std::optional<std::string>& where, const Program& program, faces::AxisModel& axis);
+    PanelDoor(const PanelDoor&) = delete;
+    PanelDoor& operator=(const PanelDoor&) = delete;
+
+    bool is_open() const { return panel_ != nullptr; }
+    /// Answers browsers from now on, and prints where and with which token.
+    void open();
+    /// Does what was asked for since the last call.
+    void serve(Session& session);
+    double speed() const;
+
+    State state() const override;
+    std::string act(std::string_view action) override;
+    void note(std::string_view action) override;
+    void pause(bool on) override;
+    void set_speed(double speed) override;
+    std::string record() const override;
+    void clear_record() override;
+
+    Found find(std::size_t axis, std::uint32_t crc) override;
+    std::string keep(std::size_t axis, std::uint32_t crc, std::string_view text) override;
+
+  private:
+    struct Wanted {
+        std::string text;
+        bool blocks = false;  ///< the shaft, where it is
+    };
+    void perform(Session& session, const Wanted& wanted);
+    /// With mutex_ held.
+    void add_to_record(double milliseconds, std::string_view text);
+
+    const Program& program_;
+    mutable std::mutex mutex_;
+    std::vector<Wanted> wanted_;
+    State state_;
+    std::string record_;
+    std::map<std::uint32_t, std::string> symbols_;  ///< that came with uploads; the panel's thread only
+    std::unique_ptr<panel::Panel> panel_;           ///< the last one, for its thread uses all of the above
+};
+
+}  // namespace nplc::sim

@@ -1,0 +1,72 @@
+// set Length := 60 mm and Dwell := 800 ms; recipe save "Short"; recipe load "Short"
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "parser.h"
+#include "set_points/recipes.h"
+#include "set_points/request.h"
+#include "set_points/values.h"
+
+namespace nplc::sim {
+
+using registers::gateway::SetPointRequest;
+using set_points::NewValue;
+
+void ActionParser::needs_set_points() const {
+    if (conditions_.names().set_points.values.empty())
+        reader_.refuse_next("the program has no set-points; declare one with SET_POINT");
+}
+
+void ActionParser::set_points(Actions& list, Time after) {
+    needs_set_points();
+    const std::size_t begin = reader_.mark();
+    reader_.next();
+    const set_points::Record& record = conditions_.names().set_points;
+    std::vector<NewValue> values;
+    do {
+        const set_points::SetPoint* point = set_points::find(record, reader_.peek().text);
+        if (reader_.peek().kind != Token::Kind::word || point == nullptr)
+            reader_.fail("a set-point of the program, such as set Length := 60 mm");
+        reader_.next();
+        reader_.want(":=", ":= and the value, such as set Length := 60 mm");
+        const std::size_t mark = reader_.mark();
+        while (!reader_.at_end() && !reader_.is(",") && !reader_.is("and")) reader_.next();
+        const set_points::Reading read = set_points::read_value(*point, reader_.source_since(mark));
+        if (!read.error.empty()) reader_.refuse_at(mark, read.error);
+        const auto index = static_cast<std::size_t>(point - record.values.data());
+        const auto same = [&](const NewValue& value) { return value.index == index; };
+        if (std::any_of(values.begin(), values.end(), same))
+            reader_.refuse_at(mark, fmt::format("{} is set twice in one change", point->name));
+        values.push_back({index, read.value});
+    } while (reader_.take("and"));
+    add(list, after,
+        action::SetPoints{set_points::encode_request(record, SetPointRequest::change, values),
+                          reader_.source_since(begin)});
+}
+
+/// By their names. A scenario begins without any, so it loads what it has saved.
+void ActionParser::recipe(Actions& list, Time after) {
+    needs_set_points();
+    const std::size_t begin = reader_.mark();
+    reader_.next();
+    const bool saves = reader_.take("save");
+    if (!saves) reader_.want("load", "save or load and the recipe's name, such as recipe load \"Short\"");
+    if (reader_.peek().kind != Token::Kind::text || reader_.peek().text.empty() ||
+        reader_.peek().text.size() > set_points::kLongestRecipeName)
+        reader_.fail("the recipe's name in quotes, up to 15 characters, such as recipe load \"Short\"");
+    const std::string name(reader_.next().text);
+    const bool is_known = std::any_of(recipes_.begin(), recipes_.end(), [&](const std::string& recipe) {
+        return set_points::is_same_recipe(recipe, name);
+    });
+    if (!is_known && !saves) reader_.refuse(fmt::format("no line above saves the recipe \"{}\"", name));
+    if (!is_known) recipes_.push_back(name);
+    add(list, after,
+        action::SetPoints{
+            set_points::encode_request(conditions_.names().set_points,
+                                       saves ? SetPointRequest::save_recipe : SetPointRequest::load_recipe,
+                                       {}, {.name = name}),
+            reader_.source_since(begin)});
+}
+
+}  // namespace nplc::sim

@@ -1,0 +1,31 @@
+// What the program is built with is what its sources make of it, and small enough.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { cpSync, mkdtempSync, readdirSync, readFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { test } from "node:test";
+import { gzipSync } from "node:zlib";
+import { root } from "./machine.mjs";
+
+const source = join(root, "firmware", "faces", "panel");
+const folder = process.env.PAGE; // with the packages of the lock file
+
+test("the bundle that is checked in is made from its sources", () => {
+  for (const name of ["src", "build.mjs", "tsconfig.json"]) cpSync(join(source, "page", name), join(folder, name), { recursive: true });
+  execFileSync(join(folder, "node_modules", ".bin", "tsc"), ["--noEmit"], { cwd: folder, stdio: "inherit" });
+  const made = mkdtempSync(join(tmpdir(), "bundle-"));
+  execFileSync("node", ["build.mjs", "--to", made], { cwd: folder, stdio: "inherit" });
+  const names = readdirSync(made).sort();
+  assert.deepEqual(readdirSync(join(source, "bundle")).filter((n) => n !== "README.md").sort(), names);
+  for (const name of names)
+    assert.ok(readFileSync(join(made, name)).equals(readFileSync(join(source, "bundle", name))), `${name} is not what its sources make; run npm ci && npm run build in firmware/faces/panel/page`);
+});
+
+test("page with script is under 150 kB compressed, and names no other server", () => {
+  const files = readdirSync(join(source, "bundle")).map((name) => readFileSync(join(source, "bundle", name)));
+  const size = files.reduce((sum, data) => sum + gzipSync(data).length, 0);
+  console.log(`${size} bytes compressed`);
+  assert.ok(size < 150_000);
+  for (const data of files) assert.doesNotMatch(data.toString().replaceAll("http://www.w3.org/2000/svg", "").replaceAll(/https:\/\/github\.com\/leeoniya\/uPlot[^\s]*/g, ""), /(src|href|import|url)\W{1,3}(https?:)?\/\/\w/);
+});

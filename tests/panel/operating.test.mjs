@@ -1,0 +1,202 @@
+// Everything that the page can do to the machine; the token, the seat, and stops that need neither.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, test } from "node:test";
+import { Client, closeBrowser, examples, file, hasText, inStep, operate, pagesOf, path, programs, textOf } from "./machine.mjs";
+
+after(closeBrowser);
+
+const pick = join(examples, "pick_and_place.seq");
+
+const withPages = (count, use, options = {}, program = pick) => pagesOf(program, count, use, options);
+
+const state = (page, text) => hasText(page, "#state-text", text);
+const lamp = (page, name, level) =>
+  page.waitForFunction(([n, l]) => document.querySelector(`.lamp[aria-label="${n} is ${l}"]`) !== null, [name, level]);
+
+test("stop, safe and hold need neither token nor seat", () =>
+  withPages(2, async (machine, operator, watcher) => {
+    await operate(operator, machine.token);
+    await watcher.click("#do-hold");
+    await state(operator, "held");
+    await operator.click("#do-run");
+    await state(watcher, "running");
+    await watcher.click("#do-stop");
+    await state(operator, "stopped: stop command");
+    await operator.click("#do-run");
+    await state(watcher, "running");
+    await watcher.click("#do-safe");
+    await state(operator, "stopped: safe command");
+  }));
+
+test("a dialog leaves the stops within reach", () =>
+  withPages(1, async (machine, page) => {
+    await page.click("#mode");
+    await page.waitForSelector("#token-dialog[open]");
+    await page.click("#token-dialog [data-stop=stop]");
+    await hasText(page, "#state-text", "stopped: stop command");
+    assert.equal(await page.locator("dialog[open]").count(), 0, "what comes of it is seen");
+  }));
+
+test("a wrong token lets nobody operate, five close the connection", () =>
+  withPages(1, async (machine, page) => {
+    await page.click("#mode");
+    await page.fill("#token", "guess");
+    await page.click("#token-form button[type=submit]");
+    await hasText(page, "#token-problem", "neither the token nor the password");
+    assert.equal(await page.evaluate(() => document.body.classList.contains("operating")), false);
+    await page.click("#token-cancel");
+    const client = new Client(machine.url);
+    await client.opened;
+    assert.equal((await client.ask({ do: "command", name: "run" })).result, "no_right");
+    assert.equal((await client.ask({ do: "write", register: "FORCE_IN", value: 257 })).result, "no_right");
+    for (let i = 0; i < 5; ++i) client.ask({ do: "login", secret: `${i}` });
+    assert.equal((await client.closed).code, 1008);
+  }));
+
+test("one operates, the other sees who; the seat is free when the page goes", () =>
+  withPages(2, async (machine, first, second) => {
+    await operate(first, machine.token);
+    await hasText(second, "#seat", "panel 1 at 127.0.0.1 operates");
+    await second.click("#mode");
+    await second.fill("#token", machine.token);
+    await second.click("#token-form button[type=submit]");
+    await hasText(second, "#notices", "Not operating");
+    assert.equal(await second.evaluate(() => document.body.classList.contains("operating")), false);
+    await first.goto("about:blank");
+    await hasText(second, "#seat", "Nobody operates");
+    await second.click("#mode");
+    await second.waitForFunction(() => document.body.classList.contains("operating"));
+  }));
+
+test("run, step, scan and breakpoints", () =>
+  withPages(1, async (machine, page) => {
+    await operate(page, machine.token);
+    await page.click('.box[data-step="2"]');
+    await page.click("#break");
+    await page.waitForSelector(".box.breaks");
+    await page.fill("#sim-action", "pulse Start 50 ms");
+    await page.click("#sim-form button");
+    await state(page, "held at a breakpoint");
+    await page.click("#show-active");
+    await hasText(page, "#waits-title", "Travel");
+    await page.click("#break");
+    await page.waitForFunction(() => !document.querySelector(".box.breaks"));
+    await page.click("#do-run");
+    await state(page, "running");
+    await inStep(page, 1);
+    await page.click("#do-hold");
+    await state(page, "held");
+    await page.click("#do-scan");
+    await page.click("#do-stop");
+    await state(page, "stopped");
+  }));
+
+test("forces are shown with their time, last while the page is there, and end with it", () =>
+  withPages(2, async (machine, page, watcher) => {
+    await operate(page, machine.token);
+    await page.selectOption('select[aria-label="force Guard"]', "1");
+    await lamp(watcher, "Guard", 1);
+    await page.selectOption('select[aria-label="force OUT1"]', "1");
+    await lamp(watcher, "OUT1", 1);
+    await hasText(watcher, "#fact-forces", "end in");
+    const times = new Set();
+    for (let i = 0; i < 7; ++i) {
+      await page.waitForTimeout(1000); // longer than force_timeout in all: the page renews them
+      times.add(await textOf(watcher, "#fact-forces"));
+    }
+    assert.ok([...times].every((t) => /end in/.test(t)), [...times].join());
+    await page.goto("about:blank");
+    await hasText(watcher, "#fact-forces", "none");
+    await lamp(watcher, "Guard", 0);
+    await hasText(watcher, "#events", "forces ended: the client was silent");
+  }));
+
+test("an upload is compared and asked about, then stored, made active, and its names come along", () =>
+  withPages(1, async (machine, page) => {
+    const source = file("seq", readFileSync(pick, "utf8").replace("T#500ms", "T#700ms").replaceAll("Travel", "Outward").replace("PickAndPlace", "Slower"));
+    const table = path("slower.bin");
+    execFileSync(join(programs, "seqc"), ["build", source, "-o", table]);
+    await operate(page, machine.token);
+    await page.click("#do-upload");
+    await page.setInputFiles("#upload-files", [pick]);
+    await hasText(page, "#upload-text", "is no table");
+    await page.setInputFiles("#upload-files", [table, path("slower.sym")]);
+    await hasText(page, "#upload-diff", "TIMER := 700 ms");
+    await hasText(page, "#upload-text", "Making it active stops the sequence");
+    await hasText(page, "#program", "PickAndPlace");
+    await page.click("#upload-activate");
+    await hasText(page, "#program", "Slower");
+    await state(page, "stopped");
+    await hasText(page, "#events", "table activated");
+    await page.click("#do-run");
+    await state(page, "running");
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click("#do-download")]);
+    assert.deepEqual(readFileSync(await download.path()), readFileSync(table));
+  }));
+
+test("why, the trend's CSV, and reset error", () =>
+  withPages(1, async (machine, page) => {
+    await hasText(page, "#why", "The sequence waits in Idle, for Travel: Start");
+    await hasText(page, "#trend-now", "rpm");
+    await page.click("text=Pause >> nth=0");
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click("#trend-tools >> text=CSV")]);
+    assert.match(readFileSync(await download.path(), "utf8"), /^uptime_s,step,position_mm,velocity_rpm,current_percent\n[\d.]+,Idle,/);
+    await operate(page, machine.token);
+    await page.click("#do-stop");
+    await state(page, "stopped");
+    await hasText(page, "#why", "gateway_safe (11)"); // as every other face tells it
+    await page.click("#do-reset-error");
+    await hasText(page, "#notices", "ERR_STAT was cleared");
+  }));
+
+test("the simulated machine: inputs, line, shaft, time, and a scenario that does the same", () =>
+  withPages(1, async (machine, page) => {
+    await operate(page, machine.token);
+    await page.click('.press[aria-label="switch Start"]');
+    await lamp(page, "Start", 1);
+    await inStep(page, 2);
+    await page.click('.press[aria-label="switch Start"]');
+    await inStep(page, 1);
+    await page.click("#sim-cut");
+    await hasText(page, "#fact-link", "down");
+    await page.click("#sim-cut");
+    await hasText(page, "#fact-error", "ERROR");
+    await page.click("#sim-block");
+    await page.click("#sim-block");
+    await page.fill("#sim-action", "motor lod 3");
+    await page.click("#sim-form button");
+    await hasText(page, "#notices", "motor lod 3:");
+    await page.click("#sim-pause");
+    await hasText(page, "#sim-pause", "Go on");
+    const stands = async () => {
+      const before = await textOf(page, "#sim-time");
+      await page.waitForTimeout(600); // longer than a beat of the wire
+      return (await textOf(page, "#sim-time")) === before;
+    };
+    assert.ok((await stands()) || (await stands()));
+    const time = await textOf(page, "#sim-time");
+    await page.selectOption("#sim-speed", "10");
+    await page.click("#sim-pause");
+    await page.waitForFunction((t) => document.getElementById("sim-time").textContent > t, time);
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click("#sim-save")]);
+    const recorded = readFileSync(await download.path(), "utf8");
+    assert.match(recorded, /^at [\d.]+ ms toggle Start$/m);
+    assert.match(recorded, /^at [\d.]+ ms motor stop above -?\d+ counts, motor stop below -?\d+ counts$/m);
+    const again = execFileSync(join(programs, "nanoplc-sim"), ["run", pick, "--scenario", file("scn", recorded)], { encoding: "utf8" });
+    assert.match(again, /Idle -> Travel/);
+    assert.match(again, /link/);
+  }));
+
+test("a keyboard is enough", () =>
+  withPages(1, async (machine, page) => {
+    await page.focus('.box[tabindex="0"]');
+    await page.keyboard.press("ArrowDown");
+    await page.keyboard.press("Enter");
+    await hasText(page, "#waits-title", "Idle");
+    await page.focus("#do-stop");
+    await page.keyboard.press("Enter");
+    await state(page, "stopped");
+  }));

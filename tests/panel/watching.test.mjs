@@ -1,0 +1,181 @@
+// The picture follows the sequence, in all examples; what the page tells; old data; lost connections.
+import assert from "node:assert/strict";
+import { readdirSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, test } from "node:test";
+import { Client, closeBrowser, examples, file, hasText, inStep, openPage, painted, simulator, textOf } from "./machine.mjs";
+
+after(closeBrowser);
+
+const kCycle = "every 3 s pulse Start 50 ms\n";
+
+async function withMachine(program, options, use) {
+  const machine = await simulator(program, options);
+  try {
+    return await use(machine);
+  } finally {
+    await machine.stop();
+  }
+}
+
+test("a page shows the program by its names and follows it", () =>
+  withMachine(join(examples, "pick_and_place.seq"), { scenario: kCycle }, async (machine) => {
+    const page = await openPage(machine.url);
+    await painted(page);
+    assert.equal(await textOf(page, "#program"), "PickAndPlace");
+    assert.match(await textOf(page, "#loaded"), /MAC140 · 25 terms · CRC-32 [0-9A-F]{8} · no certificate/);
+    for (const name of ["Idle", "Travel", "Hold", "Return"]) {
+      await page.waitForFunction((n) => document.querySelector(".box.active .name")?.textContent === n, name);
+      await hasText(page, "#waits-title", name);
+    }
+    assert.equal(await page.locator(".box.active").count(), 1);
+    assert.ok((await page.locator(".way.taken").count()) >= 2, "the last path is drawn");
+    assert.deepEqual(page.complaints, []);
+    await page.context().close();
+  }));
+
+test("every condition of every way out is true or false as the machine is", () =>
+  withMachine(join(examples, "pick_and_place.seq"), { scenario: "at 1 s Guard := 1\n" }, async (machine) => {
+    const page = await openPage(machine.url);
+    await painted(page);
+    await inStep(page, 1);
+    // Idle: Start AND NOT Guard goes to Travel; the guard is open from 1 s on.
+    const chip = (text) => page.locator(".card", { hasText: "→ Travel" }).locator(".chip", { hasText: text });
+    await page.waitForFunction(() => [...document.querySelectorAll(".chip.no")].some((c) => c.textContent.includes("NOT Guard")));
+    assert.match(await chip("Start").getAttribute("class"), /no/);
+    assert.match(await textOf(page, ".card .badge >> nth=0"), /waits for Start, NOT Guard/);
+    await page.context().close();
+  }));
+
+test("hover and focus tell a step's terms in the program's names and units, and no longer than that", () =>
+  withMachine(join(examples, "pick_and_place.seq"), {}, async (machine) => {
+    const page = await openPage(machine.url);
+    await painted(page);
+    await inStep(page, 1);
+    await page.hover('.box[data-step="0"]');
+    await hasText(page, "#waits-title", "Step POWER_UP (not active)");
+    await hasText(page, "#waits", "Place (P2) := 60 mm");
+    await page.hover('.box[data-step="3"]');
+    await hasText(page, "#waits", "POSITION(Home)");
+    await page.mouse.move(2, 2);
+    await hasText(page, "#waits-title", "Active step: Idle");
+    await page.focus("#search");
+    for (let i = 0; i < 12 && !(await page.evaluate(() => document.activeElement.classList.contains("box"))); ++i) await page.keyboard.press("Tab");
+    await page.keyboard.press("ArrowDown");
+    await page.keyboard.press("ArrowDown");
+    await hasText(page, "#waits-title", "(not active)");
+    await page.keyboard.press("Tab");
+    await hasText(page, "#waits-title", "Active step: Idle");
+    assert.deepEqual(page.complaints, []);
+    await page.context().close();
+  }));
+
+for (const name of readdirSync(examples).filter((n) => n.endsWith(".seq")).map((n) => n.replace(".seq", ""))) {
+  test(`the picture follows ${name} through its scenario`, async () => {
+    // Its own scenario without an end, in real time; the wire of another client tells what to expect.
+    const scenario = readFileSync(join(examples, `${name}.scn`), "utf8").replace(/^\s*end .*$/gm, "").replace(/^.*\bat end\b.*$/gm, "");
+    await withMachine(join(examples, `${name}.seq`), { scenario }, async (machine) => {
+      const client = new Client(machine.url);
+      await client.opened;
+      const page = await openPage(machine.url);
+      await painted(page);
+      await page.evaluate(() => {
+        window.seen = new Set();
+        const look = () => {
+          window.seen.add(Number(document.body.dataset.step));
+          requestAnimationFrame(look);
+        };
+        look();
+      });
+      const steps = () => client.messages.filter((m) => m.t === "image" && m.r?.STEP !== undefined).map((m) => m.r.STEP);
+      // Three changes that the wire told, or ten seconds of a program that rests.
+      const since = client.messages.length;
+      await Promise.race([
+        client.until(() => client.messages.slice(since).filter((m) => m.t === "image" && m.r?.STEP !== undefined).length >= 3),
+        page.waitForTimeout(8000),
+      ]);
+      const now = steps().at(-1);
+      await page.waitForFunction((step) => window.seen.has(step), now);
+      const program = client.messages.find((m) => m.t === "program");
+      assert.equal(await textOf(page, "#program"), program.symbols.program);
+      assert.equal(await page.locator(".box").count(), new Set([...Buffer.from(program.table, "base64")].filter((_, i) => i % 8 === 0).map((b) => b & 63).filter((s) => s !== 63)).size);
+      assert.deepEqual(page.complaints, []);
+      client.close();
+      await page.context().close();
+    });
+  });
+}
+
+test("60 steps: laid out without boxes that overlap, found by name, followed", async () => {
+  const steps = Array.from({ length: 60 }, (_, i) => `STEP S${i}:\n    ${i === 59 ? "OWN ERROR;\n    " : ""}ENTRY TIMER := T#${i % 7 === 0 ? 300 : 40}ms;\n    IF Go THEN NEXT := S${(i * 7 + 3) % 60}; ELSIF TIMER.Q THEN NEXT := S${(i + 1) % 60}; END_IF\nEND_STEP\n`);
+  const program = file("seq", `PROGRAM Sixty\nMOTOR MAC140;\nVAR_INPUT Go AT %IX0.0 : BOOL; END_VAR\nON ERROR NEXT := S59;\nPOWER_UP NEXT := S0; END_POWER_UP\n${steps.join("")}END_PROGRAM\n`);
+  await withMachine(program, {}, async (machine) => {
+    const page = await openPage(machine.url);
+    await painted(page);
+    const boxes = await page.$$eval(".box", (all) => all.map((b) => b.getAttribute("transform").match(/[-\d.]+/g).map(Number)));
+    assert.ok(boxes.length >= 60);
+    for (const [i, a] of boxes.entries())
+      for (const b of boxes.slice(0, i)) assert.ok(Math.abs(a[0] - b[0]) >= 150 || Math.abs(a[1] - b[1]) >= 46, `${a} and ${b} overlap`);
+    // The active step stays in view.
+    for (let i = 0; i < 5; ++i) {
+      const before = await page.evaluate(() => document.body.dataset.step);
+      await page.waitForFunction((b) => document.body.dataset.step !== b, before);
+      await page.waitForFunction(() => {
+        const box = document.querySelector(".box.active").getBoundingClientRect();
+        const area = document.getElementById("drawing").getBoundingClientRect();
+        return box.left >= area.left && box.right <= area.right && box.top >= area.top && box.bottom <= area.bottom;
+      });
+    }
+    await page.fill("#search", "S42");
+    assert.equal(await textOf(page, "#search-count"), "1 found");
+    await page.press("#search", "Enter");
+    await hasText(page, "#waits-title", "S42");
+    await page.context().close();
+  });
+});
+
+test("the server is killed and started again: the page says so and comes back by itself", async () => {
+  const program = join(examples, "pick_and_place.seq");
+  let machine = await simulator(program, { scenario: kCycle });
+  const port = new URL(machine.url).port;
+  const page = await openPage(machine.url);
+  await painted(page);
+  machine.child.kill("SIGKILL");
+  await machine.ended;
+  await hasText(page, "#link-bar", "connection is lost");
+  assert.match(await page.evaluate(() => document.body.className), /old/);
+  machine = await simulator(program, { scenario: kCycle, port });
+  await painted(page);
+  await page.waitForFunction(() => document.getElementById("link-bar").hidden);
+  await inStep(page, 2);
+  await machine.stop();
+  await page.context().close();
+});
+
+test("a program that is halted: data older than a second are shown as old", () =>
+  withMachine(join(examples, "pick_and_place.seq"), { scenario: kCycle }, async (machine) => {
+    const page = await openPage(machine.url);
+    await painted(page);
+    machine.child.kill("SIGSTOP");
+    await hasText(page, "#link-bar", "what you see is old");
+    machine.child.kill("SIGCONT");
+    await painted(page);
+    await page.context().close();
+  }));
+
+test("a tab that was suspended catches up", () =>
+  withMachine(join(examples, "pick_and_place.seq"), { scenario: kCycle }, async (machine) => {
+    const page = await openPage(machine.url);
+    await painted(page);
+    const session = await page.context().newCDPSession(page);
+    await session.send("Page.setWebLifecycleState", { state: "frozen" });
+    const client = new Client(machine.url);
+    await client.opened;
+    const since = client.messages.length;
+    await client.until(() => client.messages.slice(since).filter((m) => m.t === "image" && m.r?.STEP !== undefined).length >= 4);
+    await session.send("Page.setWebLifecycleState", { state: "active" });
+    await painted(page);
+    for (const step of [1, 2]) await inStep(page, step);
+    client.close();
+    await page.context().close();
+  }));

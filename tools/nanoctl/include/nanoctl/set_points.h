@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "nanoctl/gateway_client.h"
+#include "set_points/changes.h"
+#include "set_points/request.h"
+
+/// The set-points and recipes of a gateway.
+namespace nplc::nanoctl {
+
+struct KeptSetPoints {
+    set_points::Record record;
+    std::size_t recipes = 0;  ///< that there is room for
+    std::uint32_t state = 0;  ///< SET_POINT_STATE
+    std::vector<std::int32_t> in_force;
+    std::vector<std::int32_t> wanted;
+};
+
+/// The gateway's firmware keeps set-points.
+bool takes_set_points(GatewayClient& gateway);
+
+/// Throws Refused if its firmware keeps none or the active table has none.
+KeptSetPoints read_set_points(GatewayClient& gateway);
+
+/// Those that have a name.
+std::vector<set_points::Recipe> read_recipes(GatewayClient& gateway, const KeptSetPoints& kept);
+
+/// The last changes of the active table's values, the oldest first; none if it has no set-points.
+struct KnownChanges {
+    set_points::Record record;
+    std::vector<set_points::Change> changes;
+    std::uint32_t record_since = 0;  ///< the log's entry from which on the record is that of the table in use
+};
+KnownChanges read_changes(GatewayClient& gateway);
+
+/// Of the table that has just become active: the set-points whose kept values did not fit, "Length, Pieces".
+std::string read_dropped(GatewayClient& gateway, const set_points::Record& record);
+
+/// Whole or not at all, once, and waits for its real end however slow the gateway stores; Refused says which
+/// value and its limits. `request` without a number of its own.
+void write_set_points(GatewayClient& gateway, const set_points::Record& record,
+                      std::vector<std::uint8_t> request);
+
+}  // namespace nplc::nanoctl

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/program.h"
+
+namespace nplc::seqc::analysis {
+
+std::optional<Span> definition_at(const Program& program, std::uint32_t offset);
+
+struct Occurrence {
+    Span span;
+    bool writes = false;  ///< a declaration, or an output or register that is written
+};
+/// Of the name at a place, its declaration too; of an address or a register of the map what is written the
+/// same.
+std::vector<Occurrence> occurrences_at(const Program& program, std::uint32_t offset);
+
+/// What can be renamed there: a name that the program declares.
+std::optional<Span> renamable_at(const Program& program, std::uint32_t offset);
+struct Renaming {
+    std::vector<TextEdit> edits;
+    std::string old_name;
+    std::string error;  ///< why it cannot be done
+};
+Renaming rename(const Program& program, std::uint32_t offset, const std::string& new_name);
+
+}  // namespace nplc::seqc::analysis

@@ -1,0 +1,291 @@
+#include "cli/verify_set_points.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "sequencer/table.h"
+#include "sequencer/term.h"
+#include "set_points/values.h"
+
+namespace nplc::seqc::cli {
+namespace {
+
+using set_points::SetPoint;
+using set_points::ValueKind;
+using verify::Result;
+using verify::Verdict;
+
+/// Counts that are tried one by one where the explorer leaves a verdict open, and how many of them may leave
+/// it open again.
+constexpr std::size_t kMostCounts = 1024;
+constexpr std::size_t kMostOpen = 16;
+/// Values whose ends are all combined.
+constexpr std::size_t kMostCombined = 3;
+
+/// A preset for each set-point of a time or a count.
+using Presets = std::vector<std::int32_t>;
+
+bool is_same(const Result& a, const Result& b) {
+    return a.name == b.name && a.code == b.code && a.step == b.step;
+}
+
+class AllValues {
+  public:
+    AllValues(std::span<const std::uint8_t> table, const set_points::Record& record,
+              const verify::Names& names, const std::vector<verify::Property>& properties,
+              const verify::Options& how)
+        : table_(table.begin(), table.end()), names_(names), properties_(properties), how_(how) {
+        for (const SetPoint& point : record.values) {
+            if (point.kind != ValueKind::motor_register) {
+                points_.push_back(point);
+            } else if (point.lowest <= 0 && point.highest >= 0) {
+                how_.may_be_zero.push_back(point.reg);
+            }
+        }
+        for (const SetPoint& point : points_) defaults_.push_back(point.initial);
+    }
+
+    verify::Report run() {
+        const verify::Report own = verified(defaults_, properties_, how_);
+        if (points_.empty()) return own;
+        report_ = find_marks() ? verified(marks_, properties_, ranged(true)) : own;
+        for (Result& result : report_.results) name_values(result);
+        note_broken(own, nullptr);
+        try_ends();
+        if (!marks_.empty()) try_counts();
+        return std::move(report_);
+    }
+
+  private:
+    bool is_count(std::size_t i) const { return points_[i].kind == ValueKind::counter; }
+
+    /// Presets that no term has, those of counters above all that a counter can be; false if there are none.
+    bool find_marks() {
+        std::set<std::int32_t> used;
+        std::int32_t greatest = 0;
+        for (std::size_t at = 0; at + sequencer::kTermBytes <= table_.size(); at += sequencer::kTermBytes) {
+            const sequencer::TermView bytes(&table_[at], sequencer::kTermBytes);
+            const sequencer::Term term = sequencer::decode(bytes);
+            if (term.is_flex) continue;
+            used.insert(term.fast.preset);
+            if (term.fast.presets_counter) greatest = std::max(greatest, std::int32_t{term.fast.preset});
+        }
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            if (is_count(i)) greatest = std::max(greatest, points_[i].highest);
+        }
+        Presets marks;
+        std::int32_t next = kMostPreset;
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            while (used.contains(next)) --next;
+            if (is_count(i) && next <= greatest) return false;
+            marks.push_back(next--);
+        }
+        // A counter is looked up by its value: its marks are as low as they can be.
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            if (!is_count(i)) continue;
+            do ++greatest;
+            while (used.contains(greatest));
+            marks[i] = greatest;
+        }
+        marks_ = std::move(marks);
+        return true;
+    }
+
+    verify::Options ranged(bool counts) const {
+        verify::Options options = how_;
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            if (is_count(i) && !counts) continue;
+            auto& ranges = is_count(i) ? options.ranges.counter : options.ranges.timer;
+            ranges.push_back({static_cast<std::uint16_t>(marks_[i]),
+                              static_cast<std::uint16_t>(points_[i].lowest),
+                              static_cast<std::uint16_t>(points_[i].highest)});
+        }
+        return options;
+    }
+
+    /// Says with which values a course that was found in ranges breaks it.
+    void name_values(Result& result) const {
+        if (result.verdict == Verdict::broken && !result.presets.empty())
+            add_values(result, values_in(result, defaults_));
+    }
+
+    Presets values_in(const Result& result, Presets values) const {
+        for (const verify::ChosenPreset& one : result.presets) {
+            for (std::size_t i = 0; i < marks_.size(); ++i) {
+                if (marks_[i] == one.preset) values[i] = one.chosen;
+            }
+        }
+        return values;
+    }
+
+    void add_values(Result& result, const Presets& values) const {
+        std::string text;
+        for (std::size_t i = 0; i < points_.size(); ++i)
+            text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", points_[i].name,
+                                set_points::text_of(points_[i], values[i]));
+        result.reason += fmt::format("{}with {}", result.reason.empty() ? "" : ", ", text);
+    }
+
+    /// What breaks with these values (the table's own: null) and was not known to break with as simple ones.
+    void note_broken(const verify::Report& tried, const Presets* values) {
+        for (const Result& result : tried.results) {
+            // A step that some values do not lead to may be there for others.
+            if (result.verdict != Verdict::broken || result.code == "V001") continue;
+            Result found = result;
+            if (values != nullptr) add_values(found, *values);
+            const auto end = report_.results.end();
+            const auto known = std::find_if(report_.results.begin(), end,
+                                            [&](const Result& r) { return is_same(r, result); });
+            if (known != end) {
+                if (values == nullptr || known->verdict != Verdict::broken) *known = std::move(found);
+                continue;
+            }
+            const auto check = std::find_if(report_.results.begin(), end, [&](const Result& r) {
+                return r.code == result.code && !r.code.empty();
+            });
+            if (check != end && check->verdict == Verdict::proved)
+                *check = std::move(found);
+            else
+                report_.results.insert(check, std::move(found));
+        }
+    }
+
+    std::vector<verify::Property> open_properties() const {
+        std::vector<verify::Property> open;
+        for (const verify::Property& property : properties_) {
+            const bool is_open =
+                std::any_of(report_.results.begin(), report_.results.end(), [&](const Result& result) {
+                    return result.code.empty() && result.name == property.name &&
+                           (result.verdict == Verdict::undecided ||
+                            (marks_.empty() && result.verdict == Verdict::proved));
+                });
+            if (is_open) open.push_back(property);
+        }
+        return open;
+    }
+
+    void try_ends() {
+        const std::uint32_t all_high = (1U << points_.size()) - 1;
+        for (std::uint32_t high = 0; high <= all_high; ++high) {
+            const bool is_end = high == 0 || high == all_high;
+            if (!is_end && points_.size() > kMostCombined) continue;
+            const std::vector<verify::Property> open = open_properties();
+            if (!is_end && open.empty()) continue;
+            Presets values;
+            for (std::size_t i = 0; i < points_.size(); ++i)
+                values.push_back((high >> i & 1U) != 0 ? points_[i].highest : points_[i].lowest);
+            note_broken(verified(values, open, how_), &values);
+        }
+        if (!marks_.empty()) return;
+        for (Result& result : report_.results) {
+            if (result.verdict != Verdict::proved) continue;
+            result.verdict = Verdict::undecided;
+            result.reason = fmt::format(
+                "it holds at the ends of the ranges; between them it is not decided, since a count's range "
+                "goes to {}",
+                kMostPreset);
+        }
+    }
+
+    std::size_t count_of_counts() const {
+        std::size_t product = 1;
+        for (std::size_t i = 0; i < points_.size() && product <= kMostCounts; ++i) {
+            if (is_count(i)) product *= static_cast<std::size_t>(points_[i].highest - points_[i].lowest) + 1;
+        }
+        return product;
+    }
+
+    /// The combination of counts with this number; times are ranges.
+    Presets combination(std::size_t number) const {
+        Presets values = marks_;
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            if (!is_count(i)) continue;
+            const auto many = static_cast<std::size_t>(points_[i].highest - points_[i].lowest) + 1;
+            values[i] = points_[i].lowest + static_cast<std::int32_t>(number % many);
+            number /= many;
+        }
+        return values;
+    }
+
+    /// With single counts more can be decided than with all at once.
+    void try_counts() {
+        const std::size_t count = count_of_counts();
+        std::vector<verify::Property> open = open_properties();
+        if (count < 2 || count > kMostCounts || open.empty()) return;
+        verify::Options options = ranged(false);
+        options.checks = false;
+        std::map<std::string, std::size_t> left_open;
+        for (std::size_t number = 0; number < count && !open.empty(); ++number) {
+            const Presets values = combination(number);
+            const verify::Report tried = verified(values, open, options);
+            note_counts(tried, values);
+            for (const Result& result : tried.results) {
+                const bool is_open = result.verdict == Verdict::undecided;
+                if (is_open) ++left_open[result.name];
+                const bool is_over = result.verdict == Verdict::broken || left_open[result.name] >= kMostOpen;
+                if (is_over) std::erase_if(open, [&](const auto& p) { return p.name == result.name; });
+            }
+        }
+        for (const verify::Property& property : open) {
+            if (left_open[property.name] != 0) continue;
+            for (Result& result : report_.results) {
+                if (!result.code.empty() || result.name != property.name) continue;
+                result.verdict = Verdict::proved;
+                result.reason.clear();
+            }
+        }
+    }
+
+    void note_counts(const verify::Report& tried, const Presets& counts) {
+        for (const Result& result : tried.results) {
+            if (result.verdict != Verdict::broken) continue;
+            Presets values = counts;
+            for (std::size_t i = 0; i < points_.size(); ++i) {
+                if (!is_count(i)) values[i] = defaults_[i];
+            }
+            for (Result& known : report_.results) {
+                if (!is_same(known, result)) continue;
+                known = result;
+                add_values(known, values_in(result, values));
+            }
+        }
+    }
+
+    verify::Report verified(const Presets& values, const std::vector<verify::Property>& properties,
+                            const verify::Options& how) const {
+        std::vector<std::uint8_t> bytes = table_;
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            for (const std::uint16_t place : points_[i].places) {
+                const std::size_t at = place * sequencer::kTermBytes + 6;
+                bytes[at] = static_cast<std::uint8_t>(values[i]);
+                bytes[at + 1] = static_cast<std::uint8_t>(values[i] >> 8);
+            }
+        }
+        const auto loaded = sequencer::Table::load(bytes);
+        return verify::verify(loaded.table, names_, properties, how);
+    }
+
+    static constexpr std::int32_t kMostPreset = 0xFFFF;
+
+    std::vector<std::uint8_t> table_;
+    const verify::Names& names_;
+    const std::vector<verify::Property>& properties_;
+    verify::Options how_;
+    std::vector<SetPoint> points_;  ///< times and counts
+    Presets defaults_;
+    Presets marks_;
+    verify::Report report_;
+};
+
+}  // namespace
+
+verify::Report verify_all_values(std::span<const std::uint8_t> table, const set_points::Record& record,
+                                 const verify::Names& names, const std::vector<verify::Property>& properties,
+                                 const verify::Options& how) {
+    return AllValues(table, record, names, properties, how).run();
+}
+
+}  // namespace nplc::seqc::cli

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "seqc/seqc.h"
+#include "verify/verify.h"
+
+namespace nplc::seqc::lsp {
+
+/// A program to be verified, with the properties of its own.
+struct VerifyJob {
+    std::string uri;           ///< of the program, or of a property file whose text `source` has in it
+    std::int64_t version = 0;  ///< of that document
+    Sources sources;
+};
+
+struct Finding {
+    Span span;
+    std::string code;  ///< V004; empty for a property
+    std::string name;
+    std::string message;
+    enum class Level : std::uint8_t { error, warning, information, hint } level = Level::hint;
+    std::vector<Note> related;  ///< the scans of a counter-example, at their steps
+    std::string scenario;       ///< the counter-example to be rehearsed; empty if there is none
+};
+
+struct VerifyOutcome {
+    std::string uri;
+    std::int64_t version = 0;
+    std::string source;  ///< that was verified
+    std::size_t states = 0;
+    bool complete = false;
+    std::vector<Finding> findings;
+};
+
+/// Takes as long as it takes: not for the thread that an editor waits for.
+VerifyOutcome verify_program(const VerifyJob& job);
+
+}  // namespace nplc::seqc::lsp

@@ -1,0 +1,23 @@
+#include "rehearsal/names.h"
+
+#include <algorithm>
+
+namespace nplc::rehearsal {
+
+sim::Names names_of(const seqc::Symbols& symbols) {
+    sim::Names names;
+    names.motor = symbols.motor;
+    if (symbols.scale)
+        names.machine = {symbols.scale->unit, symbols.scale->length / symbols.scale->revolutions};
+    names.set_points = symbols.set_points;
+    std::copy(symbols.inputs.begin(), symbols.inputs.end(), names.inputs.begin());
+    std::copy(symbols.outputs.begin(), symbols.outputs.end(), names.outputs.begin());
+    for (std::size_t step = 0; step < symbols.steps.size(); ++step) {
+        const auto number = static_cast<std::uint8_t>(step);
+        if (!symbols.steps[step].empty()) names.steps[number] = symbols.steps[step];
+        if (symbols.copy_of[step]) names.copy_of[number] = *symbols.copy_of[step];
+    }
+    return names;
+}
+
+}  // namespace nplc::rehearsal

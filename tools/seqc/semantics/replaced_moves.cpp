@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "semantics/checker.h"
+#include "semantics/commands.h"
+
+namespace nplc::seqc {
+namespace {
+
+using protocol::fastmac::Group;
+using protocol::fastmac::Mode;
+using protocol::fastmac::Number;
+
+enum class Motion : std::uint8_t { none, place, velocity, home, end };
+
+bool is_relative(const Send& send) {
+    if (send.reg != nullptr || select_command(send.command)) return false;
+    const auto number = static_cast<Number>(send.command & 0x1F);
+    return number == Number::positions_relative_p_soll || number == Number::positions_relative_p_fnc;
+}
+
+Motion motion_of(const Send& send) {
+    if (send.reg != nullptr) return Motion::none;
+    if (const auto select = select_command(send.command)) {
+        if (select->mode == Mode::init) return Motion::end;
+        if (select->mode == Mode::velocity)
+            return select->selection.group == Group::v ? Motion::velocity : Motion::none;
+        return select->selection.group == Group::p ? Motion::place : Motion::none;
+    }
+    switch (static_cast<Number>(send.command & 0x1F)) {
+        case Number::clear_v_soll:
+            return Motion::end;
+        case Number::home:
+            return Motion::home;
+        default:
+            return Motion::none;
+    }
+}
+
+/// Homing that another order ends is W014's; a velocity behind a velocity is one motion, and one before HOME
+/// selects.
+bool replaces(Motion later, Motion earlier) {
+    if (earlier == Motion::velocity) return later == Motion::place || later == Motion::end;
+    return earlier == Motion::place;
+}
+
+void judge(const Rule& rule, std::set<std::uint32_t>& said, Report& report) {
+    const Send* move = nullptr;
+    for (const Send& send : rule.action.sends) {
+        const Motion motion = motion_of(send);
+        if (motion == Motion::none) continue;
+        if (move != nullptr && replaces(motion, motion_of(*move))) {
+            if (!said.insert(send.span.offset).second) return;
+            report
+                .add("W031", send.span,
+                     motion == Motion::end
+                         ? "this ends the motion that is ordered before it in the same scan"
+                         : "this replaces the move that is ordered before it in the same scan",
+                     "delete one of the two, or let a step of its own wait until the first is done")
+                .notes.push_back(
+                    {move->span, "the motor gets this order, and the other within some milliseconds"});
+            return;
+        }
+        move = motion == Motion::place || motion == Motion::velocity ? &send : nullptr;
+    }
+}
+
+}  // namespace
+
+/// Relative positions add up, so two of them may be meant.
+void check_replaced_moves(const Plan& plan, Report& report) {
+    bool relative = false;
+    for_each_send(plan, [&](const Send& send) { relative = relative || is_relative(send); });
+    if (relative) return;
+    std::set<std::uint32_t> said;
+    for (const StepPlan& step : plan.steps) {
+        for (const Rule& rule : step.rules) judge(rule, said, report);
+    }
+}
+
+}  // namespace nplc::seqc

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+/// What the characters of a program are.
+namespace nplc::seqc {
+
+inline bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+inline bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+inline bool is_word(char c) {
+    return is_letter(c) || is_digit(c);
+}
+inline bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v';
+}
+/// Zero-width characters, which come with text from web pages.
+inline constexpr auto kInvisible =
+    std::to_array<std::string_view>({"\u200b", "\u200c", "\u200d", "\u2060", "\ufeff", "\u00ad"});
+
+inline bool is_symbol(char c) {
+    return std::string_view(":;,().=+-*/<>").find(c) != std::string_view::npos;
+}
+
+/// A word with foreign letters as it could be written.
+inline std::string spelt_plainly(std::string_view word) {
+    constexpr std::pair<std::string_view, std::string_view> kPlain[] = {
+        {"\u00e4", "ae"}, {"\u00f6", "oe"}, {"\u00fc", "ue"}, {"\u00c4", "Ae"}, {"\u00d6", "Oe"},
+        {"\u00dc", "Ue"}, {"\u00df", "ss"}, {"\u00e9", "e"},  {"\u00e8", "e"},  {"\u00e0", "a"},
+        {"\u00e5", "aa"}, {"\u00f8", "oe"}, {"\u00e6", "ae"}, {"\u00e7", "c"},  {"\u00f1", "n"},
+    };
+    std::string plain(word);
+    for (const auto& [letter, spelling] : kPlain) {
+        for (std::size_t at = plain.find(letter); at != plain.npos; at = plain.find(letter))
+            plain.replace(at, letter.size(), spelling);
+    }
+    const bool done = std::all_of(plain.begin(), plain.end(), is_word);
+    return done ? fmt::format("write {}, or letters a to z, digits and _", plain)
+                : "names are letters a to z, digits and _";
+}
+
+}  // namespace nplc::seqc

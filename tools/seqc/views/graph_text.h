@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nplc::seqc {
+
+/// Inside "...": quotes and backslashes escaped.
+std::string quoted(std::string_view text);
+
+/// For labels in <...>: markup escaped, what is no UTF-8 and what cannot be printed replaced.
+std::string markup(std::string_view text);
+
+/// Lines of about `width` characters, broken before AND and OR and after commas and semicolons only; before
+/// every OR if one line is not enough.
+std::vector<std::string> wrapped(std::string_view text, std::size_t width);
+
+}  // namespace nplc::seqc

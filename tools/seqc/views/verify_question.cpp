@@ -1,0 +1,67 @@
+#include "views/verify_question.h"
+
+#include <cmath>
+#include <string>
+
+#include "views/line_time.h"
+
+namespace nplc::seqc {
+namespace {
+
+constexpr std::uint32_t kBaud = 19'200;
+
+/// On a line without faults, with the polls of driver and gateway.
+std::uint32_t most_time(std::span<const sequencer::MotorOrder> orders) {
+    const LineUse use = line_use(orders, true);
+    return static_cast<std::uint32_t>(std::ceil(milliseconds(use.at_most, kBaud))) + use.messages +
+           verify::Machine::kMostIdle;
+}
+
+/// The motor's queue takes eight orders beside the one under way; a scan with more waits for those before.
+verify::Delay order_time(std::span<const sequencer::MotorOrder> orders, bool translated) {
+    constexpr std::size_t kQueue = 8;
+    constexpr std::uint32_t kLongestWait = 1'000;
+    const bool waits = orders.size() > kQueue;
+    if (translated) return {0, kLongestWait, waits ? kLongestWait : 0};
+    const LineUse use = line_use(orders, true);
+    return {static_cast<std::uint32_t>(milliseconds(use.until_done, kBaud)), most_time(orders),
+            waits ? most_time(orders.first(orders.size() - kQueue)) : 0};
+}
+
+}  // namespace
+
+verify::Names verify_names(const Symbols& symbols) {
+    return {symbols.steps, symbols.inputs, symbols.outputs, symbols.copy_of};
+}
+
+verify::OrderTime order_times(bool translated) {
+    return [translated](std::span<const sequencer::MotorOrder> orders) {
+        return order_time(orders, translated);
+    };
+}
+
+verify::PropertyReading properties_in(const Compilation& program, std::string_view source,
+                                      const verify::Names& names) {
+    std::string text(source);
+    std::size_t at = 0;
+    const auto blank = [&](std::size_t end) {
+        for (; at < end; ++at) {
+            if (text[at] != '\n') text[at] = ' ';
+        }
+    };
+    for (const Span& span : program.properties) {
+        blank(span.offset);
+        at = span.offset + span.length;
+    }
+    blank(text.size());
+    return verify::read_properties(text, names);
+}
+
+std::vector<verify::Allowance> allowances_in(const Compilation& program) {
+    std::vector<verify::Allowance> allowances;
+    for (const Allowance& allowance : program.allowances)
+        allowances.push_back({allowance.code, allowance.step, allowance.reason});
+    return allowances;
+}
+
+}  // namespace nplc::seqc
