@@ -46,7 +46,7 @@ class Readme(unittest.TestCase):
         return path
 
     def run_program(self, *command):
-        return subprocess.run(command, capture_output=True, text=True, timeout=60, check=False, cwd=self.folder.name)
+        return subprocess.run(command, capture_output=True, text=True, check=False, cwd=self.folder.name)
 
 
 class Tutorial(Readme):

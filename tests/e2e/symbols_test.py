@@ -56,7 +56,7 @@ class Case(unittest.TestCase):
             return file.read()
 
     def call(self, *command):
-        return subprocess.run(command, cwd=self.folder.name, capture_output=True, text=True, timeout=120, check=False)
+        return subprocess.run(command, cwd=self.folder.name, capture_output=True, text=True, check=False)
 
     def build(self, *options):
         done = self.call(SEQC, "build", "blink.seq", *options)

@@ -56,7 +56,7 @@ class Case(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def call(self, *arguments):
-        return subprocess.run([PROGRAM, "fmu", *arguments], capture_output=True, text=True, timeout=120, check=False)
+        return subprocess.run([PROGRAM, "fmu", *arguments], capture_output=True, text=True, check=False)
 
     def written(self, *arguments, name="out.fmu", says=""):
         done = self.call("-o", self.path(name), *arguments)

@@ -21,7 +21,7 @@ LETTER = 0.45  # of the font's size: what a letter of Helvetica takes at the lea
 
 
 def draw(file):
-    run = subprocess.run([SEQC, "graph", str(file)], capture_output=True, timeout=300)
+    run = subprocess.run([SEQC, "graph", str(file)], capture_output=True)
     assert run.returncode == 0, run.stderr.decode()
     return ElementTree.fromstring(run.stdout)
 

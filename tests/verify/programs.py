@@ -27,7 +27,7 @@ class Programs:
         rows = [f"{s['dt_ms']},{s['inputs']},{s['inpos']},{s['error']}" for s in course]
         stimulus = self.path("replay.csv", ("\n".join(["dt_ms,inputs,inpos,error", *rows]) + "\n").encode())
         done = subprocess.run([self.nanoplc_sim, "scan", table, "--stimulus", stimulus],
-                              capture_output=True, text=True, timeout=300, check=True)
+                              capture_output=True, text=True, check=True)
         played = [[int(v) for v in line.split(",")[1:5]] for line in done.stdout.split("\n")[1:-1]]
         assert len(played) == len(course)
         for row, scan in zip(played, course):

@@ -19,8 +19,7 @@ import programs
 class Courses(programs.Programs):
     def verify(self, seqc, program, *options, **more):
         return subprocess.run([seqc, "verify", program, "--property", self.path("p.prop"), "--scenario", self.path("out.scn"),
-                               "--stimulus", self.path("out.csv"), "--trace", self.path("trace.csv"), *options], capture_output=True, text=True, timeout=300,
-                              check=False, **more)
+                               "--stimulus", self.path("out.csv"), "--trace", self.path("trace.csv"), *options], capture_output=True, text=True, check=False, **more)
 
     def check(self, program):
         subprocess.run([self.seqc, "build", program, "--quiet", "-o", self.path("t.bin")], check=True)
@@ -37,13 +36,13 @@ class Courses(programs.Programs):
             played = result["scenario"]
             assert played["plays"] is not None, played
             told = subprocess.run([self.nanoplc_sim, "run", program, "--scenario", played["file"], "--quiet"],
-                                  capture_output=True, text=True, timeout=300, check=False)
+                                  capture_output=True, text=True, check=False)
             assert told.returncode == (0 if played["plays"] else 1), (program, name, told.stdout)
             with open(played["file"], encoding="utf-8") as file:
                 assert ("cannot follow" in file.readline()) != played["plays"], (program, name)
             stimulus = os.path.splitext(played["file"])[0] + ".csv"
             scans = subprocess.run([self.nanoplc_sim, "scan", self.path("t.bin"), "--stimulus", stimulus],
-                                   capture_output=True, text=True, timeout=300, check=True).stdout.splitlines()
+                                   capture_output=True, text=True, check=True).stdout.splitlines()
             assert scans[-1].split(",")[1] == str(number), (program, name, scans[-1])
             counts[0 if played["plays"] else 1] += 1
         self.draw()
@@ -53,7 +52,7 @@ class Courses(programs.Programs):
         """The first course as a picture."""
         plot = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools", "plot_trace")
         subprocess.run([sys.executable, "-B", plot, self.path("trace.csv"), "-o", self.path("t.svg"), "--sym", self.path("t.sym")],
-                       check=True, timeout=60)
+                       check=True)
         with open(self.path("t.svg"), encoding="utf-8") as file:
             picture = file.read()
         assert picture.startswith("<svg") and ">step<" in picture and "P_IST" not in picture

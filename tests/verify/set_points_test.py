@@ -45,7 +45,7 @@ class Bench(rehearse_test.Rehearsals):
 
     def proved(self, program, names):
         """Of the properties that the program declares."""
-        done = subprocess.run([self.seqc, "verify", program, "--json"], capture_output=True, text=True, timeout=900, check=False)
+        done = subprocess.run([self.seqc, "verify", program, "--json"], capture_output=True, text=True, check=False)
         assert done.returncode in (0, 1, 4), f"{program}: exit code {done.returncode}: {done.stderr}"
         return {r["name"] for r in json.loads(done.stdout)["results"] if r["name"] in names and r["verdict"] == "proved"}
 

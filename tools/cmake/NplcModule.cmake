@@ -24,6 +24,13 @@ option(NPLC_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
 option(NPLC_UNITY "Compile several files of a tool or a test at once: half the time for a build from nothing" ON)
 option(NPLC_COMMON_HEADERS "Compile what most host files include once (g++ only)" ON)
 
+# A second checkout finds what the first one compiled. Precompiled headers need the two sloppinesses.
+find_program(NPLC_CCACHE ccache)
+if(NPLC_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}"
+                                  CCACHE_SLOPPINESS=pch_defines,time_macros "${NPLC_CCACHE}")
+endif()
+
 if(CMAKE_SYSTEM_NAME STREQUAL "Generic")
   set(NPLC_HOSTED OFF)
 else()

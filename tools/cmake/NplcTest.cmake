@@ -1,18 +1,47 @@
-# nplc_test(NAME SOURCES ... DEPENDS ... [TIER quick|full] [FAST])
+# nplc_test(NAME SOURCES ... DEPENDS ... [PART part] [FAST])
 #
 # Makes program test_NAME of GoogleTest cases and gives every case to CTest as NAME.Suite.Case; with sanitizers, where
-# each start takes long, all of them as two tests NAME.1 and NAME.2. Tier `quick` (the default) is what one runs while working; `full`
-# cases run in the full test run only. Tests are optimised little, which halves the time to compile them; FAST ones,
-# which compute much themselves, are optimised as the rest is, and begin first, so that none is left alone at the end. Built for another processor they are no tests of CTest's:
-# tests/emulated runs them.
+# each start takes long, all of them as two tests NAME.1 and NAME.2. PART is the part of the full run (tests/README.md) that it
+# belongs to: `gate` if none is said, and `realtime` in its place where the sources depend on when something happens. Tests are
+# optimised little, which halves the time to compile them; FAST ones, which compute much themselves, are optimised as the rest is.
+# Built for another processor they are no tests of CTest's: tests/emulated runs them.
 
-# tools/test runs four tests a core, since many wait for real time. What computes all the time says PROCESSORS, what builds
-# with all cores ${NPLC_ALL_PLACES}.
+# Parts run a test a core. What builds, or must not share the machine, says PROCESSORS ${NPLC_ALL_PLACES}.
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
-set(NPLC_CORE 4)
+set(NPLC_CORE 1)
 set(NPLC_PARTS 2)  # of a test program with sanitizers
-set(NPLC_LONG_FIRST 200)  # COST of what computes for long
-math(EXPR NPLC_ALL_PLACES "${NPLC_CORE} * ${cores}")
+set(NPLC_ALL_PLACES ${cores})
+
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+
+# nplc_part(RESULT PART SOURCE...)
+#
+# PART, or `realtime` if PART is `gate` or `thorough` and the sources depend on when something happens.
+function(nplc_part result part)
+  if(part STREQUAL "gate" OR part STREQUAL "thorough")
+    execute_process(COMMAND "${Python3_EXECUTABLE}" -B "${PROJECT_SOURCE_DIR}/tools/cmake/real_time.py" ${ARGN}
+                    WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}" OUTPUT_VARIABLE why COMMAND_ERROR_IS_FATAL ANY)
+    if(why)
+      set(part realtime)
+    endif()
+  endif()
+  set(${result} ${part} PARENT_SCOPE)
+endfunction()
+
+# nplc_properties_of_part(RESULT PART)
+#
+# The verdict of the gate must not depend on speed: its limit ends what hangs, nothing else. Tests in real time run one at a time.
+function(nplc_properties_of_part result part)
+  set(properties LABELS ${part} TIMEOUT 900)
+  if(part STREQUAL "gate" OR part STREQUAL "thorough")
+    set(properties LABELS ${part} TIMEOUT 1800)
+  elseif(part STREQUAL "realtime")
+    set(properties LABELS ${part} TIMEOUT 900 RESOURCE_LOCK real_time)
+  elseif(part STREQUAL "long")
+    set(properties LABELS ${part} TIMEOUT 7200)
+  endif()
+  set(${result} ${properties} PARENT_SCOPE)
+endfunction()
 
 find_package(GTest)
 if(NOT GTest_FOUND)
@@ -31,9 +60,9 @@ target_compile_options(nplc_test_headers PRIVATE $<$<CONFIG:Release>:-Og> -fpch-
 add_custom_target(unit_tests)
 
 function(nplc_test name)
-  cmake_parse_arguments(ARG "FAST" "TIER" "SOURCES;DEPENDS" ${ARGN})
-  if(NOT ARG_TIER)
-    set(ARG_TIER quick)
+  cmake_parse_arguments(ARG "FAST" "PART" "SOURCES;DEPENDS" ${ARGN})
+  if(NOT ARG_PART)
+    set(ARG_PART gate)
   endif()
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} nplc_options GTest::gtest_main)
@@ -47,45 +76,45 @@ function(nplc_test name)
   if(CMAKE_CROSSCOMPILING)
     return()
   endif()
-  set(cost 0)
-  if(ARG_FAST OR ARG_TIER STREQUAL "full")
-    set(cost ${NPLC_LONG_FIRST})
-  endif()
+  nplc_part(part ${ARG_PART} ${ARG_SOURCES})
+  nplc_properties_of_part(properties ${part})
   if(NPLC_SANITIZE)
-    foreach(part RANGE 1 ${NPLC_PARTS})
-      math(EXPR index "${part} - 1")
-      add_test(NAME ${name}.${part} COMMAND test_${name} --gtest_brief=1)
-      set_tests_properties(${name}.${part} PROPERTIES LABELS ${ARG_TIER} TIMEOUT 1200 COST ${cost}
+    foreach(shard RANGE 1 ${NPLC_PARTS})
+      math(EXPR index "${shard} - 1")
+      add_test(NAME ${name}.${shard} COMMAND test_${name} --gtest_brief=1)
+      set_tests_properties(${name}.${shard} PROPERTIES ${properties} TIMEOUT 1800
                            ENVIRONMENT "GTEST_TOTAL_SHARDS=${NPLC_PARTS};GTEST_SHARD_INDEX=${index}")
     endforeach()
     return()
   endif()
-  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES
-    PROPERTIES LABELS ${ARG_TIER} TIMEOUT 600 COST ${cost})
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 1800 NO_PRETTY_VALUES
+    PROPERTIES ${properties})
 endfunction()
 
-# nplc_script_test(NAME SCRIPT [ARGUMENT...] [TIER quick|full] [SPLIT])
+# nplc_script_test(NAME SCRIPT [ARGUMENT...] [PART part] [SPLIT])
 #
-# Gives tests/FOLDER/SCRIPT.py ARGUMENT... to CTest as NAME. SPLIT: each of its cases as a test of its own,
-# NAME.Class.test, named to the script behind its arguments. Those wait most of their time, so they begin early.
+# Gives tests/FOLDER/SCRIPT.py ARGUMENT... to CTest as NAME; PART as above. SPLIT: each of its cases as a test of its own,
+# NAME.Class.test, named to the script behind its arguments.
 function(nplc_script_test name script)
-  cmake_parse_arguments(ARG "SPLIT" "TIER" "" ${ARGN})
-  if(NOT ARG_TIER)
-    set(ARG_TIER quick)
+  cmake_parse_arguments(ARG "SPLIT" "PART" "" ${ARGN})
+  if(NOT ARG_PART)
+    set(ARG_PART gate)
   endif()
   set(path "${CMAKE_CURRENT_SOURCE_DIR}/${script}.py")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${path}")
+  nplc_part(part ${ARG_PART} "${path}")
+  nplc_properties_of_part(properties ${part})
   set(command Python3::Interpreter -B "${path}" ${ARG_UNPARSED_ARGUMENTS})
   if(NOT ARG_SPLIT)
     add_test(NAME ${name} COMMAND ${command})
-    set_tests_properties(${name} PROPERTIES LABELS ${ARG_TIER} TIMEOUT 600)
+    set_tests_properties(${name} PROPERTIES ${properties})
     return()
   endif()
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${path}")
   execute_process(COMMAND "${Python3_EXECUTABLE}" -B "${PROJECT_SOURCE_DIR}/tools/cmake/list_cases.py" "${path}"
                   OUTPUT_VARIABLE cases OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
   string(REPLACE "\n" ";" cases "${cases}")
   foreach(case IN LISTS cases)
     add_test(NAME ${name}.${case} COMMAND ${command} ${case})
-    set_tests_properties(${name}.${case} PROPERTIES LABELS ${ARG_TIER} TIMEOUT 600 COST 100)
+    set_tests_properties(${name}.${case} PROPERTIES ${properties})
   endforeach()
 endfunction()

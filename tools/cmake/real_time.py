@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""Prints why a test depends on when something happens, a line, or nothing if it does not.
+
+usage: real_time.py SOURCE...
+
+Looks at the sources and at what they import or include from their own folder and from tests/.
+"""
+
+import os
+import re
+import sys
+
+PYTHON = {"asyncio", "pty", "select", "selectors", "socket", "socketserver", "threading", "time"}
+IMPORT = re.compile(r"^(?:import|from) (\w+)", re.MULTILINE)
+CPP = re.compile(r"<(?:thread|sys/socket\.h|poll\.h|sys/epoll\.h|pty\.h|pthread\.h|sys/un\.h)>|\bopenpty\b|\bposix_openpt\b|\bsleep_for\b"
+                 r"|\bnanosleep\b|\busleep\b|\b(?:steady|system|high_resolution)_clock::now\b|\"(?:hal_)?linux/")
+INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
+
+
+def neighbour(path, name):
+    """The file of that name beside it, or in another folder of the tests."""
+    folder = os.path.dirname(path)
+    tests = os.path.dirname(folder)
+    for place in [folder, *sorted(entry.path for entry in os.scandir(tests) if entry.is_dir())]:
+        candidate = os.path.join(place, name)
+        if os.path.isfile(candidate):
+            return candidate
+    return None
+
+
+def reason(path, seen):
+    if path in seen:
+        return None
+    seen.add(path)
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    name = os.path.basename(path)
+    if path.endswith(".py"):
+        imported = IMPORT.findall(text)
+        found = sorted(PYTHON.intersection(imported))
+        if found:
+            return f"{name} imports {found[0]}"
+        if "timeout=" in text:
+            return f"{name} sets a deadline"
+        used = [neighbour(path, module + ".py") for module in imported]
+    else:
+        found = CPP.search(text)
+        if found:
+            return f"{name} uses {found[0]}"
+        used = [neighbour(path, header) for header in INCLUDE.findall(text)]
+        used += [header.removesuffix(".h") + ".cpp" for header in used if header and os.path.isfile(header.removesuffix(".h") + ".cpp")]
+    for other in used:
+        why = other and reason(other, seen)
+        if why:
+            return why
+    return None
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    seen = set()
+    for path in sys.argv[1:]:
+        why = reason(os.path.abspath(path), seen)
+        if why:
+            print(why)
+            return
+
+
+if __name__ == "__main__":
+    main()
