@@ -8,6 +8,12 @@ namespace nplc::gateway {
 
 using After = HoldControl::After;
 
+namespace {
+
+constexpr base::Microseconds kLongestSettling{500'000};  ///< of the last orders before a hold
+
+}  // namespace
+
 Gateway::Gateway(const Ports& ports, const Settings& settings, StartCause cause)
     : watchdog_(ports.watchdog),
       motor_(ports.motor),
@@ -22,7 +28,7 @@ Gateway::Gateway(const Ports& ports, const Settings& settings, StartCause cause)
 void Gateway::block_start(SafeReason reason) {
     permission_.end_start_up();
     block(reason);
-    motor_.stop();
+    stop_motor();
 }
 
 void Gateway::block(SafeReason reason) {
@@ -110,6 +116,7 @@ base::Status Gateway::run_until(After hold_after) {
     if (run_state_ != RunState::stopped && run_state_ != RunState::held) return base::Error::not_stopped;
     if (!enabled()) return base::Error::not_enabled;
     if (needs_proof()) return base::Error::no_proof;
+    if (stop_unconfirmed()) return base::Error::stop_unconfirmed;
     if (run_state_ == RunState::stopped) {
         scan_.reset();
         stop_ordered_ = false;
@@ -145,6 +152,7 @@ void Gateway::make_safe(base::Instant now) {
     signals_.read(now);
     expire_forces(now);
     note_motor_fault();
+    watch_stop();
     serve_sequence(now);
     show_outputs();
     motor_.begin_orders(now);
@@ -183,7 +191,7 @@ void Gateway::start_when_ready(base::Instant now) {
         return;
     }
     if (settings_.on_start == OnStart::stop && !stop_ordered_) {
-        motor_.stop();
+        stop_motor();
         stop_ordered_ = true;
     }
     if (!motor_.settled()) return;
@@ -191,6 +199,7 @@ void Gateway::start_when_ready(base::Instant now) {
     settings_.on_start == OnStart::stop ? scan_.mode().set_passive() : scan_.mode().forget();
     stop_after_loss_ = false;
     scan_.start(now);
+    hold_asked_ = now;
     polls_.clear_worst();
     note(Event::started);
     if (hold_.breaks_at(state().step)) begin_hold(true, now);
@@ -199,6 +208,11 @@ void Gateway::start_when_ready(base::Instant now) {
 /// Only a finished scan feeds the watchdog.
 void Gateway::scan(base::Instant now) {
     scan_.count_timer(now);
+    if (!hold_.is_at_once()) hold_asked_ = now;
+    if (hold_.is_at_once() && scan_.is_under_way() && settles_too_long(now)) {
+        scan_.abort();
+        scan_.mode().forget();
+    }
     if (hold_.is_at_once() && !scan_.is_under_way()) return begin_hold(false, now);
     const SequenceScan::Result result = scan_.poll(inputs(), now);
     if (result == SequenceScan::Result::waiting) {
@@ -230,14 +244,17 @@ void Gateway::begin_hold(bool breakpoint, base::Instant now) {
     run_state_ = RunState::holding;
 }
 
-/// The orders of the last scan first, then the stop, which would drop them.
+/// The orders of the last scan first, then the stop, which would drop them. What keeps the motor busy for
+/// longer than kLongestSettling is dropped, and the sequence cannot go on from there.
 void Gateway::hold_when_settled(base::Instant now) {
     if (!motor_.settled()) {
-        if (scan_.waits_too_long(settings_.longest_wait, now)) enter_safe_state(SafeReason::motor_stuck, now);
-        return;
+        if (scan_.waits_too_long(settings_.longest_wait, now))
+            return enter_safe_state(SafeReason::motor_stuck, now);
+        if (stop_ordered_ || !settles_too_long(now)) return;
+        scan_.mode().forget();
     }
     if (!stop_ordered_) {
-        motor_.stop();
+        stop_motor();
         stop_ordered_ = true;
         scan_.note_progress(now);
         return;
@@ -257,7 +274,7 @@ void Gateway::watch_link(base::Instant now) {
         return;
     }
     if (stop_after_loss_) {
-        motor_.stop();
+        stop_motor();
         stop_after_loss_ = false;
     }
     if (link == motor::Link::up && safe_reason() == SafeReason::link_down) {
@@ -278,7 +295,26 @@ void Gateway::enter_safe_state(SafeReason reason, base::Instant now) {
     scan_.abort();
     hold_.set(After::never);
     set_safe_reason(reason, now);
+    stop_motor();
+    stop_watched_ = true;
+}
+
+void Gateway::stop_motor() {
+    if (!stop_unconfirmed()) stop_asked_ = uptime();
     motor_.stop();
+}
+
+void Gateway::watch_stop() {
+    if (!stop_watched_ || !motor_.stop_confirmed()) return;
+    stop_watched_ = false;
+    if (settings_.virtual_motor) return;
+    constexpr std::uint32_t kMost = UINT16_MAX;
+    note(Event::stop_confirmed, static_cast<std::uint16_t>(std::min(uptime() - stop_asked_, kMost)));
+}
+
+void Gateway::give_up_stop() {
+    stop_watched_ = false;
+    motor_.give_up_stop();
 }
 
 void Gateway::set_safe_reason(SafeReason reason, base::Instant now) {
@@ -340,6 +376,10 @@ base::Instant Gateway::next_poll(base::Instant now, base::Instant motors) {
     return next;
 }
 
+base::Instant Gateway::settling_ends() const {
+    return hold_asked_ + kLongestSettling + base::Microseconds(1);
+}
+
 base::Instant Gateway::next_work(base::Instant now) const {
     switch (run_state_) {
         case RunState::stopped:
@@ -352,10 +392,12 @@ base::Instant Gateway::next_work(base::Instant now) const {
         }
         case RunState::holding:
             if (motor_.settled()) return now;
-            return scan_.patience(settings_.longest_wait);
+            return std::min(scan_.patience(settings_.longest_wait),
+                            stop_ordered_ ? base::kNever : settling_ends());
         case RunState::running:
-            if (hold_.is_at_once() && !scan_.is_under_way()) return now;
-            return scan_.next_poll(inputs(), settings_.longest_wait, now);
+            if (!hold_.is_at_once()) return scan_.next_poll(inputs(), settings_.longest_wait, now);
+            if (!scan_.is_under_way()) return now;
+            return std::min(settling_ends(), scan_.next_poll(inputs(), settings_.longest_wait, now));
     }
     return now;
 }

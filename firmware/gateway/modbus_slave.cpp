@@ -64,7 +64,8 @@ constexpr std::uint32_t kStatusOfDiscrete[map::kDiscretes] = {0,
                                                               kEnabled,
                                                               StatusBit::kUpload,
                                                               kSettingsDiffer,
-                                                              kCannotGoOn};
+                                                              StatusBit::kCannotGoOn,
+                                                              StatusBit::kStopUnconfirmed};
 
 constexpr std::uint8_t kCoilCommands[] = {1, 2, 3, 6, 5, 4};  ///< run, stop, safe, hold, step, scan
 

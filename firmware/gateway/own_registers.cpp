@@ -90,6 +90,8 @@ std::uint32_t OwnRegisters::table_value(std::uint8_t reg) const {
             return gateway_.polls().worst();
         case LATE_POLLS:
             return gateway_.polls().late();
+        case STOP_SINCE:
+            return gateway_.stop_unconfirmed() ? gateway_.stop_asked() : 0;
         case COMMAND:
             return last_command_;
         case FORCE_IN:
@@ -194,7 +196,8 @@ std::uint32_t OwnRegisters::status() const {
            bit(has_stored && !tables_.stored_is_active(), kStoredDiffers) |
            bit(settings_.differ(), kSettingsDiffer) | bit(gateway_.enabled(), kEnabled) |
            bit(gateway_.settings().virtual_motor, kVirtualMotor) | bit(gateway_.has_single(), kSingle) |
-           bit(gateway_.run_state() == RunState::held && !gateway_.can_go_on(), kCannotGoOn);
+           bit(gateway_.run_state() == RunState::held && !gateway_.can_go_on(), kCannotGoOn) |
+           bit(gateway_.stop_unconfirmed(), kStopUnconfirmed);
 }
 
 void OwnRegisters::take_fired() {

@@ -60,6 +60,8 @@ base::Instant JvlMotor::next_poll(base::Instant now) const {
     if (has_work()) return now;
     if (reply_until_) next = std::min(next, *reply_until_);
     if (phase_ == Phase::down && link_.framing_error_seen()) next = std::min(next, next_blind_);
+    if (phase_ == Phase::down && stop_wanted_ && link_.has_left())
+        next = std::min(next, blind_stop_.is_under_way() ? now : blind_stop_.due());
     return next;
 }
 
@@ -75,6 +77,7 @@ void JvlMotor::lose_link(base::Instant now) {
     sending_ = Sending::nothing;
     phase_ = Phase::down;
     link_.forget(now);
+    blind_stop_.allow(now);
 }
 
 void JvlMotor::on_accepted(base::Instant now) {
@@ -125,6 +128,7 @@ void JvlMotor::on_executed(const Order& order, base::Instant now) {
 void JvlMotor::start_up(base::Instant now) {
     switch (phase_) {
         case Phase::down:
+            if (send_blind_stop(now)) return;
             if (link_.known()) {
                 link_.synchronize();
                 phase_ = Phase::look;
@@ -149,6 +153,17 @@ void JvlMotor::start_up(base::Instant now) {
         case Phase::up:
             return;
     }
+}
+
+/// True while the line is taken by it. Before the first status ever the link counts as lost after `silence`.
+bool JvlMotor::send_blind_stop(base::Instant now) {
+    if (!blind_stop_.is_allowed()) blind_stop_.allow(now + link_.silence());
+    if (!link_.has_left()) return blind_stop_.is_under_way();
+    if (!blind_stop_.is_under_way() && (!stop_wanted_ || !blind_stop_.is_due(now))) return false;
+    const auto part = blind_stop_.take_part(registers_are_32_bit_, now);
+    link_.forget(now);
+    if (part.size != 0) link_.send_blind(part.view(), now);
+    return part.size != 0;
 }
 
 std::uint8_t JvlMotor::safety_command() const {
@@ -253,6 +268,7 @@ void JvlMotor::stop() {
     orders_.discard_waiting();
     access_.fail_waiting();
     stop_wanted_ = true;
+    blind_stop_.begin_anew();
 }
 
 bool JvlMotor::settled() const {

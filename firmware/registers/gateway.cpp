@@ -68,6 +68,8 @@ constexpr std::array kMap{
         "sleeping board was to wake"},
     Row{LATE_POLLS, 1, "LATE_POLLS", kRead,
         "polls later than the setting poll_limit since the start, while the sequence was not stopped"},
+    Row{STOP_SINCE, 1, "STOP_SINCE", kRead,
+        "UPTIME when the motor was told to stop, while it has not confirmed that; else 0"},
     Row{COMMAND, 1, "COMMAND", Access::write, "see Commands below; reads the last one"},
     Row{FORCE_IN, 1, "FORCE_IN", kBoth, "bits 5..0 levels, bits 13..8 which inputs are forced; 0: none"},
     Row{FORCE_OUT, 1, "FORCE_OUT", kBoth, "bits 3..0 levels, bits 11..8 which outputs are forced; 0: none"},

@@ -50,6 +50,8 @@ struct Board final : ports::DigitalInputs,
     bool can_execute(const motor::Order&) const override { return true; }
     void send(const motor::Order&) override {}
     void stop() override {}
+    bool stop_confirmed() const override { return true; }
+    void give_up_stop() override {}
     bool begin_access(const motor::Access& access) override {
         require(!access.is_write || may_write());
         require(access.reg != 0);

@@ -32,6 +32,8 @@ struct BenchBoard final : ports::DigitalInputs,
         if (room > 0) --room;
     }
     void stop() override { ++stops; }
+    bool stop_confirmed() const override { return stop_is_confirmed; }
+    void give_up_stop() override { stop_is_confirmed = true; }
     bool begin_access(const motor::Access& wanted) override {
         if (access != motor::AccessState::none && access != motor::AccessState::done &&
             access != motor::AccessState::failed)
@@ -90,6 +92,7 @@ struct BenchBoard final : ports::DigitalInputs,
     int missing_register = -1;
     int orders_seen = 0;
     bool is_settled = true;
+    bool stop_is_confirmed = true;
     bool in_pos = false;
     bool err = false;
     std::uint8_t fault = 0;

@@ -243,5 +243,84 @@ TEST_F(Hold, AVirtualMotorIsLeftAlone) {
     expect_mode(gateway, 0);
 }
 
+/// Orders that the motor does not take for `waits`, then a hold.
+struct BusyMotor : Hold {
+    void hold_while_busy(Gateway& gateway) {
+        start(gateway, table(kVelocity));
+        board.is_settled = false;
+        board.stops = 0;
+        ASSERT_TRUE(gateway.hold().ok());
+    }
+};
+
+TEST_F(BusyMotor, IsStoppedAfter500msAndCannotGoOn) {
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    hold_while_busy(gateway);
+    board.run(gateway, 499ms);
+    EXPECT_EQ(board.stops, 0) << "its last orders may still be executed";
+    board.run(gateway, 3ms);
+    EXPECT_EQ(board.stops, 1);
+    board.is_settled = true;
+    board.run(gateway, 1ms);
+    EXPECT_EQ(gateway.run_state(), RunState::held);
+    EXPECT_FALSE(gateway.can_go_on());
+    EXPECT_EQ(gateway.run().error(), base::Error::cannot_go_on);
+}
+
+TEST_F(BusyMotor, ThatTakesItsOrdersIsHeldAsEver) {
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    hold_while_busy(gateway);
+    board.run(gateway, 490ms);
+    board.is_settled = true;
+    board.run(gateway, 2ms);
+    EXPECT_EQ(board.stops, 1);
+    EXPECT_EQ(gateway.run_state(), RunState::held);
+    EXPECT_TRUE(gateway.can_go_on());
+}
+
+// In the middle of a scan, with no room for the next order.
+TEST_F(BusyMotor, InTheMiddleOfAScanIsStoppedAfter500msToo) {
+    settings.longest_wait = 60'000'000us;
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    ASSERT_TRUE(gateway.load(table(kVelocity), board.now).ok);
+    board.room = 0;
+    board.run(gateway, 10ms);
+    ASSERT_EQ(gateway.run_state(), RunState::running);
+    ASSERT_EQ(gateway.state().step, 0) << "its order waits for room";
+    board.stops = 0;
+    ASSERT_TRUE(gateway.hold().ok());
+    board.run(gateway, 499ms);
+    EXPECT_EQ(board.stops, 0);
+    board.run(gateway, 5ms);
+    EXPECT_EQ(board.stops, 1);
+    EXPECT_EQ(gateway.run_state(), RunState::held);
+    EXPECT_FALSE(gateway.can_go_on());
+}
+
+// What the motor has not confirmed refuses a run, from held as from stopped.
+TEST_F(Hold, IsNotLeftBeforeTheStopIsConfirmed) {
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    start(gateway, table(kVelocity));
+    hold(gateway);
+    board.stop_is_confirmed = false;
+    EXPECT_TRUE(gateway.stop_unconfirmed());
+    EXPECT_EQ(gateway.run().error(), base::Error::stop_unconfirmed);
+    EXPECT_EQ(gateway.step_once().error(), base::Error::stop_unconfirmed);
+    gateway.stop(board.now);
+    EXPECT_EQ(gateway.run().error(), base::Error::stop_unconfirmed);
+    board.stop_is_confirmed = true;
+    EXPECT_TRUE(gateway.run().ok());
+}
+
+TEST_F(Hold, OfAVirtualMotorHasNothingToConfirm) {
+    settings.virtual_motor = true;
+    board.stop_is_confirmed = false;
+    Gateway gateway(board.ports(), settings, StartCause::power_up);
+    start(gateway, table(kVelocity));
+    EXPECT_FALSE(gateway.stop_unconfirmed());
+    gateway.stop(board.now);
+    EXPECT_TRUE(gateway.run().ok());
+}
+
 }  // namespace
 }  // namespace nplc::gateway

@@ -390,7 +390,7 @@ TEST_F(PortSafety, AMotorThatCannotBeStoppedEndsTheHoldInTheSafeState) {
     start_table();
     ASSERT_TRUE(command(Command::hold));
     board.is_settled = false;
-    run(1100ms);
+    run(1600ms);  // 500 ms for its last orders, longest_wait for the stop
     EXPECT_EQ(state(), reg::RunState::stopped);
     EXPECT_EQ(read(reg::SAFE_REASON), 4U) << "motor stuck";
 }

@@ -184,7 +184,7 @@ TEST_P(UserPortTest, PiecesWithoutABeginningAreRefused) {
 }
 
 TEST_P(UserPortTest, CommandsAndValuesThatDoNotExistAreRefused) {
-    for (const std::uint32_t value : {0U, 10U, 15U, 20U, 255U, 256U, 0x0101U}) {
+    for (const std::uint32_t value : {0U, 11U, 15U, 20U, 255U, 256U, 0x0101U}) {
         EXPECT_FALSE(write(reg::COMMAND, value));
         EXPECT_EQ(result(), result_of(Result::bad_value, reg::COMMAND)) << value;
     }

@@ -99,12 +99,48 @@ TEST_F(LostLink, ErrorStaysUntilResetErrorIsExecuted) {
     EXPECT_TRUE(driver.in_position());
 }
 
-TEST_F(LostLink, AStopOrderedMeanwhileIsTheFirstThingDelivered) {
+// Blind: 7Fh 7Fh FFh FFh, MODE_REG := 0 twice, 7Eh three times (001 §5.2.2: 60h, register 2, word 0).
+TEST_F(LostLink, AStopOrderedMeanwhileIsSentBlindAndIsTheFirstThingDelivered) {
     lose();
+    EXPECT_TRUE(driver.stop_confirmed()) << "none was ordered";
     driver.stop();
+    for (int i = 0; i < 45; ++i) motor.silence();
+    EXPECT_EQ(line.take(), (Bytes{0x7F, 0x7F, 0xFF, 0xFF,                                //
+                                  0x60, 0x60, 0x60, 0x02, 0xFD, 0x00, 0xFF, 0x00, 0xFF,  //
+                                  0x60, 0x60, 0x60, 0x02, 0xFD, 0x00, 0xFF, 0x00, 0xFF,  //
+                                  0x7E, 0x7E, 0x7E}));
+    EXPECT_FALSE(driver.stop_confirmed());
     restart();
+    EXPECT_FALSE(driver.stop_confirmed()) << "the link is up; the stop was not taken yet";
     exchange({0xFF, 0xFF}, 0x10, 0x98);
     exchange({0x60, 0x60, 0x60, 0x02, 0xFD, 0x00, 0xFF, 0x00, 0xFF}, 0x98, 0x18);
+    EXPECT_TRUE(driver.stop_confirmed());
+}
+
+// At a start, too, somebody is listened for first.
+TEST(Start, NothingIsSentBlindBeforeTheLinkCountsAsLost) {
+    ScriptedLine line;
+    JvlMotor driver{line, {}};
+    Script<JvlMotor> motor{line, driver};
+    driver.stop();
+    for (int i = 0; i < 38; ++i) motor.silence();  // 19.8 ms
+    EXPECT_TRUE(line.take().empty());
+    for (int i = 0; i < 5; ++i) motor.silence();  // 22.4 ms
+    EXPECT_FALSE(line.take().empty());
+}
+
+// A motor in step that does not take the stop: nothing is sent blind while the link counts as up.
+TEST_F(MotorTest, NothingIsSentBlindWhileTheLinkIsUp) {
+    start();
+    driver.stop();
+    exchange({0x7F, 0x7F}, 0x80, 0x08);
+    for (int i = 0; i < 100; ++i) {
+        motor.hear(0x08);
+        if (driver.link() == Link::up) continue;
+        break;
+    }
+    for (const std::uint8_t byte : line.take()) EXPECT_NE(byte, 0x7F);
+    EXPECT_FALSE(driver.stop_confirmed());
 }
 
 TEST_F(MotorTest, AnUnconfirmedWriteIsALostLink) {

@@ -250,7 +250,8 @@ TEST_F(WorldRun, OrdersThatAreGivenUpAreNotOnTheirWay) {
     ASSERT_TRUE(run_until([&] { return !world_.on_their_way().empty(); }, 1s));
     world_.gateway(action::Gateway::stop);
     EXPECT_LE(world_.on_their_way().size(), 1U) << "only what is on the line already";
-    ASSERT_TRUE(run_until([&] { return world_.on_their_way().empty(); }, 2s));
+    ASSERT_TRUE(run_until([&] { return !world_.gateway().stop_unconfirmed(); }, 2s));
+    EXPECT_TRUE(world_.on_their_way().empty());
     world_.gateway(action::Gateway::run);
     ASSERT_TRUE(run_until([&] { return !world_.on_their_way().empty(); }, 3s));
     EXPECT_EQ(world_.on_their_way(), (std::deque<std::size_t>{4, 5, 6, 7}));
@@ -364,6 +365,9 @@ TEST_F(WorldRun, TheGatewayCanBeStoppedRunAndRestarted) {
     world_.gateway(action::Gateway::stop);
     EXPECT_FALSE(world_.take_snapshot().running);
     EXPECT_EQ(world_.gateway().safe_reason(), gateway::SafeReason::stop_command);
+    world_.gateway(action::Gateway::run);
+    EXPECT_FALSE(world_.take_snapshot().running) << "the motor has not confirmed the stop yet";
+    ASSERT_TRUE(run_until([&] { return !world_.gateway().stop_unconfirmed(); }, world_.now() + 1s));
     world_.gateway(action::Gateway::run);
     EXPECT_EQ(step(), 0);
     ASSERT_TRUE(run_until([&] { return step() == 1; }, world_.now() + 1s));

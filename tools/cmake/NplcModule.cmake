@@ -24,9 +24,10 @@ option(NPLC_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
 option(NPLC_UNITY "Compile several files of a tool or a test at once: half the time for a build from nothing" ON)
 option(NPLC_COMMON_HEADERS "Compile what most host files include once (g++ only)" ON)
 
-# A second checkout finds what the first one compiled. Precompiled headers need the two sloppinesses.
+# A second checkout finds what the first one compiled. Precompiled headers need the two sloppinesses. Reports of stack use
+# and coverage name files as the compiler was given them: those builds go without.
 find_program(NPLC_CCACHE ccache)
-if(NPLC_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+if(NPLC_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER AND NOT CMAKE_SYSTEM_NAME STREQUAL "Generic" AND NOT NPLC_COVERAGE)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}"
                                   CCACHE_SLOPPINESS=pch_defines,time_macros "${NPLC_CCACHE}")
 endif()

@@ -13,8 +13,8 @@ using mactalk_client::LineError;
 namespace {
 
 constexpr base::Milliseconds kLongest{10'000};
-/// A link to the motor that does not deliver is waited for so long.
-constexpr base::Milliseconds kLinkWait{1'000};
+/// The motor's confirmation is waited for so long.
+constexpr base::Milliseconds kConfirmationWait{1'000};
 constexpr base::Milliseconds kBetweenLooks{20};
 
 /// Until its status shows it the command is sent again: a message may be lost, and another client may own the
@@ -56,12 +56,14 @@ class Stopping {
             if (status.run_state == gw::RunState::holding) gateway_.master().pause(kBetweenLooks);
             return false;
         }
-        if (status.has(gw::kLinkDelivers)) return true;
-        if (now() - begun_ >= kLinkWait)
-            throw NotConfirmed(
-                fmt::format("{}: the sequence is {}, but the link to the motor is down and the motor "
-                            "could not be told: {}",
-                            name_of(command_), name_of(status.run_state), kMayStillRun));
+        const bool delivers = status.has(gw::kLinkDelivers) || status.has(gw::kVirtualMotor);
+        if (delivers && !status.has(gw::kStopUnconfirmed)) return true;
+        if (now() - begun_ >= kConfirmationWait)
+            throw NotConfirmed(fmt::format(
+                "{}: the sequence is {}, but {}: {}", name_of(command_), name_of(status.run_state),
+                delivers ? "the motor has not confirmed the stop"
+                         : "the link to the motor is down and the motor could not be told",
+                kMayStillRun));
         gateway_.master().pause(kBetweenLooks);
         return false;
     }

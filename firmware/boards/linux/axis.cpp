@@ -272,7 +272,7 @@ void Axis::begin_end(base::Instant now) {
 }
 
 bool Axis::has_stopped() const {
-    return !motor::delivers(motor_.driver().link()) || motor_.driver().settled();
+    return !controller_->sequence().stop_unconfirmed();
 }
 
 void Axis::write_safe_outputs() {

@@ -127,6 +127,8 @@ LogMessage in_words(const gateway::EventLog::Entry& entry) {
         case Event::forces_ended:
             return {LogLevel::notice,
                     entry.detail == 1 ? "forcing has ended: its client is silent" : "forcing has ended"};
+        case Event::stop_confirmed:
+            return {LogLevel::notice, fmt::format("the motor confirmed the stop after {} ms", entry.detail)};
         case Event::link_up:
             return {LogLevel::notice, "the link is up and acknowledged; outputs are the sequence's again"};
         case Event::table_activated:

@@ -14,7 +14,7 @@ namespace {
 constexpr std::array kEndSignals{SIGTERM, SIGINT, SIGHUP, SIGQUIT};
 constexpr std::array kFatalSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS};
 /// For the motor to take the stop at the end.
-constexpr base::Milliseconds kLongestEnd{500};
+constexpr base::Milliseconds kLongestEnd{2'000};
 
 /// For the handler of fatal signals, which gets nothing else to work with.
 std::array<Axis*, 16> last_resort{};
@@ -162,7 +162,9 @@ void Service::serve_until_signal() {
 }
 
 void Service::tell_unstopped(const Axis& axis, const std::string& why) {
-    journal_.write(LogLevel::warning, axis.name() + ": the motor " + why + "; it may be moving");
+    journal_.write(LogLevel::warning, axis.name() + ": the motor " + why +
+                                          "; it may be moving. If the sequence ran, the next start waits for "
+                                          "`nanoctl run`");
 }
 
 void Service::end_in_order() {
@@ -181,8 +183,8 @@ void Service::end_in_order() {
         if (!axis->motor_answers())
             tell_unstopped(*axis, "does not answer and could not be told to stop");
         else if (!axis->has_stopped())
-            tell_unstopped(*axis, "has not taken the stop");
-        axis->note_orderly_end();
+            tell_unstopped(*axis, "has not confirmed the stop");
+        if (axis->has_stopped()) axis->note_orderly_end();
     }
     last_resort.fill(nullptr);
     panel_.close();

@@ -26,7 +26,7 @@ struct Range {
 /// Reading FIRED_SCAN has an effect, and FIRED would cost a walk through the table.
 constexpr Range kImaged[] = {
     {gw::IDENTITY, 9},
-    {gw::STATUS, gw::LATE_POLLS + 1 - gw::STATUS},
+    {gw::STATUS, gw::STOP_SINCE + 1 - gw::STATUS},
     {gw::COMMAND, 5},
     {gw::UPLOAD_STATE, 5},
     {gw::PROOF_BYTES, 1 + gw::kProofWords},

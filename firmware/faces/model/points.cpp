@@ -152,6 +152,7 @@ constexpr Point kPoints[] = {
     {"upload", "", B, false, "an upload is under way", status_bit<gw::kUpload>},
     {"settings_differ", "", B, false, "settings differ from the stored ones", status_bit<gw::kSettingsDiffer>},
     {"cannot_go_on", "", B, false, "held, and cannot go on from there", status_bit<gw::kCannotGoOn>},
+    {"stop_unconfirmed", "", B, false, "the motor was told to stop and has not confirmed it: it may be moving", status_bit<gw::kStopUnconfirmed>},
     {"run_state", "", W, false, "0 stopped, 1 waits for the motor, 2 running, 3 about to be held, 4 held", own<gw::STATUS, 0, 7>},
     {"step", "", W, false, "0..62", own<gw::STEP>},
     {"timer", "ms", W, false, "what is left of it", own<gw::TIMER>},

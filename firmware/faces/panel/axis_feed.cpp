@@ -163,6 +163,8 @@ std::string event_in_words(std::uint8_t code, std::uint16_t detail) {
         case own::Event::recipe_saved:
         case own::Event::recipe_deleted:
             return fmt::format("{} by {}", name, own::name_of(static_cast<own::Origin>(detail >> 8)));
+        case own::Event::stop_confirmed:
+            return fmt::format("{} after {} ms", name, detail);
         case own::Event::set_points_taken:
             return fmt::format("{}: {}", name, detail);
         case own::Event::upload_aborted:

@@ -99,6 +99,8 @@ struct ReadyMotor final : motor::Motor {
     bool has_room() const override { return true; }
     void send(const motor::Order&) override {}
     void stop() override {}
+    bool stop_confirmed() const override { return true; }
+    void give_up_stop() override {}
     bool begin_access(const motor::Access&) override { return false; }
     motor::AccessState access_state() const override { return motor::AccessState::none; }
     std::uint32_t access_value() const override { return 0; }

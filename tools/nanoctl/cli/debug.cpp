@@ -185,6 +185,8 @@ std::string detail_text(const LogEntry& entry, const KnownChanges& known) {
         case gw::Event::held:
         case gw::Event::breakpoint:
             return entry.detail == 1 ? ", cannot go on from there" : "";
+        case gw::Event::stop_confirmed:
+            return fmt::format(", {} ms after it was asked", entry.detail);
         case gw::Event::upload_failed:
             return fmt::format(", {}", gw::describe(static_cast<gw::Result>(entry.detail & 0xFF)));
         case gw::Event::motor_fault:

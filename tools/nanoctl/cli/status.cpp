@@ -37,6 +37,7 @@ Json document_of(const Status& status, const Names& names) {
             {"breakpoints", status.has(gw::kBreakpoints)},
             {"at_breakpoint", status.has(gw::kAtBreakpoint)},
             {"can_go_on", !status.has(gw::kCannotGoOn)},
+            {"stop_unconfirmed", status.has(gw::kStopUnconfirmed)},
             {"table", status.has(gw::kTable)},
             {"upload", status.has(gw::kUpload)},
             {"stored_differs", status.has(gw::kStoredDiffers)},
@@ -54,6 +55,7 @@ std::string line_of(const Status& status, const Names& names) {
     if (status.has(gw::kMotorError)) text += ", ERROR";
     if (status.has(gw::kAtBreakpoint)) text += ", at a breakpoint";
     text += held_remark(status);
+    if (status.has(gw::kStopUnconfirmed)) text += ", STOP NOT CONFIRMED by the motor: it may be moving";
     if (status.has(gw::kForcedInputs) || status.has(gw::kForcedOutputs))
         text += fmt::format(", FORCED for {} ms", status.force_left);
     if (status.has(gw::kSafe)) text += fmt::format(", SAFE: {}", name_of(status.safe_reason));

@@ -77,6 +77,8 @@ constexpr Result result_of(base::Error error) {
             return Result::no_proof;
         case base::Error::bad_set_points:
             return Result::bad_set_points;
+        case base::Error::stop_unconfirmed:
+            return Result::stop_unconfirmed;
         case base::Error::bad_setting:
             return Result::bad_value;
     }

@@ -88,20 +88,26 @@ class Gateway {
     /// From the beginning, or on from where it is held, the motor in the mode that it was stopped in; without
     /// hold if has_single(). Errors: no_table; not_stopped when it runs already; not_enabled: from the
     /// beginning only with the enable input on, so that closing a guard starts nothing, and not while locked;
-    /// cannot_go_on.
+    /// cannot_go_on; stop_unconfirmed.
     base::Status run();
     /// One scan, or scans until the step changes, from where it is held or from the beginning; then it is
     /// held. Errors as run().
     /// Until then has_single(); run() and hold() give it up.
     base::Status scan_once() { return run_until(HoldControl::After::scan); }
     base::Status step_once() { return run_until(HoldControl::After::step); }
-    /// Holds it at the end of the scan: its orders are executed and the motor is told to stop first, unless
-    /// Settings::virtual_motor says otherwise. The timer stands meanwhile, the outputs stay. Error: no_table
-    /// if it is stopped.
+    /// Holds it at the end of the scan: its orders are executed, for 500 ms at the most, and the motor is
+    /// told to stop first, unless Settings::virtual_motor says otherwise. The timer stands meanwhile, the
+    /// outputs stay. Error: no_table if it is stopped.
     base::Status hold();
     /// A scan_once() or step_once() is not done yet.
     bool has_single() const { return hold_.has_single(); }
     void stop(base::Instant now) { enter_safe_state(SafeReason::stop_command, now); }
+    /// The motor was told to stop and has not confirmed it since: it may be moving. Nothing is to be
+    /// confirmed of a virtual motor.
+    bool stop_unconfirmed() const { return !settings_.virtual_motor && !motor_.stop_confirmed(); }
+    std::uint32_t stop_asked() const { return stop_asked_; }  ///< uptime() then
+    /// A stop that is not confirmed is not repeated any more, and run() is possible.
+    void give_up_stop();
     /// Ends forces and breakpoints too.
     void make_safe(base::Instant now);
 
@@ -186,10 +192,14 @@ class Gateway {
     void watch_polls(base::Instant now);
     void serve_sequence(base::Instant now);
     void scan(base::Instant now);
+    void stop_motor();
+    void watch_stop();
     void leave_safe_state();
     void begin_hold(bool breakpoint, base::Instant now);
     void hold_if_due(bool entered_step, base::Instant now);
     void hold_when_settled(base::Instant now);
+    base::Instant settling_ends() const;
+    bool settles_too_long(base::Instant now) const { return now >= settling_ends(); }
     void watch_link(base::Instant now);
     void note_motor_fault();
     void expire_forces(base::Instant now);
@@ -208,7 +218,10 @@ class Gateway {
     bool is_proven_ = false;        ///< the table came with a certificate
     bool stop_ordered_ = false;     ///< on the way to running, or to being held
     bool stop_after_loss_ = false;  ///< the motor is to be stopped once the link delivers again
+    bool stop_watched_ = false;     ///< its confirmation is to be noted in the log
     std::uint8_t motor_fault_ = 0;  ///< as noted in the log
+    std::uint32_t stop_asked_ = 0;
+    base::Instant hold_asked_{};
     StartPermission permission_;
     SafeState safe_;
     HoldControl hold_;

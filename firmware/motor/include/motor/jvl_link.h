@@ -40,6 +40,9 @@ class JvlLink {
     base::Instant next_poll(base::Instant now) const;
 
     bool busy() const { return expect_ != Expect::nothing; }
+    /// The last message, if there was one, has left the transmitter.
+    bool has_left() const { return size_ == 0 || on_the_line_; }
+    base::Microseconds silence() const { return settings_.silence; }
     /// `copies`: 2 for safe communication.
     void send_command(std::uint8_t command, int copies, base::Instant now);
     void send_flexmac(const protocol::flexmac::Message& message, base::Instant now);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "motor/access_slot.h"
+#include "motor/jvl_blind_stop.h"
 #include "motor/jvl_link.h"
 #include "motor/motor.h"
 #include "motor/order_queue.h"
@@ -35,6 +36,8 @@ class JvlMotor final : public Motor {
     void send(const Order& order) override { orders_.push(order, is_up()); }
     bool can_execute(const Order& order) const override;
     void stop() override;
+    bool stop_confirmed() const override { return !stop_wanted_; }
+    void give_up_stop() override { stop_wanted_ = false; }
     bool begin_access(const Access& access) override { return is_up() && access_.begin(access); }
     AccessState access_state() const override { return access_.state(); }
     std::uint32_t access_value() const override { return access_.value(); }
@@ -57,6 +60,7 @@ class JvlMotor final : public Motor {
     void start_up(base::Instant now);
     std::uint8_t safety_command() const;
     void free_the_line(base::Instant now);
+    bool send_blind_stop(base::Instant now);
     bool has_work() const;
     void work(base::Instant now);
     void write_register(Sending what, const Order& order, base::Instant now);
@@ -83,6 +87,7 @@ class JvlMotor final : public Motor {
     bool hold_counts_ = false;
     std::uint32_t hold_count_ = 0;
     base::Instant next_blind_{};
+    BlindStop blind_stop_;
     AccessSlot access_;
     bool for_access_ = false;  ///< in FlexMAC, or on the way there and back, for accesses only
     std::optional<base::Instant> reply_until_;

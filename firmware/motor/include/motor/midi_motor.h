@@ -46,6 +46,8 @@ class MidiMotor final : public Motor {
     bool has_room() const override { return !orders_.full(); }
     void send(const Order& order) override { orders_.push(order, session_.is_up()); }
     void stop() override;
+    bool stop_confirmed() const override { return !stop_wanted_; }
+    void give_up_stop() override { stop_wanted_ = stop_hard_ = false; }
     bool begin_access(const Access& access) override { return session_.is_up() && access_.begin(access); }
     AccessState access_state() const override { return access_.state(); }
     std::uint32_t access_value() const override { return access_.value(); }

@@ -80,6 +80,13 @@ class Motor {
     /// delivers.
     virtual void stop() = 0;
 
+    /// The drive has confirmed the last stop() since it was given: the echo of the stop itself, or its shaft
+    /// read at rest. True if there was none. Until then it is repeated, blind where nothing answers.
+    virtual bool stop_confirmed() const = 0;
+
+    /// Ends the repetition of a stop that is not confirmed.
+    virtual void give_up_stop() = 0;
+
     /// Takes an access, unless there is one that waits or is under way, or the link does not deliver. It
     /// comes after all orders, and settled() does not wait for it.
     virtual bool begin_access(const Access& access) = 0;

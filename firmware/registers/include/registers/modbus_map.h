@@ -23,6 +23,7 @@ enum Discrete : std::uint16_t {
     kUpload,
     kSettingsDiffer,
     kCannotGoOn,
+    kStopUnconfirmed,
     kDiscretes,
 };
 /// Of `command`, beside the gateway's own run to hold.

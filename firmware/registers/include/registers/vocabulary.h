@@ -99,7 +99,8 @@ enum class Event : std::uint8_t {
     upload_aborted = 27,
     crashed = 28,
     crashed_at = 29,
-    polled_late = 30,  ///< later than setting poll_limit; detail: milliseconds
+    polled_late = 30,     ///< later than setting poll_limit; detail: milliseconds
+    stop_confirmed = 31,  ///< by the motor; detail: milliseconds since it was asked to stop
     motor_fault = 32,
     set_points_changed = 33,  ///< detail: how many in bits 7..0, by whom (Origin) in bits 15..8
     set_points_taken = 34,    ///< the sequence goes by them now; detail: how many
@@ -127,6 +128,7 @@ constexpr std::string_view name_of(Event event) {
                                   {crashed, "the firmware crashed before this start"},
                                   {crashed_at, "it was at this code address"},
                                   {polled_late, "polled too late"},
+                                  {stop_confirmed, "stop confirmed by the motor"},
                                   {motor_fault, "the drive's fault"},
                                   {set_points_changed, "set-points changed"},
                                   {set_points_taken, "set-points taken"},
@@ -175,7 +177,7 @@ constexpr std::string_view key_of_log_code(std::uint8_t code) {
                                        "crashed",
                                        "crashed_at",
                                        "polled_late",
-                                       "",
+                                       "stop_confirmed",
                                        "motor_fault",
                                        "set_points_changed",
                                        "set_points_taken",
@@ -277,6 +279,7 @@ enum class Command : std::uint8_t {
     reset = 7,
     keep_settings = 8,
     clear_log = 9,
+    give_up_stop = 10,  ///< a stop that the motor has not confirmed is not repeated any more
     upload_begin = 16,
     upload_commit = 17,
     upload_abort = 18,
@@ -298,6 +301,7 @@ constexpr std::string_view name_of(Command command) {
                              {reset, "reset"},
                              {keep_settings, "keep_settings"},
                              {clear_log, "clear_log"},
+                             {give_up_stop, "give_up_stop"},
                              {upload_begin, "upload_begin"},
                              {upload_commit, "upload_commit"},
                              {upload_abort, "upload_abort"},
@@ -352,6 +356,7 @@ enum class Result : std::uint8_t {
     other_board = 40,
     not_newer = 41,
     not_in_service = 42,
+    stop_unconfirmed = 43,
 };
 
 /// One line for the user, "the sequence is not stopped; stop it first".
@@ -411,7 +416,8 @@ constexpr std::string_view describe(Result result) {
          {bad_firmware, "that is no firmware for this slot, or a part of one"},
          {other_board, "the firmware is for another board"},
          {not_newer, "the firmware that runs is as new or newer"},
-         {not_in_service, "only while the board is in service"}},
+         {not_in_service, "only while the board is in service"},
+         {stop_unconfirmed, "the motor has not confirmed the last stop; mend the line, or give it up"}},
         "unknown result");
 }
 
@@ -454,6 +460,7 @@ enum StatusBit : std::uint32_t {
     kVirtualMotor = 1U << 16,
     kSingle = 1U << 17,
     kCannotGoOn = 1U << 18,
+    kStopUnconfirmed = 1U << 19,  ///< the motor was told to stop and has not confirmed it: it may be moving
 };
 
 constexpr RunState run_state_of(std::uint32_t status) {

@@ -22,6 +22,8 @@ class StepMotor final : public Motor {
     bool has_room() const override { return !orders_.full(); }
     void send(const Order& order) override;
     void stop() override { stops_ = true; }
+    bool stop_confirmed() const override { return !stops_; }
+    void give_up_stop() override { stops_ = false; }
     bool begin_access(const Access&) override { return false; }
     AccessState access_state() const override { return AccessState::none; }
     std::uint32_t access_value() const override { return 0; }

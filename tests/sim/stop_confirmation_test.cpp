@@ -1,0 +1,177 @@
+// A stop is done only when the motor has confirmed it since it was asked.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "registers/mac.h"
+#include "sequencer/term.h"
+#include "sim/world.h"
+
+namespace nplc::sim {
+namespace {
+
+using namespace std::chrono_literals;
+using gateway::Event;
+using gateway::RunState;
+using registers::MODE_REG;
+using sequencer::Term;
+
+constexpr std::uint8_t kVelocityV1 = 0x28;  // 001 §5.2.1.4: velocity mode, V1
+
+/// Turns for ever: writes V1 and A1, INIT(A1), then velocity mode; OUT0.
+std::vector<std::uint8_t> turning_table() {
+    const auto term = [](std::uint8_t step, std::uint8_t next) {
+        Term result;
+        result.condition = {.step = step};
+        result.fast.next_step = next;
+        result.fast.outputs = 1;
+        return result;
+    };
+    const auto write = [&](std::uint8_t reg, std::uint16_t value) {
+        Term result = term(0, 0);
+        result.is_flex = true;
+        result.flex = {.reg = reg, .longword = false, .low_word = value, .high_word = 0};
+        return result;
+    };
+    const auto sends = [](Term base, std::uint8_t command) {
+        base.fast.sends = true;
+        base.fast.command = command;
+        return base;
+    };
+    const Term terms[]{write(registers::V1, 1000), write(registers::A1, 80), sends(term(0, 1), 0x10),
+                       sends(term(1, 2), kVelocityV1)};
+    std::vector<std::uint8_t> bytes;
+    for (const Term& one : terms) {
+        const auto encoded = encode(one);
+        bytes.insert(bytes.end(), encoded.begin(), encoded.end());
+    }
+    bytes.insert(bytes.end(), {0x3F, 0, 0, 0, 0, 0, 0, 0});
+    return bytes;
+}
+
+struct StopConfirmation : testing::TestWithParam<bool> {
+    StopConfirmation() : world(turning_table(), options()) {}
+
+    static WorldOptions options() {
+        WorldOptions options;
+        options.safe_communication = GetParam();
+        return options;
+    }
+    void run_for(Time time) {
+        const Time end = world.now() + time;
+        while (world.now() < end) world.step(end);
+    }
+    void turn() {
+        run_for(1s);
+        ASSERT_EQ(reg(MODE_REG), 1);
+        ASSERT_GT(reg(registers::V_IST), 20);
+    }
+    void lose(bool to_motor, bool from_motor, double share) {
+        action::SpoilLine faults;
+        faults.to_motor = to_motor;
+        faults.from_motor = from_motor;
+        faults.drop = share;
+        world.spoil_line(faults);
+    }
+    std::int32_t reg(std::uint8_t number) { return world.mac().read(number); }
+    void stop() { world.gateway(action::Gateway::stop); }
+    const gateway::Gateway& controller() const { return world.gateway(); }
+    int count(Event event) const {
+        const auto& log = controller().log();
+        int found = 0;
+        const std::uint32_t kept = std::min<std::uint32_t>(log.count(), gateway::EventLog::kSlots);
+        for (std::uint32_t i = 0; i < kept; ++i)
+            found += log.slot(i).event == static_cast<std::uint8_t>(event) ? 1 : 0;
+        return found;
+    }
+
+    World world;
+};
+
+TEST_P(StopConfirmation, ComesAtOnceOnALineInOrder) {
+    turn();
+    stop();
+    EXPECT_TRUE(controller().stop_unconfirmed()) << "asked, and not on the wire yet";
+    run_for(50ms);
+    EXPECT_FALSE(controller().stop_unconfirmed());
+    EXPECT_EQ(reg(MODE_REG), 0);
+    EXPECT_EQ(count(Event::stop_confirmed), 1);
+}
+
+// The motor hears, and nobody hears it: it is told blind, and nothing is called done.
+TEST_P(StopConfirmation, NeverComesFromAMotorThatIsNotHeard) {
+    turn();
+    lose(false, true, 1);
+    stop();
+    run_for(1s);
+    EXPECT_EQ(reg(MODE_REG), 0) << "told without an answer";
+    EXPECT_TRUE(controller().stop_unconfirmed());
+    EXPECT_EQ(count(Event::stop_confirmed), 0);
+    EXPECT_EQ(world.controller().sequence().run().error(), base::Error::stop_unconfirmed);
+    lose(false, true, 0);
+    run_for(1s);
+    EXPECT_FALSE(controller().stop_unconfirmed());
+    EXPECT_EQ(count(Event::stop_confirmed), 1);
+    EXPECT_TRUE(world.controller().sequence().run().ok());
+}
+
+// Its status bytes run on, valid and equal: they prove nothing.
+TEST_P(StopConfirmation, NeverComesFromAMotorThatDoesNotHear) {
+    turn();
+    lose(true, false, 1);
+    stop();
+    run_for(2s);
+    EXPECT_EQ(reg(MODE_REG), 1) << "it turns on";
+    EXPECT_TRUE(controller().stop_unconfirmed());
+    EXPECT_EQ(world.controller().sequence().run().error(), base::Error::stop_unconfirmed);
+    lose(true, false, 0);
+    run_for(1s);
+    EXPECT_EQ(reg(MODE_REG), 0);
+    EXPECT_FALSE(controller().stop_unconfirmed());
+}
+
+TEST_P(StopConfirmation, IsWaitedForAfterACutLineToo) {
+    turn();
+    world.cut_line(true);
+    run_for(100ms);
+    stop();
+    run_for(5s);
+    EXPECT_TRUE(controller().stop_unconfirmed());
+    EXPECT_EQ(reg(MODE_REG), 1);
+    world.cut_line(false);
+    run_for(2s);
+    EXPECT_FALSE(controller().stop_unconfirmed());
+    EXPECT_EQ(reg(MODE_REG), 0);
+}
+
+TEST_P(StopConfirmation, IsGivenUpByAnOperator) {
+    turn();
+    world.cut_line(true);
+    stop();
+    run_for(500ms);
+    ASSERT_TRUE(controller().stop_unconfirmed());
+    world.controller().sequence().give_up_stop();
+    EXPECT_FALSE(controller().stop_unconfirmed());
+    world.cut_line(false);
+    run_for(1s);
+    EXPECT_EQ(reg(MODE_REG), 1) << "it was given up: nothing is told late";
+    EXPECT_EQ(count(Event::stop_confirmed), 0);
+}
+
+// Whatever stops it is a stop that has to be confirmed.
+TEST_P(StopConfirmation, IsNeededForTheSafeStateAndForAHold) {
+    turn();
+    lose(false, true, 1);
+    run_for(100ms);
+    world.controller().sequence().make_safe(world.instant());
+    run_for(1s);
+    EXPECT_TRUE(controller().stop_unconfirmed());
+    EXPECT_EQ(reg(MODE_REG), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Communication, StopConfirmation, testing::Bool(),
+                         [](const auto& safe) { return safe.param ? "Safe" : "Rapid"; });
+
+}  // namespace
+}  // namespace nplc::sim
