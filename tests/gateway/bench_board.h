@@ -31,8 +31,11 @@ struct BenchBoard final : ports::DigitalInputs,
         sent.push_back(order);
         if (room > 0) --room;
     }
-    void stop() override { ++stops; }
-    bool stop_confirmed() const override { return stop_is_confirmed; }
+    void stop() override {
+        ++stops;
+        stop_confirmed_at = now + stop_takes;
+    }
+    bool stop_confirmed() const override { return stop_is_confirmed && now >= stop_confirmed_at; }
     void give_up_stop() override { stop_is_confirmed = true; }
     bool begin_access(const motor::Access& wanted) override {
         if (access != motor::AccessState::none && access != motor::AccessState::done &&
@@ -93,6 +96,8 @@ struct BenchBoard final : ports::DigitalInputs,
     int orders_seen = 0;
     bool is_settled = true;
     bool stop_is_confirmed = true;
+    base::Microseconds stop_takes{};  ///< from each stop() to its confirmation
+    base::Instant stop_confirmed_at{};
     bool in_pos = false;
     bool err = false;
     std::uint8_t fault = 0;

@@ -200,6 +200,23 @@ TEST(Client, AMotorThatCannotBeToldIsNotTakenForStopped) {
     EXPECT_EQ(bench.refusal([&] { stop_machine(bench.gateway, Command::hold); }), gw::Result::not_running);
 }
 
+// Longer than the look at STATUS takes: what is asked again and again would never be confirmed.
+TEST(Client, TheMotorsConfirmationIsWaitedForAndAskedForOnce) {
+    Bench bench;
+    bench.run_a_table();
+    bench.unit.board.stop_takes = std::chrono::milliseconds{300};
+    const int stops = bench.unit.board.stops;
+    const base::Microseconds time = bench.time_of_stop(Command::stop);
+    EXPECT_GE(time, std::chrono::milliseconds{300});
+    EXPECT_LT(time, std::chrono::milliseconds{1000}) << "virtual time, with the looks at 19200 baud";
+    EXPECT_EQ(bench.unit.board.stops, stops + 1);
+    bench.unit.board.stop_is_confirmed = false;
+    EXPECT_THROW(stop_machine(bench.gateway, Command::stop), NotConfirmed);
+    EXPECT_EQ(bench.refusal([&] { bench.gateway.command(Command::run); }), gw::Result::stop_unconfirmed);
+    bench.gateway.command(Command::give_up_stop);
+    bench.gateway.command(Command::run);
+}
+
 TEST(Client, SettingsOutliveAResetIfKept) {
     Bench bench;
     const auto reg = gw::register_of(store::Setting::safe_outputs);

@@ -26,7 +26,7 @@ class Stopping {
 
     Status run() {
         for (;;) {
-            const auto status = send_and_look();
+            const auto status = is_asked_ ? look() : send_and_look();
             if (status && is_done(*status)) return *status;
             if (status && is_idle(*status))
                 throw Refused(gw::Result::not_running, gw::COMMAND, 0,
@@ -45,14 +45,24 @@ class Stopping {
         static_cast<void>(gateway_.master().wire().rest(base::Microseconds{0}));
         gateway_.master().send_write(gateway_.address(), gw::COMMAND, static_cast<std::uint32_t>(command_),
                                      mactalk_client::Width::longword);
+        return look();
+    }
+
+    std::optional<Status> look() {
         const auto block = gateway_.try_read_block(gw::STATUS);
-        if (block) last_ = Status(*block);
-        return block ? last_ : std::nullopt;
+        if (!block) return std::nullopt;
+        const Status status(*block);
+        // Sent once more it would be another stop, to be confirmed anew.
+        is_asked_ = is_ordered(status) && status.has(gw::kStopUnconfirmed);
+        return status;
+    }
+
+    bool is_ordered(const Status& status) const {
+        return status.run_state == (holds() ? gw::RunState::held : gw::RunState::stopped);
     }
 
     bool is_done(const Status& status) {
-        const bool ordered = status.run_state == (holds() ? gw::RunState::held : gw::RunState::stopped);
-        if (!ordered) {
+        if (!is_ordered(status)) {
             if (status.run_state == gw::RunState::holding) gateway_.master().pause(kBetweenLooks);
             return false;
         }
@@ -82,7 +92,7 @@ class Stopping {
     GatewayClient& gateway_;
     gw::Command command_;
     base::Instant begun_;
-    std::optional<Status> last_;
+    bool is_asked_ = false;  ///< the gateway has it, and waits for the motor
 };
 
 }  // namespace
