@@ -162,6 +162,7 @@ TEST(Client, AStopIsRepeatedOnABadLineUntilItIsConfirmed) {
         Bench bench(seed);
         bench.run_a_table();
         bench.wire.set_faults({.drop = 0.002, .damage = 0.002, .framing = 0.002});
+        bench.unit.board.stop_takes = std::chrono::milliseconds{200};
         const auto command = seed % 2 == 0 ? Command::stop : Command::hold;
         EXPECT_LT(bench.time_of_stop(command), std::chrono::seconds{5}) << "seed " << seed;
     }

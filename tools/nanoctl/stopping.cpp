@@ -66,9 +66,10 @@ class Stopping {
             if (status.run_state == gw::RunState::holding) gateway_.master().pause(kBetweenLooks);
             return false;
         }
+        if (!ordered_at_) ordered_at_ = now();
         const bool delivers = status.has(gw::kLinkDelivers) || status.has(gw::kVirtualMotor);
         if (delivers && !status.has(gw::kStopUnconfirmed)) return true;
-        if (now() - begun_ >= kConfirmationWait)
+        if (now() - *ordered_at_ >= kConfirmationWait)
             throw NotConfirmed(fmt::format(
                 "{}: the sequence is {}, but {}: {}", name_of(command_), name_of(status.run_state),
                 delivers ? "the motor has not confirmed the stop"
@@ -92,7 +93,8 @@ class Stopping {
     GatewayClient& gateway_;
     gw::Command command_;
     base::Instant begun_;
-    bool is_asked_ = false;  ///< the gateway has it, and waits for the motor
+    bool is_asked_ = false;                    ///< the gateway has it, and waits for the motor
+    std::optional<base::Instant> ordered_at_;  ///< seen first that the gateway has it
 };
 
 }  // namespace
