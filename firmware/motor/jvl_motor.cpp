@@ -59,9 +59,10 @@ base::Instant JvlMotor::next_poll(base::Instant now) const {
     if (link_.busy()) return next;
     if (has_work()) return now;
     if (reply_until_) next = std::min(next, *reply_until_);
-    if (phase_ == Phase::down && link_.framing_error_seen()) next = std::min(next, next_blind_);
-    if (phase_ == Phase::down && stop_wanted_ && link_.has_left())
-        next = std::min(next, blind_stop_.is_under_way() ? now : blind_stop_.due());
+    if (phase_ != Phase::down) return next;
+    if (blind_stop_.is_under_way()) return link_.has_left() ? now : next;
+    if (link_.framing_error_seen()) next = std::min(next, next_blind_);
+    if (stop_wanted_ && link_.has_left()) next = std::min(next, blind_stop_.due());
     return next;
 }
 
