@@ -24,7 +24,7 @@ std::uint32_t in_milliseconds(base::Microseconds time) {
 
 }  // namespace
 
-void OwnRegisters::read(std::uint8_t reg, std::span<std::uint8_t> out, base::Instant now) {
+[[gnu::noinline]] void OwnRegisters::read(std::uint8_t reg, std::span<std::uint8_t> out, base::Instant now) {
     if (reg == TABLE_DATA && out.size() > kRegisterBytes) return read_table(out);
     if (kHasSetPoints && reg == SET_POINT_POINTER && out.size() > kRegisterBytes)
         return set_points_.read_window(out);

@@ -55,7 +55,7 @@ void SequenceScan::count_timer(base::Instant now) {
     engine_.elapse(milliseconds);
 }
 
-SequenceScan::Result SequenceScan::poll(std::uint8_t inputs, base::Instant now) {
+[[gnu::noinline]] SequenceScan::Result SequenceScan::poll(std::uint8_t inputs, base::Instant now) {
     if (!in_scan_) {
         const Result result = begin(inputs, now);
         if (!in_scan_) return result;

@@ -136,7 +136,7 @@ void SetPoints::show_defaults(std::span<std::uint8_t> part, std::size_t offset) 
     }
 }
 
-std::uint32_t SetPoints::value(std::uint8_t reg) {
+[[gnu::noinline]] std::uint32_t SetPoints::value(std::uint8_t reg) {
     if (!available_) return 0;
     const std::size_t count = record_.count();
     if (reg >= SET_POINT_WANTED && reg < SET_POINT_WANTED + kSetPoints) {

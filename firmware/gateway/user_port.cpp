@@ -257,7 +257,7 @@ void UserPort::refuse() {
     serving_ = Serving::nothing;
 }
 
-void UserPort::answer(const mactalk::EncodedReply& reply) {
+[[gnu::noinline]] void UserPort::answer(const mactalk::EncodedReply& reply) {
     out_ = reply;
     sent_ = 0;
     serving_ = Serving::nothing;

@@ -140,7 +140,7 @@ void JvlLink::transmit(base::Instant now) {
     }
 }
 
-void JvlLink::receive(base::Instant now) {
+[[gnu::noinline]] void JvlLink::receive(base::Instant now) {
     const base::Microseconds unwatched = now - last_poll_;
     last_poll_ = now;
     heard_ = base::Microseconds(0);

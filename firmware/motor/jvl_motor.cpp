@@ -20,10 +20,10 @@ constexpr base::Microseconds kLateReply{40'000};
 
 JvlMotor::JvlMotor(ports::SerialPort& port, const Settings& settings)
     : safe_communication_(settings.safe_communication),
-      register_code_(settings.register_code),
       registers_are_32_bit_(settings.registers_are_32_bit),
-      hold_time_(2 * settings.sample_period),
-      link_(port, settings.link) {}
+      register_code_(settings.register_code),
+      link_(port, settings.link),
+      hold_time_(2 * settings.sample_period) {}
 
 void JvlMotor::poll(base::Instant now) {
     switch (link_.poll(now)) {

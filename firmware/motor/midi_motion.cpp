@@ -81,7 +81,7 @@ void MidiMotion::check_again(std::int32_t goal) {
     arrived_ = measured_ = false;
 }
 
-void MidiMotion::on_measures(const MidiDrive& drive, base::Instant now) {
+[[gnu::noinline]] void MidiMotion::on_measures(const MidiDrive& drive, base::Instant now) {
     measured_ = true;
     if (drive.is_busy() && moves()) doubtful_ = false;
     if (state_ == State::running) at_speed_ = !drive.is_busy() && !doubtful_ && now >= ramp_end_;
@@ -159,7 +159,7 @@ base::Microseconds MidiMotion::steady_time(const MidiDrive& drive) const {
     return base::Microseconds((slack() + 1) * slowest) + kSurely;
 }
 
-MidiMotion::Event MidiMotion::check_steady(const MidiDrive& drive, base::Instant now) {
+[[gnu::noinline]] MidiMotion::Event MidiMotion::check_steady(const MidiDrive& drive, base::Instant now) {
     const auto away = static_cast<std::int64_t>(drive.position()) - steady_position_;
     if (!steady_begun_ || std::abs(away) > slack()) {
         if (steady_begun_ && state_ == State::running) doubtful_ = false;

@@ -341,7 +341,7 @@ MidiMotor::Message MidiMotor::next_query(base::Instant now) {
 
 /// What can be sent at once to lead the drive to what the registers say; nothing while that has to wait for
 /// standstill.
-MidiMotor::Message MidiMotor::next_command(base::Instant now) {
+[[gnu::noinline]] MidiMotor::Message MidiMotor::next_command(base::Instant now) {
     if (motion_.stops_late(now)) stop_wanted_ = stop_hard_ = true;
     if (stop_wanted_) return command(stop_hard_ ? midi::EMERGENCY_STOP : midi::STOP);
     if (reset_wanted_) return command(midi::RESET);

@@ -182,7 +182,7 @@ std::optional<Message> RequestDecoder::receive(std::uint8_t byte) {
     return message_of(bytes, has_data);
 }
 
-ReplyDecoder::Event ReplyDecoder::receive(std::uint8_t byte) {
+[[gnu::noinline]] ReplyDecoder::Event ReplyDecoder::receive(std::uint8_t byte) {
     if (count_ == 0) return outside_reply(byte);
     bytes_[count_++] = byte;
     const Bytes bytes{bytes_.data(), count_};

@@ -213,7 +213,7 @@ EncodedReply encode_samples(std::span<const std::uint8_t> data) {
     return out;
 }
 
-std::optional<Request> RequestDecoder::receive(std::uint8_t byte) {
+[[gnu::noinline]] std::optional<Request> RequestDecoder::receive(std::uint8_t byte) {
     data_size_ = 0;
     const auto judge = [this](std::span<const std::uint8_t> bytes) {
         return request_progress(bytes, long_address_);

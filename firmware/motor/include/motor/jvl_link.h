@@ -90,8 +90,7 @@ class JvlLink {
     bool is_proven_lost(base::Instant now) const;
     bool repeat_is_harmless() const { return expect_ == Expect::toggle && size_ <= 2; }
 
-    ports::SerialPort& port_;
-
+    // Small members first: see JvlMotor.
     std::uint8_t size_ = 0;
     std::uint8_t sent_ = 0;
     std::uint8_t resends_ = 0;
@@ -101,12 +100,15 @@ class JvlLink {
     std::uint8_t strange_shown_ = 0;  ///< status bytes in a row that no message explains
     bool accepted_ = false;
     bool reads_ = false;  ///< an answer to request_ is still to come
-    protocol::flexmac::Message request_;
-    std::optional<std::uint32_t> reply_;
     bool synchronized_ = false;
     bool toggle_ = false;
     bool flexmac_ = false;
     bool framing_seen_ = false;
+    bool polled_late_ = false;  ///< nobody listened for longer than `silence`
+    ports::SerialPort& port_;
+    StatusFilter filter_;
+    protocol::flexmac::Message request_;
+    std::optional<std::uint32_t> reply_;
     base::Instant next_byte_{};
     base::Instant line_free_{};  ///< not before that, whatever the port says of its transmitter
     base::Instant left_at_{};    ///< when the last byte had left
@@ -114,11 +116,9 @@ class JvlLink {
     base::Instant last_status_{};
     base::Instant last_poll_{};
     base::Microseconds heard_{};  ///< on the line since the poll before: characters read now
-    bool polled_late_ = false;    ///< nobody listened for longer than `silence`
     std::uint32_t resent_ = 0;
     Settings settings_;
     base::Microseconds character_;
-    StatusFilter filter_;
     protocol::flexmac::ReplyDecoder replies_;
     std::array<std::uint8_t, protocol::flexmac::kMaxBytes> message_;
 };

@@ -71,28 +71,29 @@ class JvlMotor final : public Motor {
     void hold_in_position(base::Instant now);
     void update_hold(base::Instant now);
 
-    bool safe_communication_;
-    protocol::fastmac::RegisterCode register_code_;
-    bool registers_are_32_bit_;
-    base::Microseconds hold_time_;
+    // Small members first: a Thumb instruction of two bytes reaches only an object's first 32 to 128.
     Sending sending_ = Sending::nothing;
     Phase phase_ = Phase::down;
+    bool safe_communication_;
+    bool registers_are_32_bit_;
+    protocol::fastmac::RegisterCode register_code_;
     bool safe_now_ = false;  ///< the motor wants two equal bytes
     bool slowed_ = false;    ///< 13h has been sent
     bool stop_wanted_ = false;
     bool link_error_ = false;
     bool was_up_ = false;
-    bool holds_ = false;  ///< IN_POS reads 0 until the motor has worked it out anew
-    base::Instant hold_until_{};
-    bool hold_counts_ = false;
-    std::uint32_t hold_count_ = 0;
-    base::Instant next_blind_{};
-    BlindStop blind_stop_;
-    AccessSlot access_;
     bool for_access_ = false;  ///< in FlexMAC, or on the way there and back, for accesses only
-    std::optional<base::Instant> reply_until_;
-    std::uint32_t losses_ = 0;
+    bool holds_ = false;       ///< IN_POS reads 0 until the motor has worked it out anew
+    bool hold_counts_ = false;
+    AccessSlot access_;
+    BlindStop blind_stop_;
     JvlLink link_;
+    std::uint32_t hold_count_ = 0;
+    std::uint32_t losses_ = 0;
+    base::Microseconds hold_time_;
+    base::Instant hold_until_{};
+    base::Instant next_blind_{};
+    std::optional<base::Instant> reply_until_;
     OrderQueue orders_;
 };
 

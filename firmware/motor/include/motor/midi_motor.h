@@ -117,8 +117,6 @@ class MidiMotor final : public Motor {
     std::optional<std::int32_t> target() const;
 
     MidiLink& link_;
-    MidiMessage message_;         ///< under way while link_.busy()
-    std::uint32_t asked_at_ = 0;  ///< us, modulo 2^32: when it was sent
 
     // What is used most stands in front, where a Cortex-M's short instructions reach it.
     bool stop_wanted_ = false;
@@ -134,6 +132,8 @@ class MidiMotor final : public Motor {
     Limitation limitation_ = Limitation::none;
     MidiSession session_;
     MidiMotion motion_;
+    MidiMessage message_;         ///< under way while link_.busy()
+    std::uint32_t asked_at_ = 0;  ///< us, modulo 2^32: when it was sent
     MidiDrive drive_;
     AccessSlot access_;
     std::uint32_t resent_ = 0;
