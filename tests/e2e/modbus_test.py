@@ -274,7 +274,7 @@ class Simulated(program_case.ProgramCase):
         """All 65,536 of each kind but the motor's window, one by one; what is there is what the map says."""
         master = self.master()
         window = range(1000, 1512)
-        for function, highest in ((1, 7), (2, 14), (3, 5), (4, 999)):
+        for function, highest in ((1, 7), (2, 15), (3, 5), (4, 999)):
             addresses = [at for at in range(65_536) if function != 3 or at not in window]
             with socket.create_connection(("127.0.0.1", master.port)) as line:
                 line.settimeout(LONG)

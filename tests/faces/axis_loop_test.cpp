@@ -75,6 +75,42 @@ TEST(AxisLoop, TakesImagesOnlyWhileSomebodyAsks) {
     EXPECT_NEAR(static_cast<double>(bench.model.image_number() - first), 99, 2);
 }
 
+TEST(AxisLoop, AStopIsDoneWhenTheMotorHasConfirmedIt) {
+    for (const gw::Command stop : {gw::Command::stop, gw::Command::safe, gw::Command::hold}) {
+        Bench bench;
+        ASSERT_EQ(bench.result(*bench.plc, bench.order(gw::Command::run)), Result::done);
+        bench.run(20ms);
+        bench.port.board.stop_takes = 300ms;
+        EXPECT_FALSE(bench.tell(*bench.panel, bench.order(stop), 290ms));
+        bench.run(20ms);
+        const auto ended = bench.panel->take();
+        ASSERT_TRUE(ended);
+        EXPECT_EQ(ended->result, Result::done);
+        EXPECT_FALSE(bench.port.gateway->stop_unconfirmed());
+    }
+}
+
+TEST(AxisLoop, AStopThatNobodyConfirmsIsSaidAfterASecond) {
+    for (const gw::Command stop : {gw::Command::stop, gw::Command::safe}) {
+        Bench bench;
+        ASSERT_EQ(bench.result(*bench.plc, bench.order(gw::Command::run)), Result::done);
+        bench.run(20ms);
+        bench.port.board.stop_is_confirmed = false;
+        const auto first = bench.plc->submit(bench.order(stop));
+        EXPECT_FALSE(bench.tell(*bench.panel, bench.order(stop), 990ms));
+        EXPECT_FALSE(bench.plc->take());
+        bench.run(20ms);
+        for (CommandDesk::Client* client : {bench.plc.get(), bench.panel.get()}) {
+            const auto ended = client->take();
+            ASSERT_TRUE(ended);
+            EXPECT_EQ(ended->result, Result::stop_unconfirmed);
+        }
+        EXPECT_TRUE(first);
+        // Nothing else waits for it meanwhile.
+        EXPECT_EQ(bench.result(*bench.plc, bench.order(gw::Command::run)), Result::stop_unconfirmed);
+    }
+}
+
 TEST(AxisLoop, ShowsTheRegistersOfOneInstant) {
     Bench bench;
     ASSERT_EQ(bench.result(*bench.plc, bench.order(gw::Command::run)), Result::done);

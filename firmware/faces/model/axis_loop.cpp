@@ -93,6 +93,7 @@ void AxisLoop::poll(gateway::Controller& controller, base::Instant now, base::In
     let_go(controller);
     report();
     take_stops(controller);
+    follow_stops(controller);
     serve_change(controller);
     take_others(controller);
     if (motor::delivers(controller.motor().link())) {
@@ -145,7 +146,7 @@ void AxisLoop::restarted() {
 }
 
 base::Instant AxisLoop::next(const gateway::Controller& controller) const {
-    const bool looks_soon = come_back_ || ended_ || change_;
+    const bool looks_soon = come_back_ || ended_ || change_ || !carried_out_.empty();
     base::Instant next = std::min(seat_.ends(), looks_soon ? wall_ + kBriefly : base::kNever);
     if (work_ && !ended_) {
         const bool waits_for_motor = begun_ && reader_.is_for_face();
@@ -229,9 +230,30 @@ void AxisLoop::carry_out_stop(gateway::Controller& controller, const Work& stop)
     look_for_stops(controller);
     if (!model_.desk().drop_all_that_operates()) come_back_ = true;
     take_image(controller);
+    if (completion.result == Result::done && !carried_out_.full()) {
+        carried_out_.push({stop, wall_});
+        return;
+    }
     told_stop_ = stop;
     stop_told_ = completion;
     report();
+}
+
+/// A stop is done when the motor has confirmed it, a hold when the sequence is held with the motor stopped.
+void AxisLoop::follow_stops(gateway::Controller& controller) {
+    const gateway::Gateway& sequence = controller.sequence();
+    for (; !carried_out_.empty() && !told_stop_; carried_out_.pop()) {
+        const CarriedOut& stop = carried_out_.front();
+        const bool is_hold = stop.work.command.value == static_cast<std::uint32_t>(gw::Command::hold);
+        const gw::RunState state = sequence.run_state();
+        const bool is_held = state == gw::RunState::held || state == gw::RunState::stopped;
+        const bool is_done = !sequence.stop_unconfirmed() && (!is_hold || is_held);
+        if (!is_done && wall_ - stop.at < kLongestStop) return;
+        take_image(controller);
+        told_stop_ = stop.work;
+        stop_told_ = Completion{.result = is_done ? Result::done : Result::stop_unconfirmed};
+        report();
+    }
 }
 
 void AxisLoop::take_others(gateway::Controller& controller) {

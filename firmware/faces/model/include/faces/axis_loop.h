@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "base/ring.h"
 #include "faces/axis_model.h"
 #include "faces/midi_watch.h"
 #include "faces/motor_reader.h"
@@ -50,6 +51,7 @@ class AxisLoop {
     void look_for_stops(gateway::Controller& controller);
     void take_stops(gateway::Controller& controller);
     void carry_out_stop(gateway::Controller& controller, const Work& stop);
+    void follow_stops(gateway::Controller& controller);
     void take_others(gateway::Controller& controller);
     std::optional<Completion> refusal();
     void begin(gateway::Controller& controller);
@@ -94,7 +96,14 @@ class AxisLoop {
     gateway::SetPoints::Writer change_writer_;
     std::optional<std::uint8_t> writes_seen_;  ///< OwnRegisters::writes_begun
     bool was_enabled_ = false;
-    std::optional<Work> told_stop_;  ///< carried out, and not yet told
+    struct CarriedOut {
+        Work work;
+        base::Instant at{};
+    };
+    static constexpr base::Microseconds kLongestStop{1'000'000};
+    base::Ring<CarriedOut, CommandDesk::kMostClients>
+        carried_out_;                ///< stops that the motor has not confirmed yet
+    std::optional<Work> told_stop_;  ///< ended, and not yet told
     std::optional<Completion> stop_told_;
     AxisImage image_;
 };
