@@ -14,16 +14,21 @@ set(NPLC_ALL_PLACES ${cores})
 
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 
+execute_process(COMMAND "${Python3_EXECUTABLE}" -B "${PROJECT_SOURCE_DIR}/tools/cmake/real_time.py" "${PROJECT_SOURCE_DIR}/tests"
+                OUTPUT_VARIABLE NPLC_REAL_TIME_SOURCES OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+string(REPLACE "\n" ";" NPLC_REAL_TIME_SOURCES "${NPLC_REAL_TIME_SOURCES}")
+
 # nplc_part(RESULT PART SOURCE...)
 #
 # PART, or `realtime` if PART is `gate` or `thorough` and the sources depend on when something happens.
 function(nplc_part result part)
   if(part STREQUAL "gate" OR part STREQUAL "thorough")
-    execute_process(COMMAND "${Python3_EXECUTABLE}" -B "${PROJECT_SOURCE_DIR}/tools/cmake/real_time.py" ${ARGN}
-                    WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}" OUTPUT_VARIABLE why COMMAND_ERROR_IS_FATAL ANY)
-    if(why)
-      set(part realtime)
-    endif()
+    foreach(source IN LISTS ARGN)
+      cmake_path(ABSOLUTE_PATH source NORMALIZE)
+      if(source IN_LIST NPLC_REAL_TIME_SOURCES)
+        set(part realtime)
+      endif()
+    endforeach()
   endif()
   set(${result} ${part} PARENT_SCOPE)
 endfunction()

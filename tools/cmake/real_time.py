@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Prints why a test depends on when something happens, a line, or nothing if it does not.
+"""Prints the sources of tests that depend on when something happens, a line each.
 
-usage: real_time.py SOURCE...
+usage: real_time.py FOLDER
 
-Looks at the sources and at what they import or include from their own folder and from tests/.
+Looks at every source in the folders of FOLDER, and at what it imports or includes from its own folder and from the others.
 """
 
+import functools
 import os
 import re
 import sys
@@ -17,23 +18,35 @@ CPP = re.compile(r"<(?:thread|sys/socket\.h|poll\.h|sys/epoll\.h|pty\.h|pthread\
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 
 
+@functools.cache
+def folders(tests):
+    return sorted(entry.path for entry in os.scandir(tests) if entry.is_dir())
+
+
+@functools.cache
 def neighbour(path, name):
     """The file of that name beside it, or in another folder of the tests."""
     folder = os.path.dirname(path)
     tests = os.path.dirname(folder)
-    for place in [folder, *sorted(entry.path for entry in os.scandir(tests) if entry.is_dir())]:
+    for place in [folder, *folders(tests)]:
         candidate = os.path.join(place, name)
         if os.path.isfile(candidate):
             return candidate
     return None
 
 
+@functools.cache
+def content(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
 def reason(path, seen):
+    """Why, or None."""
     if path in seen:
         return None
     seen.add(path)
-    with open(path, encoding="utf-8") as file:
-        text = file.read()
+    text = content(path)
     name = os.path.basename(path)
     if path.endswith(".py"):
         imported = IMPORT.findall(text)
@@ -57,14 +70,12 @@ def reason(path, seen):
 
 
 def main():
-    if len(sys.argv) < 2:
+    if len(sys.argv) != 2:
         sys.exit(__doc__)
-    seen = set()
-    for path in sys.argv[1:]:
-        why = reason(os.path.abspath(path), seen)
-        if why:
-            print(why)
-            return
+    for folder in folders(os.path.abspath(sys.argv[1])):
+        for entry in os.scandir(folder):
+            if entry.name.endswith((".py", ".cpp")) and reason(entry.path, set()):
+                print(entry.path)
 
 
 if __name__ == "__main__":
