@@ -31,6 +31,11 @@ void Gateway::block_start(SafeReason reason) {
     stop_motor();
 }
 
+void Gateway::wait_for_first_run() {
+    waits_for_first_run_ = true;
+    block_start(SafeReason::not_started);
+}
+
 void Gateway::block(SafeReason reason) {
     safe_.set_reason(permission_.shown(reason));
     note(static_cast<Event>(safe_.reason()));
@@ -117,6 +122,7 @@ base::Status Gateway::run_until(After hold_after) {
     if (!enabled()) return base::Error::not_enabled;
     if (needs_proof()) return base::Error::no_proof;
     if (stop_unconfirmed()) return base::Error::stop_unconfirmed;
+    waits_for_first_run_ = false;
     if (run_state_ == RunState::stopped) {
         scan_.reset();
         stop_ordered_ = false;

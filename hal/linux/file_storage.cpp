@@ -72,6 +72,13 @@ std::string cannot_be_made(const std::string& path, std::uint32_t size, int reas
            fs::absolute(path).parent_path().string();
 }
 
+std::string cannot_be_opened(const std::string& path, int reason) {
+    std::string said = path + ": cannot be opened: " + std::strerror(reason);
+    if (reason == EROFS) said += "; mount that disk for writing; a card that is worn out becomes read-only";
+    if (reason == EACCES) said += "; let this user write there";
+    return said;
+}
+
 }  // namespace
 
 FileStorage::Opened FileStorage::open(const std::string& path, const ports::StorageGeometry& geometry) {
@@ -84,8 +91,7 @@ FileStorage::Opened FileStorage::open(const std::string& path, const ports::Stor
         return {nullptr, cannot_be_made(path, geometry.size, errno)};
     FileDescriptor file(::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     struct stat status {};
-    if (!file || ::fstat(file.get(), &status) != 0)
-        return {nullptr, path + ": cannot be opened: " + std::strerror(errno)};
+    if (!file || ::fstat(file.get(), &status) != 0) return {nullptr, cannot_be_opened(path, errno)};
     if (!S_ISREG(status.st_mode) || status.st_size != static_cast<off_t>(geometry.size))
         return {nullptr, path + ": this is not a memory of " + std::to_string(geometry.size) +
                              " bytes; name another file, or remove it"};

@@ -16,9 +16,13 @@
 namespace nplc::hal_linux {
 namespace {
 
-const std::string kFresh = "fresh  ";
-const std::string kEnded = "ended  ";
-const std::string kRunning = "running";
+const std::string kFresh = "fresh/2";
+const std::string kEnded = "ended/2";
+const std::string kRunning = "runs/2 ";
+/// Of the version before.
+const std::string kOldFresh = "fresh  ";
+const std::string kOldEnded = "ended  ";
+const std::string kOldRunning = "running";
 
 constexpr std::size_t kBoot = 36;
 constexpr std::size_t kChecked = 7 + 1 + kBoot + 1;  ///< "running BOOT "
@@ -68,10 +72,12 @@ void RunMarker::look() {
     if (::pread(file.get(), text.data(), text.size(), 0) != static_cast<ssize_t>(kBytes)) return;
     text.resize(kBytes);
     if (text != with_check(text.substr(0, kChecked))) return;
-    if (text.starts_with(kFresh)) found_ = Found::fresh;
-    if (text.starts_with(kEnded)) found_ = Found::ended;
-    if (text.starts_with(kRunning)) found_ = Found::running;
+    const auto is = [&text](const std::string& word) { return text.starts_with(word); };
+    if (is(kFresh) || is(kOldFresh)) found_ = Found::fresh;
+    if (is(kEnded) || is(kOldEnded)) found_ = Found::ended;
+    if (is(kRunning) || is(kOldRunning)) found_ = Found::running;
     is_whole_ = true;
+    is_old_ = is(kOldFresh) || is(kOldEnded) || is(kOldRunning);
     of_this_boot_ = text.compare(kRunning.size() + 1, kBoot, boot_) == 0;
 }
 

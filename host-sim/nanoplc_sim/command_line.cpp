@@ -174,6 +174,7 @@ void add_run(arguments::App& parent, RunOptions& options) {
     app.add_flag("--rapid", options.rapid, "rapid communication with the motor in place of safe");
     app.add_flag("--old-codes", options.old_register_codes, "the older register codes, driver and motor");
     app.add_flag("--keep-motor", options.keep_motor, "do not stop the motor before the first scan");
+    app.add_flag("--new", options.is_new, "as a board with a new store: it waits for a first run command");
     add_read(app, "--debounce", "TIME", "of the inputs (3ms)", "a time up to 1s, such as 3ms",
              into(options.debounce, [](const std::string& text) {
                  const auto time = parse_duration(text);

@@ -35,6 +35,7 @@ struct RunOptions {
     bool rapid = false;
     bool old_register_codes = false;
     bool keep_motor = false;
+    bool is_new = false;
     Time debounce = std::chrono::milliseconds{3};
     std::optional<std::uint32_t> baud;  ///< 19200 of a JVL motor, else as the drive comes
     std::uint64_t seed = 1;

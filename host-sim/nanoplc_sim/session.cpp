@@ -35,6 +35,7 @@ WorldOptions world_options(const RunOptions& options, const Names& names, const 
     world.safe_communication = !options.rapid;
     world.old_register_codes = options.old_register_codes;
     world.gateway.debounce = std::chrono::duration_cast<base::Microseconds>(options.debounce);
+    world.is_new = options.is_new;
     if (options.keep_motor) world.gateway.on_start = gateway::OnStart::keep;
     return world;
 }

@@ -11,6 +11,7 @@ import time
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "e2e"))
 import simulator  # noqa: E402  pylint: disable=wrong-import-position
+from commissioned import commission  # noqa: E402  pylint: disable=wrong-import-position
 
 PROGRAM = """
 PROGRAM Waits
@@ -52,6 +53,7 @@ def memory(process):
 def measure(options, folder, motor, wait_for):
     with open(f"{folder}/nanoplc.toml", "w", encoding="utf-8") as file:
         file.write(CONFIG.format(folder=folder, motor=motor))
+    commission(f"{folder}/state", "x")
     with subprocess.Popen([options.nanoplc, "--config", f"{folder}/nanoplc.toml"], stderr=subprocess.PIPE, text=True) as service:
         while wait_for not in service.stderr.readline():
             assert service.poll() is None, "nanoplc has ended"

@@ -165,7 +165,8 @@ class OneIsWrong(TwoAxes):
 
     def test_a_store_that_cannot_be_had_until_it_can(self):
         self.plug_in("two")
-        os.makedirs(self.path("state"))
+        self.write(self.axis("good", "one"), self.bad())
+        os.rename(self.path("state/bad"), self.path("bad_store"))
         with open(self.path("state/bad"), "w", encoding="utf-8"):
             service = self.start_both(self.bad())
         self.assertEqual(self.reason(), ("stopped", "no store", 0))
@@ -173,6 +174,7 @@ class OneIsWrong(TwoAxes):
         self.ctl("upload", self.table, port="bad", exit_code=1)
         self.ctl("run", port="bad", exit_code=1)
         os.remove(self.path("state/bad"))
+        os.rename(self.path("bad_store"), self.path("state/bad"))
         self.expect_both_move()
         self.ends(service)
         with open(self.path("state/bad/running"), encoding="ascii") as marker:

@@ -102,8 +102,55 @@ class Mark(Stored):
             self.moves()
             self.end(service)
 
-    def test_a_new_axis_is_not_one_that_lost_something(self):
+    def test_a_crash_waits_through_orderly_starts(self):
+        config = self.stored_run()
+        self.crash(config)
+        for _ in range(3):
+            service, _ = self.expect_waits(config, "watchdog", "the last run did not end in order")
+            self.assertEqual(self.end(service), 0)
+        service, _ = self.expect_waits(config, "watchdog", "the last run did not end in order")
+        self.ctl("run")
+        self.moves()
+        self.assertEqual(self.end(service), 0)
+        self.start(config)
+        self.moves()
+
+    def test_a_new_axis_waits_for_a_first_run(self):
+        config = self.write(self.axis(table=self.table), are_new=True)
+        for _ in range(2):
+            service, status = self.expect_waits(config, "not started", "new here: waits for a first run command")
+            self.assertTrue(status["waits_for_first_run"])
+            self.assertEqual(self.end(service), 0)
+        service = self.start(config)
+        self.ctl("run")
+        self.moves()
+        self.assertFalse(self.ctl("status")["waits_for_first_run"])
+        self.assertEqual(self.end(service), 0)
+        self.start(config)
+        self.moves()
+
+    def test_what_was_lost_starts_no_configured_table(self):
         config = self.write(self.axis(table=self.table))
+        self.assertEqual(self.end(self.start(config)), 0)
+        shutil.rmtree(self.path("state"))
+        service, _ = self.expect_waits(config, "not started", "new here")
+        self.ctl("run")
+        self.moves()
+        self.assertEqual(self.end(service), 0)
+        for page in range(16):
+            self.erase(page * 2048)
+        for _ in range(2):
+            service, _ = self.expect_waits(config, "bad run mark", "nobody knows whether the last run ended in order")
+            self.assertEqual(self.end(service), 0)
+
+    def test_another_axiss_store_waits(self):
+        config = self.stored_run()
+        os.rename(self.path("state/x"), self.path("state/y"))
+        config = self.write(self.axis("y", port="unix:" + self.path("x")))
+        service, _ = self.expect_waits(config, "not started", "is the store of axis x")
+        self.ctl("run")
+        self.moves()
+        self.assertEqual(self.end(service), 0)
         self.start(config)
         self.moves()
 

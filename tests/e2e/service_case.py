@@ -6,6 +6,7 @@ Who uses it sets the programs' paths below first.
 import json
 import os
 import signal
+import re
 import subprocess
 import tempfile
 import threading
@@ -13,6 +14,7 @@ import time
 import unittest
 
 import simulator
+from commissioned import commission
 
 NANOPLC = MACSIM = NANOCTL = MACREG = SEQC = MENDING = ""
 LONG = 60  # timeout in seconds of what must come
@@ -80,8 +82,13 @@ class ServiceCase(unittest.TestCase):
         return (f'[[axis]]\nname = "{name}"\ntable = "{table}"\n[axis.motor]\nport = "{self.path(motor)}"\n'
                 f'[axis.user]\nport = "{port or "unix:" + self.path(name)}"\n{more}')
 
-    def write(self, *axes, service=""):
+    def state_folder(self):
+        return self.path("state")
+
+    def write(self, *axes, service="", are_new=False):
         """Punctual where it may be: machines that test are busy."""
+        for axis in () if are_new else axes:
+            commission(self.state_folder(), re.search(r'^name = "(.*)"$', axis, re.M).group(1))
         config = self.path("nanoplc.toml")
         with open(config, "w", encoding="utf-8") as file:
             file.write(f'[service]\nstate_directory = "{self.path("state")}"\nreal_time_priority = 10\n{service}\n')

@@ -75,6 +75,9 @@ class SmallDisk(Stored):
         self.state = f"/proc/{self.disk.pid}/root{state}"
         self.mark = self.state + "/x/running"
 
+    def state_folder(self):
+        return self.state
+
     def let_go(self):
         self.disk.kill()
         self.disk.communicate()

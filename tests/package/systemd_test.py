@@ -199,7 +199,7 @@ class Systemd(unittest.TestCase):
         self.assertEqual(self.shown("ExecMainStatus"), "0")
         self.assertIn("ends: Terminated", self.journal())
         self.assertNotIn("may be moving", self.journal())
-        self.assertTrue(self.run_there("cat /var/lib/nanoplc/x/running").startswith("ended "))
+        self.assertTrue(self.run_there("cat /var/lib/nanoplc/x/running").startswith("ended/2 "))
         for step in ("start", "restart"):
             self.run_there(f"systemctl {step} nanoplc")
             self.until("the sequence by itself", RUNS)

@@ -12,6 +12,7 @@ import sys
 import board
 from board_run import build, in_share
 import gpio_sim
+from nanoplc_test import commission
 
 WANTED = {"median": 1.2, "p99": 1.5}
 LINE = 0
@@ -63,6 +64,7 @@ echo 'comm == "nanoplc" || comm == "smallest"' >events/kprobes/uart/filter
 echo 1 >events/irq/irq_handler_entry/enable
 echo 1 >events/kprobes/uart/enable
 cd /share
+cp -r state /tmp/state
 sed -i "s/CHIP/$simulated/" nanoplc.toml
 run() {
     turn=$1; shift
@@ -151,6 +153,7 @@ def run(phases, share, options):
         file.write(PROGRAM)
     subprocess.run([options.seqc, "build", f"{share}/reaction.seq", "-o", f"{share}/reaction.bin"], check=True,
                    stdout=subprocess.DEVNULL)
+    commission(f"{share}/state", "x")
     with open(f"{share}/nanoplc.toml", "w", encoding="utf-8") as file:
         file.write(CONFIG)
     phases.say("starting the board")

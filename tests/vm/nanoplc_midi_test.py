@@ -18,7 +18,7 @@ import time
 import board
 import nanoplc_test
 from board_run import build, in_share
-from nanoplc_test import simulator
+from nanoplc_test import commission, simulator
 
 # The module on the bus shares the board's processor: no real-time priority, or it would starve.
 CONFIG = """
@@ -56,6 +56,7 @@ for one in can0 can1; do
 done
 ./midisim --model MAC34-1 --address 5 --can can1 --eeprom eeprom >sim.log 2>&1 &
 module=$!
+cp -r state /tmp/state
 ./nanoplc --config nanoplc.toml 2>&1 &
 service=$!
 while kill -0 $service 2>/dev/null; do
@@ -157,6 +158,8 @@ def run(phases, share, midisim, nanoctl, seqc, examples, mending):
         subprocess.run([seqc, "build", source, "--quiet", "-o", os.path.join(share, name + ".bin")], check=True)
     with open(os.path.join(share, "nanoplc.toml"), "w", encoding="utf-8") as file:
         file.write(CONFIG)
+    for axis in ("x", "y"):
+        commission(os.path.join(share, "state"), axis)
     endpoint = os.path.join(share, "motor")
     v24_eeprom = os.path.join(share, "v24_eeprom")
     module, _ = simulator.start(midisim, "--model", "MAC34-2", "--v24", "unix:" + endpoint, "--eeprom", v24_eeprom)

@@ -21,6 +21,7 @@ from board_run import build, in_share
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.append(os.path.join(HERE, "..", "e2e"))
 import simulator  # noqa: E402  pylint: disable=wrong-import-position
+from commissioned import commission  # noqa: E402  pylint: disable=wrong-import-position
 
 # Lines of the simulated chip; of the board's own, which has fewer, some have names.
 SIMULATED = {f"IN{i}": 4 + i for i in range(6)} | {f"OUT{i}": 27 + i for i in range(4)}
@@ -46,6 +47,7 @@ poll_limit = 1000000
 # `back` take the driver of the lines and give it back, and the kernel gives the chip another number then. `used` asks for
 # the processor's time in 10 ms.
 SCRIPT = """
+cp -r state /tmp/state
 driver=/sys/bus/DRIVER
 while [ ! -e stop ]; do
     ./nanoplc --config nanoplc.toml 2>&1 &
@@ -243,6 +245,7 @@ def run(phases, share, macsim, nanoctl, seqc, source):
     lines = SIMULATED if simulated else OWN
     with open(os.path.join(share, "nanoplc.toml"), "w", encoding="utf-8") as file:
         file.write(config(lines, simulated))
+    commission(os.path.join(share, "state"), "x")
     endpoint = os.path.join(share, "motor")
     motor, _ = simulator.start(macsim, "--model", "MAC140", "--fastmac", "unix:" + endpoint)
     phases.say("starting the board")

@@ -16,7 +16,7 @@ import time
 
 import board
 from board_run import build, in_share
-from nanoplc_test import serve_user
+from nanoplc_test import commission, serve_user
 
 # No motor answers: a sequence that has started by itself waits for it.
 CONFIG = """
@@ -37,6 +37,7 @@ SCRIPT = """
 modprobe -a virtio_blk crc32c_generic ext4 || exit 1
 mkdir /disk
 mount -t ext4 /dev/vda /disk || exit 1
+[ -e /disk/state ] || cp -r state /disk/state
 ./nanoplc --config nanoplc.toml 2>&1 &
 while true; do
     if [ -e freeze ]; then rm freeze; sync; kill -STOP $!; fi
@@ -100,6 +101,7 @@ def run(phases, share, nanoctl):
     for name, content in (("nanoplc.toml", CONFIG.encode()), ("table.bin", TABLE)):
         with open(os.path.join(share, name), "wb") as file:
             file.write(content)
+    commission(os.path.join(share, "state"), "x")
     subprocess.run(["mkfs.ext4", "-q", os.path.join(share, "image"), "16M"], check=True, stdout=subprocess.DEVNULL)
     with Power(share, nanoctl, 1) as power:
         power.starts(1)
@@ -118,8 +120,8 @@ def run(phases, share, nanoctl):
         phases.say("the watchdog's reset is known as one")
         power.request("again")
         power.starts(3)
-        power.expect("waiting for the motor", "not started")
-        phases.say("after an orderly end in the same boot it starts by itself")
+        power.expect("stopped", "watchdog")
+        phases.say("an orderly end in the same boot changes nothing")
 
 
 if __name__ == "__main__":

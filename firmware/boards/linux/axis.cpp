@@ -130,9 +130,25 @@ void Axis::start(base::Instant now) {
     faces_.restarted();
     gateway::Gateway& sequence = controller_->sequence();
     sequence.pace(kPace);
-    if (store_.take_bad_marker()) sequence.block_start(SafeReason::bad_run_mark);
+    block_start();
     if (missing_.store.empty()) load_table(now);
     if (!store_.is_marked()) sequence.withdraw(SafeReason::bad_run_mark, now);
+}
+
+void Axis::block_start() {
+    gateway::Gateway& sequence = controller_->sequence();
+    if (!store_.is_open()) return;
+    switch (store_.permission()) {
+        case AutostartPermission::given:
+            return;
+        case AutostartPermission::first_run:
+            return sequence.wait_for_first_run();
+        case AutostartPermission::after_crash:
+            return sequence.block_start(SafeReason::watchdog);
+        case AutostartPermission::bad_mark:
+        case AutostartPermission::lost:
+            return sequence.block_start(SafeReason::bad_run_mark);
+    }
 }
 
 /// A table that cannot run leaves the axis stopped, and its port open for another one.
@@ -167,6 +183,12 @@ void Axis::note_running(base::Instant now) {
     if (error.empty()) return;
     journal_.write(LogLevel::error, error + "; make room, or mend it, and restart the service");
     controller_->sequence().withdraw(SafeReason::bad_run_mark, now);
+}
+
+void Axis::keep_permission() {
+    if (controller_->sequence().run_state() != gateway::RunState::stopped) store_.note_run();
+    if (const std::string error = store_.look(); !error.empty())
+        journal_.write(LogLevel::error, error + "; the next start waits for `nanoctl run`");
 }
 
 void Axis::note_orderly_end() {
@@ -233,6 +255,7 @@ void Axis::serve(base::Instant now) {
     if (is_back) watch_ports();
     watch_or_wait(now);
     watch_pins(now);
+    keep_permission();
     reporter_.report(*controller_, motor_, faces_.seat().holder(), now);
     if (controller_->reset_asked() && !store_.is_busy()) reset(now);
 }

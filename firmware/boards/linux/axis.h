@@ -84,7 +84,9 @@ class Axis {
     void open_motor();
     void open_user_port();
     void start(base::Instant now);
+    void block_start();
     void load_table(base::Instant now);
+    void keep_permission();
     void tell_stored_settings();
     void reset(base::Instant now);
 
@@ -108,7 +110,7 @@ class Axis {
     std::optional<gateway::StartCause> cause_;  ///< of the next start; nothing: not known without the store
     bool is_running_ = false;                   ///< note_running()
 
-    AxisStore store_{journal_};
+    AxisStore store_{journal_, config_.name};
     AxisPins pins_;
     MotorPart motor_;
     std::optional<ReopenedUart> mactalk_port_;

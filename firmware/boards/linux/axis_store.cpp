@@ -33,7 +33,44 @@ std::string AxisStore::open(const std::string& folder) {
     if (!opened.storage) return opened.error;
     file_ = std::move(opened.storage);
     storage_.emplace(*file_);
+    if (!owner_) check_owner(path);
     return {};
+}
+
+void AxisStore::check_owner(const std::string& path) {
+    using enum AutostartPermission;
+    owner_.emplace(path, axis_);
+    const bool has_run_here = marker_->found() == Found::ended || marker_->found() == Found::running;
+    switch (owner_->found()) {
+        case StoreOwner::Found::whole:
+            permission_ = owner_->permission();
+            if (!owner_->is_anothers()) break;
+            permission_ = first_run;
+            journal_.write(
+                LogLevel::error,
+                fmt::format("{} is the store of axis {}; if it is to be this one's, look at its table "
+                            "and settings, then `nanoctl run`",
+                            path, owner_->owner()));
+            break;
+        case StoreOwner::Found::damaged:
+            permission_ = bad_mark;
+            journal_.write(LogLevel::error, path + ": what says whose it is is damaged");
+            break;
+        case StoreOwner::Found::blank:
+            permission_ = is_lost_ ? lost : first_run;
+            if (is_lost_ || !has_run_here) break;
+            permission_ = marker_->is_old() ? given : lost;
+            if (marker_->is_old())
+                journal_.write(LogLevel::notice,
+                               "is of a version before: it may start by itself, as it did there");
+            else
+                journal_.write(LogLevel::error,
+                               path + " is blank, though the axis had one; what was stored is lost");
+            break;
+    }
+    if (marker_is_bad_ && permission_ != lost) permission_ = bad_mark;
+    if (permission_ == first_run && !owner_->is_anothers())
+        journal_.write(LogLevel::notice, "new here: waits for a first run command, `nanoctl run`");
 }
 
 /// What was stored is lost where a run is known and its store is missing.
@@ -46,6 +83,7 @@ std::string AxisStore::check_marker(const std::string& folder, const std::string
     if (is_new) static_cast<void>(marker_->make());  // mark_running() reports it
     marker_is_bad_ = !is_new && (found == Found::missing || found == Found::damaged);
     if (has_store || is_new || found == Found::fresh) return {};
+    is_lost_ = true;
     std::string why = replace_lost_store(path);
     if (!why.empty()) marker_.reset();
     return why;
@@ -72,6 +110,12 @@ std::string AxisStore::replace_lost_store(const std::string& path) {
 
 /// A watchdog's reset is over once a run has ended in order since then.
 bool AxisStore::is_after_crash(const BoardStart& board) {
+    if (!was_cut_off(board)) return false;
+    if (permission_ == AutostartPermission::given) permission_ = AutostartPermission::after_crash;
+    return true;
+}
+
+bool AxisStore::was_cut_off(const BoardStart& board) const {
     const bool is_cut_off = marker_->found() == Found::running;
     const bool of_this_boot = marker_->of_this_boot();
     if (is_cut_off && of_this_boot) return true;
@@ -87,15 +131,23 @@ bool AxisStore::is_after_crash(const BoardStart& board) {
     return is_cut_off && board.power_cut_waits;
 }
 
-bool AxisStore::take_bad_marker() {
-    return std::exchange(marker_is_bad_, false);
-}
-
 std::string AxisStore::mark_running() {
     if (!storage_) return {};
     std::string error = marker_->set();
+    if (error.empty() && !owner_->is_writing() && !owner_->is_anothers() && !owner_->says(permission_))
+        error = owner_->write(permission_);
     is_marked_ = error.empty();
     return error;
+}
+
+void AxisStore::note_run() {
+    if (!owner_ || permission_ == AutostartPermission::given || owner_->is_writing()) return;
+    permission_ = AutostartPermission::given;
+    owner_->begin_write(permission_);
+}
+
+std::string AxisStore::look() {
+    return owner_ ? owner_->poll().value_or("") : std::string();
 }
 
 std::string AxisStore::mark_ended() {

@@ -10,6 +10,16 @@ namespace {
 using gateway::Event;
 using gateway::SafeReason;
 
+/// What the board lacks.
+LogMessage of_missing(SafeReason reason) {
+    if (reason == SafeReason::no_lines)
+        return {LogLevel::error, "SAFE: GPIO lines are missing; it cannot run without them"};
+    if (reason == SafeReason::no_store)
+        return {LogLevel::error,
+                "SAFE: the store cannot be had, as said above; it does not run without its settings"};
+    return {LogLevel::error, "SAFE: the user's port is missing; it does not run where nobody can stop it"};
+}
+
 LogMessage of_reason(SafeReason reason, unsigned step) {
     switch (reason) {
         case SafeReason::none:
@@ -49,19 +59,18 @@ LogMessage of_reason(SafeReason reason, unsigned step) {
                 "SAFE: the stored settings are damaged or gone; look at those in use with `nanoctl settings "
                 "list`, set and keep them, then `nanoctl run`"};
         case SafeReason::bad_run_mark:
-            return {
-                LogLevel::error,
-                "SAFE: nobody knows whether the last run ended in order: the file `running` in the axis's "
-                "folder is damaged, missing, or cannot be written; look at the machine, then `nanoctl run`"};
+            return {LogLevel::error,
+                    "SAFE: nobody knows whether the last run ended in order: the file `running` or "
+                    "`store.bin` in the "
+                    "axis's folder is damaged, was lost, or cannot be written; look at the machine, then "
+                    "`nanoctl "
+                    "run`"};
         case SafeReason::safe_command:
             return {LogLevel::warning, fmt::format("SAFE: told to be, in step {}", step)};
         case SafeReason::no_lines:
-            return {LogLevel::error, "SAFE: GPIO lines are missing; it cannot run without them"};
         case SafeReason::no_store:
-            return {LogLevel::error, "SAFE: the store is missing; it does not run without its settings"};
         case SafeReason::no_port:
-            return {LogLevel::error,
-                    "SAFE: the user's port is missing; it does not run where nobody can stop it"};
+            return of_missing(reason);
         case SafeReason::no_proof:
             return {
                 LogLevel::error,

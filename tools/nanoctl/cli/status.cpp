@@ -123,11 +123,16 @@ void show_status(Session& session, const StatusOptions& options) {
     text += fmt::format("\nactive table {}; stored table {}",
                         table_text(of(gw::TABLE_BYTES), of(gw::TABLE_CRC)), stored_text(about, status));
     if (digest) text += fmt::format("\ncertificate {}", digest::hex(*digest));
-    if ((flags & 1) != 0) text += "\nDAMAGED: a stored table; an older one or none is in use, upload again";
-    if ((flags & 2) != 0)
+    const bool has_store = status.safe_reason != gw::SafeReason::no_store;
+    if (!has_store)
+        text += "\nNO STORE: it is locked, missing or not writable; the gateway's journal says why";
+    if (has_store && (flags & 1) != 0)
+        text += "\nDAMAGED: a stored table; an older one or none is in use, upload again";
+    if (has_store && (flags & 2) != 0)
         text += "\nDAMAGED: the stored settings; older or initial ones are in use, set and keep them";
-    if ((flags & 4) != 0)
+    if (has_store && (flags & 4) != 0)
         text += "\nDAMAGED: the stored set-points; older ones or the defaults are in use, set them anew";
+    if ((flags & 8) != 0) text += "\nnew here: waits for a first run command, `nanoctl run`";
     text += fmt::format("\nmotor link {}, lost {} times, {} messages repeated, {} orders done, {} discarded",
                         name_of(status.link), count(gw::LINK_LOSSES), count(gw::RESENT), count(gw::ORDERS),
                         count(gw::DISCARDED));
@@ -148,6 +153,7 @@ void show_status(Session& session, const StatusOptions& options) {
                      {"table_damaged", (flags & 1) != 0},
                      {"settings_damaged", (flags & 2) != 0},
                      {"set_points_damaged", (flags & 4) != 0},
+                     {"waits_for_first_run", (flags & 8) != 0},
                      {"link_losses", count(gw::LINK_LOSSES)},
                      {"resent", count(gw::RESENT)},
                      {"orders", count(gw::ORDERS)},

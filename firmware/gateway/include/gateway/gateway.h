@@ -75,6 +75,9 @@ class Gateway {
     void end_start_up() { permission_.end_start_up(); }
     /// In the start-up: nothing starts by itself, and `reason` is shown until run().
     void block_start(SafeReason reason);
+    /// The same, for a store with which nobody has commanded run yet: until run() it waits_for_first_run().
+    void wait_for_first_run();
+    bool waits_for_first_run() const { return waits_for_first_run_; }
     /// The same, and until unlock() run() is refused with not_enabled and no other reason is shown.
     void lock(SafeReason reason);
     void unlock(SafeReason reason);
@@ -219,11 +222,12 @@ class Gateway {
     bool stop_ordered_ = false;     ///< on the way to running, or to being held
     bool stop_after_loss_ = false;  ///< the motor is to be stopped once the link delivers again
     bool stop_watched_ = false;     ///< its confirmation is to be noted in the log
+    bool waits_for_first_run_ = false;
     std::uint8_t motor_fault_ = 0;  ///< as noted in the log
-    std::uint32_t stop_asked_ = 0;
-    base::Instant hold_asked_{};
     StartPermission permission_;
     SafeState safe_;
+    std::uint32_t stop_asked_ = 0;
+    base::Instant hold_asked_{};
     HoldControl hold_;
     Signals signals_;
     Settings settings_;

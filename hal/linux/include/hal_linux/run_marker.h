@@ -22,6 +22,8 @@ class RunMarker {
     Found found() const { return found_; }
     /// What was found was written in this boot.
     bool of_this_boot() const { return of_this_boot_; }
+    /// What was found was written by a version before 2, beside which the store had no record of its owner.
+    bool is_old() const { return is_old_; }
 
     // Each answers nothing, or in one line why it could not be written.
 
@@ -40,6 +42,7 @@ class RunMarker {
     std::string boot_;
     Found found_ = Found::damaged;
     bool of_this_boot_ = false;
+    bool is_old_ = false;
     bool is_whole_ = false;  ///< and can be written in place
 };
 

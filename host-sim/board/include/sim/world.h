@@ -38,6 +38,7 @@ struct WorldOptions {
     LineFaults faults;  ///< both directions
     bool safe_communication = true;
     bool old_register_codes = false;
+    bool is_new = false;                              ///< nobody has commanded run with its store yet
     Servo::Depth depth = Servo::Depth::current_loop;  ///< of the motor's computation
     Load load{};                                      ///< of the motor's shaft
     gateway::Settings gateway{};                      ///< where nothing is stored

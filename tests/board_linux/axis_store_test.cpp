@@ -1,0 +1,227 @@
+// What lets an axis's sequence start by itself, through starts and ends of every kind.
+#include "axis_store.h"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "base/crc32.h"
+
+namespace nplc::boards {
+namespace {
+
+namespace fs = std::filesystem;
+using enum AutostartPermission;
+
+constexpr std::uint32_t kRecord = 14 * 2048;
+constexpr std::size_t kHeader = 6;  // "NPO1", the permission, the name's length
+
+class AxisStoreTest : public testing::Test {
+  protected:
+    AxisStoreTest() {
+        std::string made = (fs::temp_directory_path() / "axis_store_XXXXXX").string();
+        root_ = ::mkdtemp(made.data());
+    }
+    ~AxisStoreTest() override { fs::remove_all(root_); }
+
+    /// One run of the service.
+    struct Run {
+        Run(const std::string& folder, const std::string& name, const BoardStart& board)
+            : axis(name), store(axis_journal, name) {
+            testing::internal::CaptureStderr();
+            error = store.open(folder);
+            if (!error.empty()) return;
+            is_after_crash = store.is_after_crash(board);
+            permission = store.permission();
+            error = store.mark_running();
+            said = testing::internal::GetCapturedStderr();
+        }
+        void command_run() {
+            store.note_run();
+            for (error = store.look(); store.permission_is_being_written(); error += store.look()) {
+            }
+        }
+        void end() { EXPECT_EQ(store.mark_ended(), ""); }
+
+        std::string axis;
+        Journal journal{LogLevel::debug};
+        AxisJournal axis_journal{journal, axis};
+        AxisStore store;
+        bool is_after_crash = false;
+        AutostartPermission permission = bad_mark;
+        std::string error;
+        std::string said;
+    };
+
+    std::string folder(const std::string& axis = "a") const { return (root_ / axis).string(); }
+    std::string store(const std::string& axis = "a") const { return folder(axis) + "/store.bin"; }
+    std::string mark(const std::string& axis = "a") const { return folder(axis) + "/running"; }
+
+    Run start(const BoardStart& board = {}, const std::string& axis = "a") const {
+        return {folder(axis), axis, board};
+    }
+    AutostartPermission start_and_end(const BoardStart& board = {}, const std::string& axis = "a") const {
+        Run run = start(board, axis);
+        EXPECT_EQ(run.error, "");
+        run.end();
+        return run.permission;
+    }
+    void command_run_once(const std::string& axis = "a") const {
+        Run run = start({}, axis);
+        run.command_run();
+        EXPECT_EQ(run.error, "");
+        run.end();
+    }
+
+    static std::string content(const std::string& path) {
+        std::ifstream file(path, std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+    static void write(const std::string& path, const std::string& bytes) {
+        std::ofstream(path, std::ios::binary) << bytes;
+    }
+    /// As the version before 2 left it.
+    void write_old_mark(std::string word) const {
+        word.resize(7, ' ');
+        const std::string checked = word + " 01234567-89ab-cdef-0123-456789abcdef ";
+        std::array<char, 10> crc{};
+        const std::vector<std::uint8_t> bytes(checked.begin(), checked.end());
+        std::snprintf(crc.data(), crc.size(), "%08x\n", static_cast<unsigned>(base::crc32(bytes)));
+        write(mark(), checked + crc.data());
+    }
+
+    fs::path root_;
+};
+
+TEST_F(AxisStoreTest, ANewOneWaitsForAFirstRun) {
+    for (int i = 0; i < 3; ++i) {
+        Run run = start();
+        EXPECT_EQ(run.permission, first_run);
+        EXPECT_NE(run.said.find("new here: waits for a first run command"), std::string::npos) << run.said;
+        run.end();
+    }
+    command_run_once();
+    EXPECT_EQ(start_and_end(), given);
+    EXPECT_EQ(start_and_end(), given);
+}
+
+TEST_F(AxisStoreTest, ACrashWaitsThroughAnyNumberOfOrderlyStarts) {
+    command_run_once();
+    { Run crashed = start(); }
+    {
+        Run run = start();
+        EXPECT_TRUE(run.is_after_crash);
+        EXPECT_EQ(run.permission, after_crash);
+        run.end();
+    }
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(start_and_end(), after_crash);
+    command_run_once();
+    EXPECT_EQ(start_and_end(), given);
+}
+
+TEST_F(AxisStoreTest, AWatchdogsResetToo) {
+    command_run_once();
+    EXPECT_EQ(start_and_end({.by_watchdog = true}), given) << "it is over: a run has ended in this boot";
+    write_old_mark("running");
+    EXPECT_EQ(start_and_end({.by_watchdog = true}), after_crash);
+    EXPECT_EQ(start_and_end(), after_crash);
+}
+
+TEST_F(AxisStoreTest, APowerCutGoesAsItIsConfigured) {
+    command_run_once();
+    write_old_mark("running");
+    EXPECT_EQ(start_and_end(), given);
+    write_old_mark("running");
+    EXPECT_EQ(start_and_end({.power_cut_waits = true}), after_crash);
+    EXPECT_EQ(start_and_end(), after_crash);
+}
+
+TEST_F(AxisStoreTest, JunkInTheMarkWaitsLikewise) {
+    command_run_once();
+    write(mark(), "junk");
+    EXPECT_EQ(start_and_end(), bad_mark);
+    EXPECT_EQ(start_and_end(), bad_mark);
+    fs::remove(mark());
+    EXPECT_EQ(start_and_end(), bad_mark);
+    command_run_once();
+    EXPECT_EQ(start_and_end(), given);
+}
+
+TEST_F(AxisStoreTest, WhatWasLostStartsNothing) {
+    command_run_once();
+    fs::remove_all(folder());
+    EXPECT_EQ(start_and_end(), first_run) << "the folder is gone: a new one";
+
+    command_run_once();
+    write(store(), std::string(32 * 1024, '\xFF'));
+    {
+        Run run = start();
+        EXPECT_EQ(run.permission, lost);
+        EXPECT_NE(run.said.find("what was stored is lost"), std::string::npos) << run.said;
+        run.end();
+    }
+    EXPECT_EQ(start_and_end(), lost);
+
+    command_run_once();
+    fs::remove(store());
+    EXPECT_EQ(start_and_end(), lost);
+    EXPECT_EQ(start_and_end(), lost);
+    command_run_once();
+    EXPECT_EQ(start_and_end(), given);
+}
+
+TEST_F(AxisStoreTest, AnotherAxissStoreWaitsAndIsNamed) {
+    command_run_once("a");
+    command_run_once("b");
+    fs::copy_file(store("b"), store("a"), fs::copy_options::overwrite_existing);
+    for (int i = 0; i < 2; ++i) {
+        Run run = start();
+        EXPECT_EQ(run.permission, first_run);
+        EXPECT_NE(run.said.find("is the store of axis b"), std::string::npos) << run.said;
+        run.end();
+    }
+    command_run_once("a");
+    EXPECT_EQ(start_and_end(), given);
+}
+
+TEST_F(AxisStoreTest, AStoreOfTheVersionBeforeCountsAsRunOnce) {
+    fs::create_directories(folder());
+    write(store(), std::string(32 * 1024, '\xFF'));
+    write_old_mark("ended");
+    {
+        Run run = start();
+        EXPECT_EQ(run.permission, given);
+        EXPECT_NE(run.said.find("of a version before"), std::string::npos) << run.said;
+        run.end();
+    }
+    EXPECT_EQ(start_and_end(), given);
+    // Its store was lost before the new version saw it.
+    fs::remove_all(folder());
+    fs::create_directories(folder());
+    write_old_mark("ended");
+    EXPECT_EQ(start_and_end(), lost);
+}
+
+TEST_F(AxisStoreTest, EachFlippedBitOfTheRecordWaits) {
+    command_run_once();
+    const std::string sound = content(store());
+    ASSERT_EQ(sound.size(), 32U * 1024);
+    for (std::size_t bit = 0; bit < 8 * (kHeader + 1 + 4); ++bit) {
+        std::string damaged = sound;
+        char& byte = damaged[kRecord + bit / 8];
+        byte = static_cast<char>(byte ^ (1 << bit % 8));
+        write(store(), damaged);
+        EXPECT_EQ(start_and_end(), bad_mark) << bit;
+        EXPECT_EQ(start_and_end(), bad_mark) << bit;
+    }
+    command_run_once();
+    EXPECT_EQ(content(store()), sound);
+}
+
+}  // namespace
+}  // namespace nplc::boards
