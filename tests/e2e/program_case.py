@@ -1,25 +1,19 @@
 """A test case with a folder of its own, and programs that end with it."""
 
-import os
-import tempfile
-import unittest
-
 import simulator
+from folder_case import FolderCase
 
 
-class ProgramCase(unittest.TestCase):
+class ProgramCase(FolderCase):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
+        super().setUp()
         self.running = []
 
     def tearDown(self):
         for process in self.running:
             process.kill()
             process.communicate()
-        self.folder.cleanup()
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
+        super().tearDown()
 
     def launch(self, *command):
         """A simulator, when it is ready; its lines until then."""
