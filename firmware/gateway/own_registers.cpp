@@ -90,6 +90,8 @@ std::uint32_t OwnRegisters::table_value(std::uint8_t reg) const {
             return gateway_.polls().worst();
         case LATE_POLLS:
             return gateway_.polls().late();
+        case ECHO_TIME:
+            return static_cast<std::uint32_t>(gateway_.motor().echo_time().count());
         case STOP_SINCE:
             return gateway_.stop_unconfirmed() ? gateway_.stop_asked() : 0;
         case COMMAND:

@@ -11,7 +11,8 @@ using protocol::fastmac::Status;
 constexpr base::Microseconds kLongestMessage{250'000};  ///< from its first byte to its echo, resends included
 constexpr std::uint8_t kMostResends = 3;
 /// Status bytes in a row, received after the whole message, that must show the old toggle before it is sent
-/// again. The first of them may have been on its way already, so 2 is the least.
+/// again, from when no echo can be on its way any more. The first of them may have been on its way already,
+/// so 2 is the least.
 constexpr std::uint8_t kProofBytes = 3;
 constexpr std::uint8_t kStrangeBytes = 4;
 constexpr int kReadsPerPoll = 1024;  // far more than any port holds back
@@ -98,6 +99,7 @@ void JvlLink::forget(base::Instant now) {
     reads_ = false;
     reply_.reset();
     last_status_ = now;
+    echo_.forget();
 }
 
 JvlLink::Result JvlLink::poll(base::Instant now) {
@@ -117,10 +119,9 @@ base::Instant JvlLink::next_poll(base::Instant now) const {
         not_before(line_free_);
     }
     if (!synchronized_) return next;
-    not_after(last_status_ + settings_.silence + kTick);
+    not_after(last_status_ + longest_silence() + kTick);
     if (!busy()) return next;
     not_after(started_ + kLongestMessage + kTick);
-    if (old_shown_ >= kProofBytes && !repeat_is_harmless()) not_after(left_at_ + settings_.proof_time);
     return next;
 }
 
@@ -145,7 +146,7 @@ void JvlLink::transmit(base::Instant now) {
     last_poll_ = now;
     heard_ = base::Microseconds(0);
     read_all(now);
-    polled_late_ = unwatched - heard_ > settings_.silence;
+    polled_late_ = unwatched - heard_ > longest_silence();
 }
 
 void JvlLink::read_all(base::Instant now) {
@@ -184,12 +185,14 @@ void JvlLink::on_reply(const protocol::flexmac::Message& reply) {
 }
 
 void JvlLink::on_status(std::uint8_t byte, base::Instant now) {
+    if (synchronized_) echo_.pause(now - last_status_);
     last_status_ = now;
     filter_.receive(byte);
     const Status seen = protocol::fastmac::decode_status(byte);
-    old_shown_ = busy() && on_the_line_ && shows_old(seen) ? bump(old_shown_) : std::uint8_t{0};
+    const bool is_old = busy() && on_the_line_ && now - left_at_ >= patience() && shows_old(seen);
+    old_shown_ = is_old ? bump(old_shown_) : std::uint8_t{0};
     strange_shown_ = in_step(seen) ? std::uint8_t{0} : bump(strange_shown_);
-    if (is_done()) settle();
+    if (is_done()) settle(now);
 }
 
 bool JvlLink::shows_old(const Status& seen) const {
@@ -211,7 +214,10 @@ bool JvlLink::is_done() const {
     return false;
 }
 
-void JvlLink::settle() {
+void JvlLink::settle(base::Instant now) {
+    // Longer ones may be answered first.
+    if (resends_ == 0 && size_ <= 2)
+        echo_.learn(now - (on_the_line_ ? left_at_ : line_free_) - kEchoCharacters * character_);
     synchronize();
     expect_ = Expect::nothing;
     accepted_ = true;
@@ -233,22 +239,24 @@ bool JvlLink::in_step(const Status& seen) const {
 JvlLink::Result JvlLink::judge(base::Instant now) {
     if (synchronized_ && polled_late_)
         return Result::silent;  // even if accepted: what waits behind it would be late
-    if (std::exchange(accepted_, false)) return Result::accepted;
+    if (std::exchange(accepted_, false)) return echo_.is_too_late() ? Result::refused : Result::accepted;
     if (!synchronized_) return Result::none;
-    if (now - last_status_ > settings_.silence) return Result::silent;
+    if (now - last_status_ > longest_silence()) return Result::silent;
     if (strange_shown_ >= kStrangeBytes) return Result::out_of_step;
     return busy() ? judge_message(now) : Result::none;
 }
 
-bool JvlLink::is_proven_lost(base::Instant now) const {
-    if (old_shown_ < kProofBytes) return false;
-    return repeat_is_harmless() || now - left_at_ >= settings_.proof_time;
+/// After that no echo can be on its way. Before the last one a repeat that comes too early does no harm.
+base::Microseconds JvlLink::patience() const {
+    if (repeat_is_harmless() && resends_ < kMostResends) return echo_.patience();
+    return std::max(settings_.proof_time, EchoTime::kPatience);
 }
 
 JvlLink::Result JvlLink::judge_message(base::Instant now) {
     if (now - started_ > kLongestMessage) return Result::refused;
-    if (!is_proven_lost(now)) return Result::none;
-    if (resends_ == kMostResends) return Result::refused;
+    if (old_shown_ < kProofBytes) return Result::none;
+    if (resends_ == kMostResends || !echo_.is_known()) return Result::refused;
+    if (repeat_is_harmless()) echo_.doubt();
     ++resends_;
     ++resent_;
     rewind(now);

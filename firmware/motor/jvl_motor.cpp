@@ -16,6 +16,11 @@ constexpr base::Microseconds kBlindPause{100'000};
 /// For an answer that comes after the motor's acceptance: two answers' length at 19200 baud, sent slowly.
 constexpr base::Microseconds kLateReply{40'000};
 
+/// Rounded up.
+constexpr std::uint32_t bytes_within(base::Microseconds time, std::uint32_t baud) {
+    return static_cast<std::uint32_t>(time.count()) * (baud / 100) / 100'000 + 1;
+}
+
 }  // namespace
 
 JvlMotor::JvlMotor(ports::SerialPort& port, const Settings& settings)
@@ -23,7 +28,7 @@ JvlMotor::JvlMotor(ports::SerialPort& port, const Settings& settings)
       registers_are_32_bit_(settings.registers_are_32_bit),
       register_code_(settings.register_code),
       link_(port, settings.link),
-      hold_time_(2 * settings.sample_period) {}
+      hold_bytes_(bytes_within(2 * settings.sample_period, settings.link.baud) + 2) {}
 
 void JvlMotor::poll(base::Instant now) {
     switch (link_.poll(now)) {
@@ -38,7 +43,7 @@ void JvlMotor::poll(base::Instant now) {
             lose_link(now);
             break;
     }
-    update_hold(now);
+    update_hold();
     begin_orders(now);
 }
 
@@ -55,7 +60,6 @@ void JvlMotor::begin_orders(base::Instant now) {
 
 base::Instant JvlMotor::next_poll(base::Instant now) const {
     base::Instant next = link_.next_poll(now);
-    if (holds_ && !hold_counts_) next = std::min(next, hold_until_);
     if (link_.busy()) return next;
     if (has_work()) return now;
     if (reply_until_) next = std::min(next, *reply_until_);
@@ -92,19 +96,19 @@ void JvlMotor::on_accepted(base::Instant now) {
             break;
         case Sending::order:
             orders_.end();
-            on_executed(orders_.current(), now);
+            on_executed(orders_.current());
             break;
         case Sending::stop:
             stop_wanted_ = false;
-            hold_in_position(now);
+            hold_in_position();
             break;
         case Sending::access:
             if (!access_.access().is_write) {
-                reply_until_ = now + kLateReply;
+                reply_until_ = now + kLateReply + link_.late_by();
                 break;
             }
             access_.finish();
-            hold_in_position(now);
+            hold_in_position();
             break;
     }
     if (is_up() && !was_up_) {
@@ -114,8 +118,8 @@ void JvlMotor::on_accepted(base::Instant now) {
     }
 }
 
-void JvlMotor::on_executed(const Order& order, base::Instant now) {
-    if (makes_in_position_stale(order)) hold_in_position(now);
+void JvlMotor::on_executed(const Order& order) {
+    if (makes_in_position_stale(order)) hold_in_position();
     if (order.is_register_write) return;
     if (order.command == command_byte(Number::reset_error)) link_error_ = false;
     if (order.command == command_byte(Number::rapid_communication)) safe_now_ = false;
@@ -300,22 +304,15 @@ Link JvlMotor::link() const {
     return link_error_ ? Link::unacknowledged : Link::up;
 }
 
-void JvlMotor::hold_in_position(base::Instant now) {
+void JvlMotor::hold_in_position() {
     holds_ = true;
-    hold_until_ = now + hold_time_;
-    hold_counts_ = false;
+    held_from_ = link_.confirmed();
 }
 
-/// Two motor samples, then a valid status whose bytes are both from after them: of the next two pairs the
-/// first may begin with an older byte.
-void JvlMotor::update_hold(base::Instant now) {
-    if (!holds_ || now < hold_until_) return;
-    if (!hold_counts_) {
-        hold_counts_ = true;
-        hold_count_ = link_.confirmed();
-    } else if (link_.confirmed() - hold_count_ >= 2) {
-        holds_ = false;
-    }
+/// Counted in status bytes, not in time: on a late line those that arrive may be old, but the motor sent each
+/// after the one before. The last two are a pair from after two samples.
+void JvlMotor::update_hold() {
+    if (link_.confirmed() - held_from_ >= hold_bytes_) holds_ = false;
 }
 
 }  // namespace nplc::motor

@@ -68,6 +68,8 @@ constexpr std::array kMap{
         "sleeping board was to wake"},
     Row{LATE_POLLS, 1, "LATE_POLLS", kRead,
         "polls later than the setting poll_limit since the start, while the sequence was not stopped"},
+    Row{ECHO_TIME, 1, "ECHO_TIME", kRead,
+        "us from the end of a message to a JVL motor to its echo, the worst of late; 0: not measured"},
     Row{STOP_SINCE, 1, "STOP_SINCE", kRead,
         "UPTIME when the motor was told to stop, while it has not confirmed that; else 0"},
     Row{COMMAND, 1, "COMMAND", Access::write, "see Commands below; reads the last one"},

@@ -57,6 +57,8 @@ void spoil(LineDirection& direction, const action::SpoilLine& what) {
     faults.framing = what.framing.value_or(faults.framing);
     faults.delay = what.delay.value_or(faults.delay);
     faults.longest_delay = what.longest_delay.value_or(faults.longest_delay);
+    faults.late = what.late.value_or(faults.late);
+    faults.together = what.together.value_or(faults.together);
     direction.set_faults(faults);
 }
 

@@ -6,6 +6,8 @@
 namespace nplc::sim {
 namespace {
 
+using namespace std::chrono_literals;
+
 constexpr std::uint64_t kBitsPerCharacter = 10;
 constexpr std::uint64_t kSecond = 1'000'000'000;
 constexpr std::uint64_t kDraws = 6;  ///< of a character
@@ -80,12 +82,13 @@ void LineDirection::start(std::uint8_t byte, Time now) {
         if (luck.mask == mask_before) ++counters_.damaged_alike;
         received.value = static_cast<std::uint8_t>(byte ^ luck.mask);
     }
-    Time arrival = busy_until_;
+    Time arrival = busy_until_ + faults_.late;
     if (luck.delay < faults_.delay) {
         ++counters_.delayed;
         arrival +=
             Time{static_cast<std::int64_t>(luck.wait * static_cast<double>(faults_.longest_delay.count()))};
     }
+    if (faults_.together > Time(0)) arrival += faults_.together - 1ns - (arrival - 1ns) % faults_.together;
     last_arrival_ = std::max(last_arrival_, arrival);
     flying_.push_back({received, last_arrival_});
 }

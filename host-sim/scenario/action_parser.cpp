@@ -101,12 +101,13 @@ void ActionParser::line(Actions& list, Time after) {
     line_direction(spoil);
     if (reader_.take("clean")) {
         spoil.drop = spoil.damage = spoil.framing = spoil.delay = 0;
+        spoil.late = spoil.together = Time(0);
         return add(list, after, spoil);
     }
     if (!fault(spoil)) {
         reader_.fail(
             "line cut, line restored, line clean, or drop, damage, framing, delay and a share, such as line "
-            "drop 1 %");
+            "drop 1 %, or late, together and a time, such as line late 5 ms");
     }
     while (fault(spoil)) {
     }
@@ -138,6 +139,10 @@ bool ActionParser::fault(action::SpoilLine& spoil) {
             reader_.want("to", "up to and a time, such as delay 1 % up to 5 ms");
             spoil.longest_delay = reader_.duration("a time, such as delay 1 % up to 5 ms");
         }
+    } else if (reader_.take("late")) {
+        spoil.late = reader_.duration("a time, such as late 16 ms");
+    } else if (reader_.take("together")) {
+        spoil.together = reader_.duration("a time, such as together 16 ms");
     } else {
         return false;
     }

@@ -147,7 +147,7 @@ TEST_F(MotorTest, AnUnconfirmedWriteIsALostLink) {
     start();
     driver.send(write(5, 100));
     exchange({0x7F, 0x7F}, 0x80, 0x08);
-    motor.hear_times(300, 0x08);
+    motor.hear_times(500, 0x08);
     EXPECT_TRUE(driver.error());
     EXPECT_EQ(driver.counters().link_losses, 1U);
 }

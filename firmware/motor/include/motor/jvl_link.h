@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/time.h"
+#include "motor/echo_time.h"
 #include "motor/status_filter.h"
 #include "ports/serial.h"
 #include "protocol/flexmac.h"
@@ -19,16 +20,16 @@ class JvlLink {
     struct Settings {
         std::uint32_t baud = 19'200;
         base::Microseconds silence{
-            20'000};  ///< no status byte, or nobody who listened, for this long: the link is lost
+            20'000};  ///< no status byte, or nobody who listened, for this long and the echo's delay: lost
         /// A FlexMAC message or a change of protocol, which would act twice, also waits this long for an echo
-        /// that may be late. Raise it with an adapter that holds characters back for longer.
+        /// that may be late, and EchoTime::kPatience at the least.
         base::Microseconds proof_time{20'000};
     };
 
     enum class Result : std::uint8_t {
         none,
         accepted,
-        refused,  ///< not taken after all resends, or longest_message passed
+        refused,  ///< not taken after all resends, or longest_message passed, or taken too late
         silent,
         out_of_step,  ///< the motor's toggle or protocol is not what the last message left
     };
@@ -67,10 +68,18 @@ class JvlLink {
     /// How often two equal status bytes in a row were heard.
     std::uint32_t confirmed() const { return filter_.confirmed(); }
     std::uint32_t resent() const { return resent_; }
+    /// From the end of a message to the second byte of its echo, the worst of late; 0: not measured yet.
+    base::Microseconds echo_time() const {
+        return echo_.was_known() ? echo_.measured() + kEchoCharacters * character_ : base::Microseconds(0);
+    }
+    base::Microseconds late_by() const { return echo_.at_most(); }
+    base::Microseconds character() const { return character_; }
     bool framing_error_seen() const { return framing_seen_; }
     void clear_framing_error() { framing_seen_ = false; }
 
   private:
+    static constexpr int kEchoCharacters = 3;  ///< the one under way, and two equal ones
+
     enum class Expect : std::uint8_t { nothing, toggle, enter_flexmac, leave_flexmac };
 
     void start(std::span<const std::uint8_t> bytes, Expect expect, base::Instant now);
@@ -83,11 +92,12 @@ class JvlLink {
     void on_status(std::uint8_t byte, base::Instant now);
     bool shows_old(const protocol::fastmac::Status& seen) const;
     bool is_done() const;
-    void settle();
+    void settle(base::Instant now);
     bool in_step(const protocol::fastmac::Status& seen) const;
     Result judge(base::Instant now);
     Result judge_message(base::Instant now);
-    bool is_proven_lost(base::Instant now) const;
+    base::Microseconds patience() const;
+    base::Microseconds longest_silence() const { return settings_.silence + echo_.at_most(); }
     bool repeat_is_harmless() const { return expect_ == Expect::toggle && size_ <= 2; }
 
     // Small members first: see JvlMotor.
@@ -119,6 +129,7 @@ class JvlLink {
     std::uint32_t resent_ = 0;
     Settings settings_;
     base::Microseconds character_;
+    EchoTime echo_;
     protocol::flexmac::ReplyDecoder replies_;
     std::array<std::uint8_t, protocol::flexmac::kMaxBytes> message_;
 };

@@ -48,6 +48,7 @@ class JvlMotor final : public Motor {
     std::uint32_t resent() const { return link_.resent(); }
     Counters counters() const override;
     bool longwords_only() const override { return registers_are_32_bit_; }
+    base::Microseconds echo_time() const override { return link_.echo_time(); }
 
   private:
     enum class Phase : std::uint8_t { down, look, first_safety, second_safety, first_nop, second_nop, up };
@@ -56,7 +57,7 @@ class JvlMotor final : public Motor {
     bool is_up() const { return phase_ == Phase::up; }
     void lose_link(base::Instant now);
     void on_accepted(base::Instant now);
-    void on_executed(const Order& order, base::Instant now);
+    void on_executed(const Order& order);
     void start_up(base::Instant now);
     std::uint8_t safety_command() const;
     void free_the_line(base::Instant now);
@@ -68,8 +69,8 @@ class JvlMotor final : public Motor {
     void follow_access(base::Instant now);
     void command(Sending what, std::uint8_t command, base::Instant now);
     std::uint8_t on_the_wire(std::uint8_t command) const;
-    void hold_in_position(base::Instant now);
-    void update_hold(base::Instant now);
+    void hold_in_position();
+    void update_hold();
 
     // Small members first: a Thumb instruction of two bytes reaches only an object's first 32 to 128.
     Sending sending_ = Sending::nothing;
@@ -84,14 +85,12 @@ class JvlMotor final : public Motor {
     bool was_up_ = false;
     bool for_access_ = false;  ///< in FlexMAC, or on the way there and back, for accesses only
     bool holds_ = false;       ///< IN_POS reads 0 until the motor has worked it out anew
-    bool hold_counts_ = false;
     AccessSlot access_;
     BlindStop blind_stop_;
     JvlLink link_;
-    std::uint32_t hold_count_ = 0;
+    std::uint32_t hold_bytes_;  ///< as many as the motor sends in two samples, and the pair after them
+    std::uint32_t held_from_ = 0;  ///< the link's confirmed() then
     std::uint32_t losses_ = 0;
-    base::Microseconds hold_time_;
-    base::Instant hold_until_{};
     base::Instant next_blind_{};
     std::optional<base::Instant> reply_until_;
     OrderQueue orders_;

@@ -107,6 +107,9 @@ class Motor {
 
     virtual Counters counters() const = 0;
 
+    /// From the end of a message to its echo, the worst of late; 0: not measured.
+    virtual base::Microseconds echo_time() const { return {}; }
+
     /// Registers are longwords only (MAC800), one a number; else words, of which a longword takes two.
     virtual bool longwords_only() const = 0;
 

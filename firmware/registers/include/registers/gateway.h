@@ -63,6 +63,7 @@ enum Number : std::uint8_t {
     LINE_FAULTS = 40,
     POLL_WORST = 43,
     LATE_POLLS = 44,
+    ECHO_TIME = 45,
     STOP_SINCE = 46,
 
     COMMAND = 48,

@@ -17,6 +17,8 @@ struct LineFaults {
     double framing = 0;  ///< arrives with a framing error and some other value
     double delay = 0;
     Time longest_delay = std::chrono::milliseconds{5};  ///< a delayed character waits up to this long
+    Time late{0};                                       ///< every character comes so much later
+    Time together{0};  ///< and is held back until the next multiple of this time, as a USB adapter does
     bool operator==(const LineFaults&) const = default;
 };
 

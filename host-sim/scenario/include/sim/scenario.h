@@ -39,6 +39,8 @@ struct SpoilLine {
     std::optional<double> framing;
     std::optional<double> delay;
     std::optional<Time> longest_delay;
+    std::optional<Time> late{};
+    std::optional<Time> together{};
 };
 struct Seed {
     std::uint64_t value = 1;
