@@ -79,6 +79,21 @@ std::string stored_text(const Block& about, const Status& status) {
                 : table_text(of(gw::STORED_BYTES), of(gw::STORED_CRC));
 }
 
+/// Without an adapter an echo takes two or three characters, 1.6 ms at 19200 baud.
+std::string echo_text(std::uint32_t us) {
+    constexpr std::uint32_t kSlow = 4'000;
+    constexpr std::uint32_t kMost = 40'000;
+    if (us == 0) return {};
+    std::string text = fmt::format("\nechoes from the motor take up to {:.1f} ms", us / 1000.0);
+    if (us > kMost)
+        text += ", more than the 40 ms that are allowed: set the latency timer of its USB adapter to 1 ms";
+    else if (us > kSlow)
+        text +=
+            ": every order waits for one, which costs the machine time, and a cut is noticed later; set the "
+            "latency timer of its USB adapter to 1 ms";
+    return text;
+}
+
 /// What to mend first in front.
 std::string why_text(const Why& why) {
     std::string text;
@@ -140,6 +155,7 @@ void show_status(Session& session, const StatusOptions& options) {
                         status.scan_worst);
     text += fmt::format("\npolls at most {} us late, {} of them beyond the limit", count(gw::POLL_WORST),
                         count(gw::LATE_POLLS));
+    text += echo_text(count(gw::ECHO_TIME));
     if (status.has(gw::kSettingsDiffer)) text += "\nsettings differ from the stored ones";
     const Why why = options.why ? ask_why(gateway, status) : why_of_gateway(gateway, status);
     text += why_text(why);
@@ -160,6 +176,7 @@ void show_status(Session& session, const StatusOptions& options) {
                      {"discarded", count(gw::DISCARDED)},
                      {"poll_worst_us", count(gw::POLL_WORST)},
                      {"late_polls", count(gw::LATE_POLLS)},
+                     {"echo_time_us", count(gw::ECHO_TIME)},
                      {"why", why_document(why)},
                      {"why_of_motor", why.knows_motor}});
     session.tell(text, document);
