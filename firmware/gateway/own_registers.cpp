@@ -52,6 +52,7 @@ std::uint32_t OwnRegisters::value(std::uint8_t reg, base::Instant now) const {
     if (reg >= STATUS && reg <= RESULT) return live_value(reg, now);
     if (reg >= LINK_LOSSES && reg <= REFUSED) return count_value(reg);
     if (reg >= PROOF && reg < PROOF + kProofWords) return tables_.proof_word(reg - PROOF);
+    if (reg >= POLL_WORST && reg <= STOP_SINCE) return time_value(reg);
     if (reg >= LINE_FAULTS && reg < LINE_FAULTS + kLines) return line_faults(lines_[reg - LINE_FAULTS]);
     if (kHasSetPoints && reg == SET_POINT_POINTER) return set_points_.pointer();
     if (kHasSetPoints && ((reg >= SET_POINT_COUNT && reg <= SET_POINT_BYTES) ||
@@ -86,14 +87,6 @@ std::uint32_t OwnRegisters::table_value(std::uint8_t reg) const {
         case STORE_FLAGS:
             return (tables_.fell_back() ? 1U : 0U) | (settings_.were_damaged() ? 2U : 0U) |
                    (set_points_.were_damaged() ? 4U : 0U) | (gateway_.waits_for_first_run() ? 8U : 0U);
-        case POLL_WORST:
-            return gateway_.polls().worst();
-        case LATE_POLLS:
-            return gateway_.polls().late();
-        case ECHO_TIME:
-            return static_cast<std::uint32_t>(gateway_.motor().echo_time().count());
-        case STOP_SINCE:
-            return gateway_.stop_unconfirmed() ? gateway_.stop_asked() : 0;
         case COMMAND:
             return last_command_;
         case FORCE_IN:
@@ -176,6 +169,19 @@ std::uint32_t OwnRegisters::count_value(std::uint8_t reg) const {
     const auto counters =
         std::bit_cast<std::array<std::uint32_t, MESSAGES - LINK_LOSSES>>(gateway_.motor().counters());
     return counters[reg - LINK_LOSSES];
+}
+
+std::uint32_t OwnRegisters::time_value(std::uint8_t reg) const {
+    switch (reg) {
+        case POLL_WORST:
+            return gateway_.polls().worst();
+        case LATE_POLLS:
+            return gateway_.polls().late();
+        case ECHO_TIME:
+            return static_cast<std::uint32_t>(gateway_.motor().echo_time().count());
+        default:
+            return gateway_.stop_unconfirmed() ? gateway_.stop_asked() : 0;
+    }
 }
 
 std::uint32_t OwnRegisters::line_faults(const ports::SerialPort* line) const {

@@ -142,11 +142,11 @@ void JvlLink::transmit(base::Instant now) {
 }
 
 [[gnu::noinline]] void JvlLink::receive(base::Instant now) {
-    const base::Microseconds unwatched = now - last_poll_;
-    last_poll_ = now;
-    heard_ = base::Microseconds(0);
+    const base::Microseconds unwatched = now - listening_.polled;
+    listening_.polled = now;
+    listening_.heard = base::Microseconds(0);
     read_all(now);
-    polled_late_ = unwatched - heard_ > longest_silence();
+    listening_.too_late = unwatched - listening_.heard > longest_silence();
 }
 
 void JvlLink::read_all(base::Instant now) {
@@ -154,7 +154,7 @@ void JvlLink::read_all(base::Instant now) {
     for (int i = 0; i < kReadsPerPoll; ++i) {
         const std::size_t count = port_.read(bytes);
         for (const auto& byte : std::span(bytes).first(count)) {
-            heard_ += character_;
+            listening_.heard += character_;
             if (byte.framing_error) {
                 framing_seen_ = true;
                 filter_.break_pair();
@@ -237,7 +237,7 @@ bool JvlLink::in_step(const Status& seen) const {
 }
 
 JvlLink::Result JvlLink::judge(base::Instant now) {
-    if (synchronized_ && polled_late_)
+    if (synchronized_ && listening_.too_late)
         return Result::silent;  // even if accepted: what waits behind it would be late
     if (std::exchange(accepted_, false)) return echo_.is_too_late() ? Result::refused : Result::accepted;
     if (!synchronized_) return Result::none;

@@ -67,6 +67,7 @@ class OwnRegisters {
     std::uint32_t value(std::uint8_t reg, base::Instant now) const;
     std::uint32_t live_value(std::uint8_t reg, base::Instant now) const;
     std::uint32_t count_value(std::uint8_t reg) const;
+    std::uint32_t time_value(std::uint8_t reg) const;
     std::uint32_t table_value(std::uint8_t reg) const;
     std::uint32_t line_faults(const ports::SerialPort* line) const;
     std::uint32_t status() const;

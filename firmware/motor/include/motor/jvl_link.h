@@ -82,6 +82,12 @@ class JvlLink {
 
     enum class Expect : std::uint8_t { nothing, toggle, enter_flexmac, leave_flexmac };
 
+    struct Listening {
+        base::Instant polled{};
+        base::Microseconds heard{};  ///< on the line since the poll before: characters read now
+        bool too_late = false;       ///< nobody listened for longer than longest_silence()
+    };
+
     void start(std::span<const std::uint8_t> bytes, Expect expect, base::Instant now);
     void rewind(base::Instant now);
     void transmit(base::Instant now);
@@ -114,7 +120,6 @@ class JvlLink {
     bool toggle_ = false;
     bool flexmac_ = false;
     bool framing_seen_ = false;
-    bool polled_late_ = false;  ///< nobody listened for longer than `silence`
     ports::SerialPort& port_;
     StatusFilter filter_;
     protocol::flexmac::Message request_;
@@ -124,8 +129,7 @@ class JvlLink {
     base::Instant left_at_{};    ///< when the last byte had left
     base::Instant started_{};
     base::Instant last_status_{};
-    base::Instant last_poll_{};
-    base::Microseconds heard_{};  ///< on the line since the poll before: characters read now
+    Listening listening_;
     std::uint32_t resent_ = 0;
     Settings settings_;
     base::Microseconds character_;
