@@ -118,7 +118,7 @@ void JvlMotor::on_accepted(base::Instant now) {
     }
 }
 
-void JvlMotor::on_executed(const Order& order) {
+[[gnu::noinline]] void JvlMotor::on_executed(const Order& order) {
     if (makes_in_position_stale(order)) hold_in_position();
     if (order.is_register_write) return;
     if (order.command == command_byte(Number::reset_error)) link_error_ = false;

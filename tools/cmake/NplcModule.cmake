@@ -44,7 +44,8 @@ if(NOT NPLC_HOSTED)
   option(NPLC_MODBUS "Speak Modbus RTU beside MacTalk on the user's port: up to 4 KiB of flash and 1 KiB of RAM more" OFF)
   option(NPLC_UPDATE "Renew the firmware over the user's port, with a loader and two slots" OFF)
   add_compile_definitions(NPLC_UPDATE=$<BOOL:${NPLC_UPDATE}>)
-  add_compile_definitions(NPLC_SET_POINTS=$<BOOL:${NPLC_SET_POINTS}> NPLC_RECIPES=4 NPLC_MODBUS=$<BOOL:${NPLC_MODBUS}>)
+  add_compile_definitions(NPLC_SET_POINTS=$<BOOL:${NPLC_SET_POINTS}> NPLC_RECIPES=4 NPLC_MODBUS=$<BOOL:${NPLC_MODBUS}>
+                          NPLC_LATE_LINES=0)
 endif()
 
 add_library(nplc_options INTERFACE)

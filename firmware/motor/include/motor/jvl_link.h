@@ -6,7 +6,7 @@
 #include <span>
 
 #include "base/time.h"
-#include "motor/echo_time.h"
+#include "motor/jvl_echo_time.h"
 #include "motor/status_filter.h"
 #include "ports/serial.h"
 #include "protocol/flexmac.h"

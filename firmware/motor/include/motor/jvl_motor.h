@@ -85,9 +85,9 @@ class JvlMotor final : public Motor {
     bool was_up_ = false;
     bool for_access_ = false;  ///< in FlexMAC, or on the way there and back, for accesses only
     bool holds_ = false;       ///< IN_POS reads 0 until the motor has worked it out anew
-    AccessSlot access_;
-    BlindStop blind_stop_;
     JvlLink link_;
+    BlindStop blind_stop_;
+    AccessSlot access_;
     std::uint32_t hold_bytes_;  ///< as many as the motor sends in two samples, and the pair after them
     std::uint32_t held_from_ = 0;  ///< the link's confirmed() then
     std::uint32_t losses_ = 0;

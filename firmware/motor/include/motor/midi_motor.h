@@ -130,8 +130,8 @@ class MidiMotor final : public Motor {
     std::uint8_t refusals_ = 0;   ///< of the motion that is to begin
     MidiFault fault_ = MidiFault::none;
     Limitation limitation_ = Limitation::none;
-    MidiSession session_;
     MidiMotion motion_;
+    MidiSession session_;
     MidiMessage message_;         ///< under way while link_.busy()
     std::uint32_t asked_at_ = 0;  ///< us, modulo 2^32: when it was sent
     MidiDrive drive_;
