@@ -23,7 +23,10 @@ std::string trouble_with(const std::string& path, int error) {
     if (error == ENOENT) return "there is no " + path + "; load the driver of this board's watchdog";
     if (error == EBUSY)
         return path + ": another program has it; systemd does if its RuntimeWatchdogSec= is set";
-    if (error == EACCES || error == EPERM) return "you may not use " + path + "; its group may, or root";
+    if (error == EACCES) return "you may not use " + path + "; its group may, or root";
+    if (error == EPERM)
+        return "this service may not use " + path +
+               "; name it in DeviceAllow= of nanoplc.service (`systemctl edit nanoplc`)";
     return path + ": " + std::strerror(error);
 }
 
@@ -66,6 +69,7 @@ DeviceWatchdog::Opened DeviceWatchdog::open(const std::string& path, base::Micro
     int cause = 0;
     armed->has_reset_board_ =
         ::ioctl(device.get(), WDIOC_GETBOOTSTATUS, &cause) == 0 && (cause & WDIOF_CARDRESET) != 0;
+    armed->tells_resets_ = (info.options & WDIOF_CARDRESET) != 0;
     armed->timeout_ = made;
     armed->device_ = device.release();
     armed->path_ = path;

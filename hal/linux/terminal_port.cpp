@@ -31,6 +31,7 @@ std::string cannot_open(const std::string& name, const std::string& path, int re
 termios raw_mode(termios mode, speed_t speed) {
     ::cfmakeraw(&mode);
     ::cfsetspeed(&mode, speed);
+    mode.c_iflag &= ~kFlowControl;
     mode.c_cflag |= static_cast<tcflag_t>(CLOCAL | CREAD);
     mode.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS | PARENB);
     mode.c_cc[VMIN] = 0;

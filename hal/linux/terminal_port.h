@@ -23,6 +23,8 @@ std::string held_by_another(const std::string& name, const std::string& path);
 std::string holder_of(const std::string& path);
 
 /// 8N1 without handshake; a read returns what there is.
+/// 11h and 13h are bytes as others: cfmakeraw leaves IXOFF and IXANY as they were.
+inline constexpr tcflag_t kFlowControl = IXON | IXOFF | IXANY;
 termios raw_mode(termios mode, speed_t speed);
 
 }  // namespace nplc::hal_linux

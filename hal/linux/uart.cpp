@@ -41,6 +41,21 @@ bool set_mode(int descriptor, const UartSettings& settings) {
     return ::tcsetattr(descriptor, TCSANOW, &mode) == 0;
 }
 
+/// A driver may take some of a mode and say nothing of the rest.
+bool has_flow_control(int descriptor) {
+    termios mode{};
+    if (::tcgetattr(descriptor, &mode) != 0) return true;
+    return (mode.c_iflag & kFlowControl) != 0 || (mode.c_cflag & static_cast<tcflag_t>(CRTSCTS)) != 0;
+}
+
+/// An FTDI adapter holds characters back for 16 ms otherwise. Not every driver has it.
+void ask_for_low_latency(int descriptor) {
+    serial_struct serial{};
+    if (::ioctl(descriptor, TIOCGSERIAL, &serial) != 0) return;
+    serial.flags |= ASYNC_LOW_LATENCY;
+    ::ioctl(descriptor, TIOCSSERIAL, &serial);
+}
+
 bool set_rs485(int descriptor, const Rs485& wanted) {
     serial_rs485 mode{};
     mode.flags = SER_RS485_ENABLED | (wanted.rts_on_send ? SER_RS485_RTS_ON_SEND : SER_RS485_RTS_AFTER_SEND);
@@ -57,6 +72,11 @@ std::string set_up(int descriptor, const UartSettings& settings) {
     if (settings.rs485 && !set_rs485(descriptor, *settings.rs485))
         return path + ": the driver of this device cannot do RS-485 (" + std::strerror(errno) +
                "); leave rs485 out if the adapter switches by itself";
+    if (has_flow_control(descriptor))
+        return path +
+               ": the driver of this device keeps its flow control, which takes 11h and 13h for its own; "
+               "use another adapter";
+    ask_for_low_latency(descriptor);
     ::tcflush(descriptor, TCIOFLUSH);
     return {};
 }

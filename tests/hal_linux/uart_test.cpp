@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <stdlib.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -71,6 +72,24 @@ TEST(Uart, CarriesEveryByteBothWays) {
     EXPECT_EQ(opened.uart->write(all), all.size());
     EXPECT_EQ(line.heard(), all);
     EXPECT_TRUE(opened.uart->transmitter_idle());
+}
+
+/// 11h and 13h are FastMAC bytes; the program before may have left the line with any flow control.
+TEST(Uart, LeavesNoFlowControl) {
+    Pair line;
+    const int before = ::open(line.path().c_str(), O_RDWR | O_NOCTTY);
+    ASSERT_GE(before, 0);
+    termios mode{};
+    ASSERT_EQ(::tcgetattr(before, &mode), 0);
+    mode.c_iflag |= static_cast<tcflag_t>(IXON | IXOFF | IXANY);
+    mode.c_cflag |= static_cast<tcflag_t>(CRTSCTS);
+    ASSERT_EQ(::tcsetattr(before, TCSANOW, &mode), 0);
+    auto opened = Uart::open({.path = line.path()});
+    ASSERT_NE(opened.uart, nullptr) << opened.error;
+    ASSERT_EQ(::tcgetattr(before, &mode), 0);
+    EXPECT_EQ(mode.c_iflag & static_cast<tcflag_t>(IXON | IXOFF | IXANY), 0U);
+    EXPECT_EQ(mode.c_cflag & static_cast<tcflag_t>(CRTSCTS), 0U);
+    ::close(before);
 }
 
 TEST(Uart, AnEmptyLineIsNotGone) {

@@ -75,8 +75,9 @@ class Reader {
         config.watchdog_device = located_text(service, "watchdog_device");
         if (const auto seconds = service.number("watchdog_seconds", 1, 600))
             config.watchdog_seconds = static_cast<int>(*seconds);
-        if (const auto waits = service.choice("after_power_cut", {"start", "wait"}))
-            config.power_cut_waits = *waits == 1;
+        if (const auto waits = service.choice("after_power_cut", {"start", "wait", "auto"})) {
+            if (*waits != 2) config.power_cut_waits = *waits == 1;
+        }
         service.finish();
     }
 

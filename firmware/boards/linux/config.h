@@ -57,7 +57,9 @@ struct Config {
     hal_linux::RealTime real_time;
     LocatedText watchdog_device;
     int watchdog_seconds = 10;
-    bool power_cut_waits = false;  ///< else the settings' autostart decides
+    /// After a power cut in a run; false: the settings' autostart decides. Nothing: it waits where
+    /// watchdog_device is one whose driver cannot tell its own resets, which look like power cuts.
+    std::optional<bool> power_cut_waits{};
     PanelConfig panel;
     ModbusConfig modbus;
     MetricsConfig metrics;

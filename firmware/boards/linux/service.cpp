@@ -79,7 +79,7 @@ std::string Service::open() {
     catch_fatal_signals();
     const BoardStart board{
         hal_linux::DeviceWatchdog::any_has_reset_board() || (device_ && device_->has_reset_board()),
-        config_.power_cut_waits};
+        config_.power_cut_waits.value_or(device_ && !device_->tells_resets())};
     const base::Instant now = clock_.now();
     for (const AxisConfig& config : config_.axes) {
         axes_.push_back(std::make_unique<Axis>(config, journal_, watchdog_->add()));

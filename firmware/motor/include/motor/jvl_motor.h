@@ -88,7 +88,7 @@ class JvlMotor final : public Motor {
     JvlLink link_;
     BlindStop blind_stop_;
     AccessSlot access_;
-    std::uint32_t hold_bytes_;  ///< as many as the motor sends in two samples, and the pair after them
+    std::uint32_t hold_bytes_;     ///< as many as the motor sends in two samples, and the pair after them
     std::uint32_t held_from_ = 0;  ///< the link's confirmed() then
     std::uint32_t losses_ = 0;
     base::Instant next_blind_{};

@@ -64,6 +64,8 @@ class DeviceWatchdog final : public ports::Watchdog {
     base::Microseconds timeout() const { return timeout_; }
     /// The driver says that it reset the board before this start.
     bool has_reset_board() const { return has_reset_board_; }
+    /// The driver can say so. Those of bcm2835, dw and sunxi chips and softdog cannot.
+    bool tells_resets() const { return tells_resets_; }
     /// The driver of any watchdog of this board says so in /sys; none is opened, and whoever feeds it may
     /// have it.
     static bool any_has_reset_board();
@@ -80,6 +82,7 @@ class DeviceWatchdog final : public ports::Watchdog {
     base::Microseconds timeout_{};
     std::optional<base::Instant> fed_{};
     bool has_reset_board_ = false;
+    bool tells_resets_ = false;
 };
 
 }  // namespace nplc::hal_linux
