@@ -52,7 +52,7 @@ bool has_flow_control(int descriptor) {
 void ask_for_low_latency(int descriptor) {
     serial_struct serial{};
     if (::ioctl(descriptor, TIOCGSERIAL, &serial) != 0) return;
-    serial.flags |= ASYNC_LOW_LATENCY;
+    serial.flags |= static_cast<int>(ASYNC_LOW_LATENCY);
     ::ioctl(descriptor, TIOCSSERIAL, &serial);
 }
 

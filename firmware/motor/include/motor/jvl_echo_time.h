@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <type_traits>
 
@@ -14,11 +15,12 @@
 namespace nplc::motor {
 
 /// How late a line brings echoes, beyond the characters' own time: the worst of late, follows a rise at once
-/// and a fall slowly. In us, of 32 bits: what is longer than kMost is no line that is used.
+/// and a fall slowly.
 class MeasuredEchoTime {
   public:
-    static constexpr std::uint32_t kMost = 40'000;      ///< a later line is not used
-    static constexpr std::uint32_t kPatience = 60'000;  ///< where nothing is known, or nothing may be wrong
+    static constexpr base::Microseconds kMost{40'000};  ///< a later line is not used
+    static constexpr base::Microseconds kPatience{
+        60'000};  ///< where nothing is known, or nothing may be wrong
 
     /// The echo of a message that was sent once. That of a repeated one tells nothing (Karn).
     void learn(base::Microseconds late);
@@ -33,14 +35,13 @@ class MeasuredEchoTime {
 
     bool is_known() const { return is_known_; }
     bool was_known() const { return is_known_ || late_ != 0; }
-    bool is_too_late() const { return is_known_ && late_ > kMost; }
+    bool is_too_late() const { return is_known_ && measured() > kMost; }
     /// The last that was known.
     base::Microseconds measured() const { return base::Microseconds(late_); }
-    base::Microseconds at_most() const { return base::Microseconds(is_known_ ? late_ : kMost); }
+    base::Microseconds at_most() const { return is_known_ ? measured() : kMost; }
     /// How long an echo is waited for where a repeat does no harm.
-    std::uint32_t patience() const {
-        if (!is_known_) return kPatience;
-        return wait_ > late_ ? wait_ : late_;
+    base::Microseconds patience() const {
+        return is_known_ ? base::Microseconds(std::max(wait_, late_)) : kPatience;
     }
 
   private:
@@ -53,8 +54,8 @@ class MeasuredEchoTime {
 /// That of a line that holds nothing back.
 class NoEchoTime {
   public:
-    static constexpr std::uint32_t kMost = 0;
-    static constexpr std::uint32_t kPatience = 0;
+    static constexpr base::Microseconds kMost{0};
+    static constexpr base::Microseconds kPatience{0};
 
     void learn(base::Microseconds) {}
     void doubt() {}
@@ -66,7 +67,7 @@ class NoEchoTime {
     bool is_too_late() const { return false; }
     base::Microseconds measured() const { return {}; }
     base::Microseconds at_most() const { return {}; }
-    std::uint32_t patience() const { return 0; }
+    base::Microseconds patience() const { return {}; }
 };
 
 using EchoTime = std::conditional_t<NPLC_LATE_LINES != 0, MeasuredEchoTime, NoEchoTime>;
