@@ -263,8 +263,8 @@ TEST_P(UserPortTest, FaultsOfLinesAreShownIfTheBoardNamesThem) {
     EXPECT_EQ(read(reg::LINE_FAULTS + 2), 0xFFFF'FFFFU) << "it stays there";
     EXPECT_FALSE(write(reg::LINE_FAULTS + 2, 0));
     EXPECT_EQ(result(), result_of(Result::read_only, reg::LINE_FAULTS + 2));
-    EXPECT_FALSE(write(reg::ECHO_TIME + 1, 0));
-    EXPECT_EQ(result(), result_of(Result::no_register, reg::ECHO_TIME + 1));
+    EXPECT_FALSE(write(reg::STOP_SINCE + 1, 0));
+    EXPECT_EQ(result(), result_of(Result::no_register, reg::STOP_SINCE + 1));
 }
 
 TEST(CommandResult, EachErrorHasItsCode) {
