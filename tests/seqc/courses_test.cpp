@@ -52,6 +52,26 @@ TEST_F(Courses, WrongProgramsGiveTheirCodeAndRightOnesNothing) {
     }
 }
 
+TEST_F(Courses, AForgottenPresetIsFoundBehindATimer) {
+    // Cool waits for the timer that Seal has used up.
+    EXPECT_EQ(found_in("PROGRAM P\nMOTOR MAC140;\nON ERROR NEXT := Fault;\n"
+                       "STEP Idle: IF IN0 THEN NEXT := Seal; END_IF END_STEP\n"
+                       "STEP Seal: OUT OUT0; ENTRY TIMER := T#1500ms; IF TIMER.Q THEN NEXT := Cool; END_IF "
+                       "END_STEP\n"
+                       "STEP Cool: OUT OUT1; IF TIMER.Q THEN NEXT := Idle; END_IF END_STEP\n"
+                       "STEP Fault: OWN ERROR; OUT OUT3; ENTRY STOP; IF ANY ERROR AND IN1 THEN RESET_ERROR; "
+                       "NEXT := POWER_UP; END_IF END_STEP\nEND_PROGRAM\n"),
+              std::set<std::string>{"V007"});
+    for (const Json& result : Json::parse(read("out"))["results"]) {
+        EXPECT_NE(result["verdict"], "undecided");
+        if (result.value("code", "") != "V007") continue;
+        unsigned ms = 0;
+        for (const Json& scan : result["course"])
+            ms += scan.value("times", 1U) * scan["dt_ms"].get<unsigned>();
+        EXPECT_GE(ms, 1500U);
+    }
+}
+
 TEST_F(Courses, AnAllowedFaultIsToldWithItsReasonAndIsNoFault) {
     const std::string program =
         "PROGRAM P\nMOTOR MAC140;\nON ERROR NEXT := Fault;\n"

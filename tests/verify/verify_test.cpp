@@ -46,6 +46,15 @@ class Bench {
         }
         return {};
     }
+    /// What a check found in a step.
+    Result finding(const std::string& code, std::uint8_t step) {
+        Options options;
+        options.order_time = [](std::span<const sequencer::MotorOrder>) { return Delay{4, 8, 0}; };
+        for (const Result& result : verify(loaded_.table, {}, {}, options).results) {
+            if (result.code == code && result.step == step) return result;
+        }
+        return {};
+    }
     Bench& assuming(std::string assumptions) {
         assumed_ = std::move(assumptions);
         return *this;
@@ -76,6 +85,41 @@ TEST(Verify, TheTimerIsWaitedFor) {
         EXPECT_EQ(time, 500U);
         EXPECT_EQ(result.course->size(),
                   assume == Assume::any ? 2U : 252U);  // 500 ms in scans of 2 ms, and two
+    }
+}
+
+std::uint32_t ms_before_the_last(const Result& result) {
+    std::uint32_t time = 0;
+    for (std::size_t i = 0; result.course && i + 1 < result.course->size(); ++i)
+        time += (*result.course)[i].dt_ms;
+    return time;
+}
+
+TEST(Verify, AForgottenPresetIsFoundBehindAWait) {
+    // Step 1 presets 1500 ms and waits for them, step 2 waits for the timer that nobody preset again.
+    Bench forgot{{kAny, 1, 1, 1, 0, 1500}, {kTimerZero | 1, 0, 0, 2, 1}, {kTimerZero | 2, 0, 0, 0, 0}};
+    const Result result = forgot.finding("V007", 2);
+    EXPECT_EQ(result.verdict, Verdict::broken);
+    EXPECT_GE(ms_before_the_last(result), 1500U);
+}
+
+TEST(Verify, AMoveThatStandsIsFoundBehindAWait) {
+    // The second move is ordered while V_SOLL is 0 from the STOP, after a wait of 600 ms.
+    Bench stands{
+        {kAny, 1, 1, 1, 0, 600}, {kTimerZero | 1, 0, 0, 2, 0, 0, 0x40}, {kAny | 2, 2, 2, 0, 0, 0, 0x65}};
+    const Result result = stands.finding("V011", 2);
+    EXPECT_EQ(result.verdict, Verdict::broken);
+    EXPECT_GE(ms_before_the_last(result), 1200U);
+    EXPECT_EQ(stands.finding("V009", 2).verdict, Verdict::broken);
+}
+
+TEST(Verify, WhatBreaksALongTimeBreaksAShorterOne) {
+    // IN0 may be off for the scan of power-up alone, which sends: then nothing leads to step 1.
+    Bench missed{{kAny, 0, 0, 2, 0, 0, 0x65}, {kAny | 2, 0, 1, 1, 0}};
+    for (const char* ms : {"0", "2", "20", "200", "320", "400", "3600000"}) {
+        const Result result = missed.judge(
+            std::string("WHENEVER NOT IN0 AND NOT ERROR THEN step = 1 WITHIN ") + ms + " ms", Assume::driver);
+        EXPECT_EQ(result.verdict, Verdict::broken) << ms;
     }
 }
 
@@ -248,7 +292,7 @@ TEST(Verify, AssumptionsLeaveCoursesOut) {
     Bench tap{
         {kAny, 0, 1, 1, 0}, {kAny | 1, 1, 1, 2, 0, 20}, {kAny | 2, 0, 1, 3, 0}, {kTimerZero | 2, 1, 1, 4, 0}};
     EXPECT_EQ(tap.verdict("NEVER step = 3 AND NOT TIMER.Q", Assume::driver), Verdict::broken);
-    tap.assuming("ASSUME IN0 STABLE FOR 30 ms;");
+    tap.assuming("ASSUME NEVER ERROR; ASSUME IN0 STABLE FOR 30 ms;");
     EXPECT_NE(tap.verdict("NEVER step = 3 AND NOT TIMER.Q", Assume::driver), Verdict::broken);
 }
 

@@ -18,7 +18,10 @@ bool shows_error(const Place& place) {
 class Errors {
   public:
     explicit Errors(const Subject& subject)
-        : explorer_(subject.explorer), machine_(explorer_.machine()), names_(subject.names) {
+        : explorer_(subject.explorer),
+          machine_(explorer_.machine()),
+          names_(subject.names),
+          courses_(subject.courses) {
         find_fault_steps();
         find_ways_to_reset();
     }
@@ -30,8 +33,10 @@ class Errors {
             const Place place = explorer_.place(node);
             if (!is_fault_step_[place.step] || !shows_error(place) || resets_[node] || told[place.step])
                 continue;
+            auto course = courses_.to(node);
+            if (!course) continue;
             told[place.step] = true;
-            tell_stuck(node, place);
+            tell_stuck(node, place, std::move(*course));
         }
         find_outputs_left_on();
         return std::move(findings_);
@@ -87,7 +92,7 @@ class Errors {
         }
     }
 
-    void tell_stuck(Node node, const Place& place) {
+    void tell_stuck(Node node, const Place& place, std::vector<CourseScan> course) {
         bool leaves = false;
         std::vector<Node> open = {node};
         std::vector<bool> seen(explorer_.size());
@@ -110,7 +115,7 @@ class Errors {
              leaves
                  ? fmt::format("{} no way from step {} sends RESET_ERROR: it always comes back", when, step)
                  : fmt::format("{} nothing leaves step {}, and it sends no RESET_ERROR", when, step),
-             explorer_.course_to_node(node)});
+             std::move(course)});
     }
 
     /// Scans with ERROR in which no term writes outputs.
@@ -125,19 +130,20 @@ class Errors {
                 return group.error && !group.pending.has_output;
             });
             if (left == edges.end()) continue;
+            auto way = courses_.with(*left);
+            if (!way) continue;
             told[place.step] = true;
-            std::vector<CourseScan> way = explorer_.course_to_node(node);
-            way.push_back(explorer_.scan_of(*left, explorer_.images_of(*left)));
             findings_.push_back({"V006", place.step,
                                  fmt::format("in step {} ERROR leaves {} on", step_name(names_, place.step),
                                              outputs_text(place.outputs, names_)),
-                                 std::move(way)});
+                                 std::move(*way)});
         }
     }
 
     const Explorer& explorer_;
     const Machine& machine_;
     const Names& names_;
+    Courses& courses_;
     std::array<bool, 64> is_fault_step_{};
     std::vector<bool> resets_;
     std::vector<Finding> findings_;

@@ -21,12 +21,6 @@ std::string order_text(const MotorOrder& order) {
                                    : fmt::format("{:02X}h", order.command);
 }
 
-std::vector<CourseScan> course_with(const Explorer& explorer, const Explorer::Edge& edge) {
-    std::vector<CourseScan> course = explorer.course_to_node(edge.from);
-    course.push_back(explorer.scan_of(edge, explorer.images_of(edge)));
-    return course;
-}
-
 /// Of each group, whether one of its orders is such.
 template <class IsSuch>
 std::vector<bool> of_groups(const Machine& machine, const IsSuch& is_such) {
@@ -79,13 +73,15 @@ std::vector<Finding> find_unseen_ends(const Subject& subject, const Sensitivity&
         if (sees[edge.to] || !goes[edge.group]) continue;
         const std::uint8_t step = explorer.place(edge.to).step;
         if (told[step]) continue;
+        auto course = subject.courses.with(edge);
+        if (!course) continue;
         told[step] = true;
         findings.push_back(
             {"V009", step,
              fmt::format("a move is ordered on the way into step {}, and no step after it looks "
                          "at INPOS or the timer",
                          step_name(subject.names, step)),
-             course_with(explorer, edge)});
+             std::move(*course)});
     }
     return findings;
 }
@@ -152,7 +148,7 @@ std::vector<Finding> find_motor_stands(const Subject& subject, const Sensitivity
     std::array<bool, 63> told_move{};
     std::vector<Finding> findings;
     std::vector<std::array<MotorChange, MotorState::kPacked>> changes(explorer.machine().all_groups().size());
-    Walk walk(explorer);
+    Walk walk(explorer, subject.courses.excluded());
     walk.begin_at_power_up(0);
     walk.all([&](const Walk::Scan& scan) {
         const std::uint8_t step = explorer.place(scan.edge.from).step;
@@ -216,12 +212,14 @@ std::vector<Finding> find_undone(const Subject& subject) {
         if (group->orders.size() < 2 || told[step]) continue;
         const auto pair = undone(group->orders);
         if (!pair) continue;
+        auto course = subject.courses.with(subject.explorer.first_edge_with(*group));
+        if (!course) continue;
         told[step] = true;
         findings.push_back(
             {"V012", step,
              fmt::format("in a scan of step {} {} is sent after {} and undoes it",
                          step_name(subject.names, step), order_text(pair->second), order_text(pair->first)),
-             course_with(subject.explorer, subject.explorer.first_edge_with(*group))});
+             std::move(*course)});
     }
     return findings;
 }
@@ -244,11 +242,13 @@ std::vector<Finding> find_never_written(const Subject& subject) {
         if (written[reg]) continue;
         const Explorer::Edge& edge = subject.explorer.first_edge_with(*group);
         const std::uint8_t step = subject.explorer.place(edge.from).step;
+        auto course = subject.courses.with(edge);
+        if (!course) continue;
         findings.push_back({"V014", step,
                             fmt::format("step {} selects register {}, and nothing ever writes it: it holds "
                                         "what somebody stored in the motor",
                                         step_name(subject.names, step), reg),
-                            course_with(subject.explorer, edge)});
+                            std::move(*course)});
     }
     return findings;
 }

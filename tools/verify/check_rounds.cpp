@@ -34,6 +34,7 @@ class Rounds {
         : explorer_(subject.explorer),
           machine_(explorer_.machine()),
           names_(subject.names),
+          courses_(subject.courses),
           state_(explorer_.size(), State::fresh) {
         for (Node node = 0; node < explorer_.size(); ++node) nodes_[corner_of(node)].push_back(node);
         for (const Group& group : machine_.all_groups()) {
@@ -217,13 +218,14 @@ class Rounds {
             only.set(image_);
             way.push_back(explorer_.scan_of(**edge, only));
         }
-        if (std::has_single_bit(steps) || !told_.insert(steps).second) return;
-        std::vector<CourseScan> course = explorer_.course_to_node(first);
-        course.insert(course.end(), way.begin(), way.end());
+        if (std::has_single_bit(steps) || told_.contains(steps)) return;
+        auto course = courses_.to(first, std::move(way));
+        if (!course) return;
+        told_.insert(steps);
         findings_.push_back({"V013", explorer_.place(first).step,
                              fmt::format("steps {} follow each other without end while no input changes",
                                          names_of(steps, names_)),
-                             std::move(course)});
+                             std::move(*course)});
     }
 
     enum class State : std::uint8_t { fresh, open, done };
@@ -231,6 +233,7 @@ class Rounds {
     const Explorer& explorer_;
     const Machine& machine_;
     const Names& names_;
+    Courses& courses_;
     std::uint8_t image_ = 0;
     std::array<Corner, kCorners> next_{};
     std::array<Corner, kCorners> other_{};

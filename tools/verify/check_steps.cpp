@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bit>
+#include <optional>
 
 #include "findings.h"
 #include "verify/story.h"
@@ -36,11 +37,12 @@ struct StepGraph {
     }
 };
 
-std::vector<CourseScan> course_into(const Explorer& explorer, std::uint8_t step) {
-    for (Explorer::Node node = 0; node < explorer.size(); ++node) {
-        if (explorer.place(node).step == step) return explorer.course_to_node(node);
+std::optional<std::vector<CourseScan>> course_into(const Subject& subject, std::uint8_t step) {
+    for (Explorer::Node node = 0; node < subject.explorer.size(); ++node) {
+        if (subject.explorer.place(node).step != step) continue;
+        if (auto course = subject.courses.to(node)) return course;
     }
-    return {};
+    return std::nullopt;
 }
 
 void find_never_reached(const Subject& subject, std::vector<Finding>& findings) {
@@ -63,9 +65,10 @@ void find_never_left(const Subject& subject, std::vector<Finding>& findings) {
         if ((begun & bit_of(step)) == 0) continue;
         const Steps group = graph.reached_from(step);
         if (group == bit_of(step)) {
-            findings.push_back({"V002", step,
-                                fmt::format("nothing leaves step {}", step_name(subject.names, step)),
-                                course_into(subject.explorer, step)});
+            if (auto course = course_into(subject, step))
+                findings.push_back({"V002", step,
+                                    fmt::format("nothing leaves step {}", step_name(subject.names, step)),
+                                    std::move(*course)});
             continue;
         }
         if ((group & graph.first) != 0 || (told & bit_of(step)) != 0) continue;
@@ -73,14 +76,36 @@ void find_never_left(const Subject& subject, std::vector<Finding>& findings) {
         const bool all_meet = graph.reached_from(static_cast<std::uint8_t>(std::countr_zero(one))) == group;
         if (!all_meet || (graph.reached_from(step) & bit_of(step)) == 0) continue;
         told |= group;
+        auto course = course_into(subject, step);
+        if (!course) continue;
         findings.push_back({"V003", step,
                             fmt::format("steps {} lead to each other only, never back to {}",
                                         names_of(group, subject.names), names_of(graph.first, subject.names)),
-                            course_into(subject.explorer, step)});
+                            std::move(*course)});
     }
 }
 
 }  // namespace
+
+std::optional<std::vector<CourseScan>> Courses::to(Explorer::Node node, std::vector<CourseScan> then) {
+    std::optional<std::vector<CourseScan>> course;
+    if (excluded_ == nullptr) {
+        course = explorer_.course_to_node(node);
+    } else {
+        if (!walk_) {
+            walk_.emplace(explorer_, excluded_);
+            walk_->begin_at_power_up(0);
+            walk_->all([](const Walk::Scan& scan) { scan.go_on(0); });
+        }
+        course = walk_->course_to_node(node, [&](Excluded::State state) {
+            for (const CourseScan& scan : then)
+                state = state == Excluded::kOut ? state : excluded_->next(state, scan);
+            return state != Excluded::kOut;
+        });
+    }
+    if (course) course->insert(course->end(), then.begin(), then.end());
+    return course;
+}
 
 std::string names_of(Steps steps, const Names& names) {
     std::string text;

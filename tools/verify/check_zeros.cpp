@@ -46,7 +46,7 @@ std::vector<Finding> find_stale(const Subject& subject, const Sensitivity& sensi
     std::vector<bool> makes_stale;
     for (const Use& use : uses) makes_stale.push_back(use.leaves && !use.sets && use.decided.any());
     // Not set is what it was at power-up, and after a scan that its zero led to another step.
-    Walk walk(explorer);
+    Walk walk(explorer, subject.courses.excluded());
     walk.begin_at_power_up(0);
     for (const Explorer::Edge& edge : explorer.edges()) {
         if (makes_stale[edge.group])
@@ -89,7 +89,7 @@ std::uint64_t led_to(const Machine& machine, const Sensitivity& sensitivity, std
 class OtherPurpose {
   public:
     OtherPurpose(const Subject& subject, const Sensitivity& sensitivity)
-        : explorer_(subject.explorer), names_(subject.names) {
+        : explorer_(subject.explorer), names_(subject.names), excluded_(subject.courses.excluded()) {
         for (std::uint8_t step = 0; step <= sequencer::kLastStep; ++step)
             leads_to_[step] = without_copies(led_to(explorer_.machine(), sensitivity, step));
     }
@@ -98,7 +98,7 @@ class OtherPurpose {
         for (const Group& group : explorer_.machine().all_groups())
             presets_.push_back(group.pending.timer_preset != 0);
         users_.resize(explorer_.size());
-        Walk walk(explorer_);
+        Walk walk(explorer_, excluded_);
         for (const Explorer::Edge& edge : explorer_.edges()) {
             if (presets_[edge.group] && explorer_.place(edge.to).runs) walk.begin_with(edge, kUnused);
         }
@@ -142,7 +142,7 @@ class OtherPurpose {
     /// Of all users that come to a node the first two with other purposes are enough: whatever a step leads
     /// to, one of them wanted something else.
     bool is_new(Explorer::Node node, Walk::Memory user) {
-        if (user == kUnused) return true;
+        if (user == kUnused || excluded_ != nullptr) return true;
         auto& [one, two] = users_[node];
         const auto purpose = [&](Walk::Memory of) { return leads_to_[of - kFirstUser]; };
         if (one == kUnused) {
@@ -159,6 +159,7 @@ class OtherPurpose {
 
     const Explorer& explorer_;
     const Names& names_;
+    Excluded* excluded_;
     std::array<std::uint64_t, 63> leads_to_{};
     std::vector<bool> presets_;                       ///< by group
     std::vector<std::array<Walk::Memory, 2>> users_;  ///< by node

@@ -14,10 +14,10 @@ namespace {
 
 constexpr std::size_t kMostTimedStates = 400'000;
 
+/// Courses were found, and none of them has times.
 constexpr const char* kNoTimes =
-    "there is a course that breaks it but for the times that an input stays as it is; neither these times "
-    "nor "
-    "another course were found (--assume any leaves such times out)";
+    "there is a course that breaks it but for times, and neither these times nor another course were found "
+    "(--assume any leaves such times out)";
 
 constexpr const char* kNotSurely =
     "a course leads there from each state if timer and inputs are left free; whether one does with their "
@@ -45,20 +45,63 @@ Decider::Decider(const sequencer::Table& table, const Machine& machine, const Op
     coarse_->explore(targets_);
 }
 
-std::optional<Played> Decider::realized(const std::vector<CourseScan>& scans,
-                                        const std::optional<Overdue>& overdue) const {
-    for (std::vector<ChosenPreset>& presets : choices_for(machine_, scans)) {
+Decider::Attempted Decider::attempted(const Way& way) const {
+    Attempted result;
+    bool is_first = true;
+    for (std::vector<ChosenPreset>& presets : choices_for(machine_, way.scans)) {
         const std::vector<std::uint8_t> bytes = bytes_with(table_, presets);
         const sequencer::Table::LoadResult with_values = sequencer::Table::load(bytes);
-        auto course = realize({.table = with_values.table,
-                               .assume = options_.assume,
-                               .stable_ms = stable_ms_,
-                               .move_ms = machine_.move_ms(),
-                               .presets = presets},
-                              scans, overdue);
-        if (course) return Played{.course = std::move(*course), .presets = std::move(presets)};
+        Attempt attempt = realize({.table = with_values.table,
+                                   .assume = options_.assume,
+                                   .stable_ms = stable_ms_,
+                                   .move_ms = machine_.move_ms(),
+                                   .presets = presets},
+                                  way.scans, way.overdue);
+        if (attempt.course) {
+            result.played = Played{.course = std::move(*attempt.course), .presets = std::move(presets)};
+            return result;
+        }
+        if (is_first) {
+            result.conflict = std::move(attempt.conflict);
+        } else {
+            result.conflict.join(attempt.conflict);
+        }
+        is_first = false;
     }
-    return std::nullopt;
+    if (is_first) {
+        result.conflict = {
+            .last = way.scans.size() - 1, .exact = true, .words = "a range has two different counts"};
+    }
+    return result;
+}
+
+Decider::Finding Decider::tried(Excluded& excluded, const Ask& ask) const {
+    constexpr std::uint64_t kImagesWork = 128;  // of a scan, to choose its image
+    Finding finding;
+    int tries = 0;
+    while (tries == 0 || (tries < kMostTries && !excluded.is_worn_out())) {
+        const std::optional<Way> way = ask(excluded);
+        if (!way) break;
+        ++tries;
+        Attempted attempt = attempted(*way);
+        excluded.count_work(kImagesWork * way->scans.size());
+        if (attempt.played) return {.answer = Answer::can_be, .played = std::move(attempt.played)};
+        finding.conflict = attempt.conflict.words;
+        excluded.add(way->scans, attempt.conflict);
+    }
+    finding.why = fmt::format(
+        "{} course{} {} tried, and the times of none can be (--explain-undecided says why; --assume any "
+        "leaves such times out)",
+        tries, tries == 1 ? "" : "s", tries == 1 ? "was" : "were");
+    return finding;
+}
+
+Decider::Finding Decider::or_tried(Finding open, const Explorer& explorer, const Ask& ask) const {
+    if (open.answer != Answer::unknown || !explorer.has_all_edges()) return open;
+    Excluded excluded(explorer);
+    Finding finding = tried(excluded, ask);
+    if (finding.answer == Answer::unknown && open.why != kNoTimes) return open;
+    return finding;
 }
 
 bool Decider::is_reached_with_all(std::size_t target) const {
@@ -74,13 +117,30 @@ const Explorer& Decider::fine() {
     return *fine_;
 }
 
-Decider::Finding Decider::scan_of_target(std::size_t target) {
-    if (!coarse_->hit(target)) {
-        if (coarse_->complete()) return {Answer::cannot_be, {}, {}};
-        return {Answer::unknown, {}, out_of_bounds(*coarse_)};
+const Explorer& Decider::punctual() {
+    if (!punctual_) {
+        punctual_ = std::make_unique<Explorer>(machine_, Precision{.knows_lost_link = true,
+                                                                   .keeps_edges = true,
+                                                                   .waits_for_line = false,
+                                                                   .most_states = options_.most_states});
+        punctual_->explore({});
     }
-    if (auto played = realized(coarse_->course_to(target))) return {Answer::can_be, std::move(played), {}};
-    if (!coarse_->has_all_edges()) return {Answer::unknown, {}, out_of_bounds(*coarse_)};
+    return *punctual_;
+}
+
+Decider::Finding Decider::scan_of_target(std::size_t target) {
+    return or_tried(explored_scan(target), *coarse_,
+                    [&](Excluded& excluded) { return way_to_target(*coarse_, targets_[target], excluded); });
+}
+
+Decider::Finding Decider::explored_scan(std::size_t target) {
+    if (!coarse_->hit(target)) {
+        if (coarse_->complete()) return {.answer = Answer::cannot_be};
+        return {.why = out_of_bounds(*coarse_)};
+    }
+    if (auto played = realized(coarse_->course_to(target)))
+        return {.answer = Answer::can_be, .played = std::move(played)};
+    if (!coarse_->has_all_edges()) return {.why = out_of_bounds(*coarse_)};
     const std::vector<std::uint32_t> distances = coarse_->distances_to(targets_[target]);
     Explorer exact(machine_, Precision{.times_timer = true,
                                        .most_states = kMostTimedStates,
@@ -88,55 +148,77 @@ Decider::Finding Decider::scan_of_target(std::size_t target) {
                                        .distances = &distances});
     exact.explore({targets_[target]});
     if (!exact.hit(0)) {
-        if (exact.complete()) return {Answer::cannot_be, {}, {}};
-        return {Answer::unknown, {}, out_of_bounds(exact)};
+        if (exact.complete()) return {.answer = Answer::cannot_be};
+        return {.why = out_of_bounds(exact)};
     }
     if (auto played = realized(exact.course_to(std::size_t{0})))
-        return {Answer::can_be, std::move(played), {}};
-    return {Answer::unknown, {}, kNoTimes};
+        return {.answer = Answer::can_be, .played = std::move(played)};
+    return {.why = kNoTimes};
 }
 
-Decider::Finding Decider::missed_deadline(const Property& property) const {
+Decider::Finding Decider::missed_deadline(const Property& property) {
+    Finding open = explored_deadline(property);
+    if (open.answer != Answer::unknown) return open;
+    const Explorer& ways = punctual();
+    Finding finding;
+    for (const bool cuts : {false, true}) {
+        finding = or_tried(open, ways,
+                           [&](Excluded& excluded) { return late_way(ways, property, cuts, excluded); });
+        if (finding.answer != Answer::unknown) break;
+    }
+    return finding;
+}
+
+Decider::Finding Decider::explored_deadline(const Property& property) const {
     Finding finding;
     for (const bool times_timer : {false, true}) {
         Precision precision{
             .times_timer = times_timer, .deadline = &property, .most_states = kMostTimedStates};
-        finding = missed_deadline(property, precision);
+        finding = explored_deadline(property, precision);
         if (finding.answer != Answer::unknown) return finding;
         precision.waits_for_line = false;
-        const Finding without = missed_deadline(property, precision);
+        const Finding without = explored_deadline(property, precision);
         if (without.answer == Answer::can_be) return without;
     }
     return finding;
 }
 
-Decider::Finding Decider::missed_deadline(const Property& property, const Precision& precision) const {
+Decider::Finding Decider::explored_deadline(const Property& property, const Precision& precision) const {
     Explorer explorer(machine_, precision);
     explorer.explore({});
     if (!explorer.missed_deadline()) {
-        if (explorer.complete()) return {Answer::cannot_be, {}, {}};
-        return {Answer::unknown, {}, out_of_bounds(explorer)};
+        if (explorer.complete()) return {.answer = Answer::cannot_be};
+        return {.why = out_of_bounds(explorer)};
     }
     const std::vector<CourseScan> scans = explorer.course_to_missed_deadline();
     const std::size_t to = explorer.missed_at_end() ? scans.size() - 1 : scans.size();
     const std::uint32_t more_than = property.within_ms - (property.form == Form::never_while ? 1 : 0);
     Overdue overdue{.from = scans.size() - 1, .to = to, .more_than_ms = more_than};
     while (scans[overdue.from].place.pending) --overdue.from;
-    if (auto played = realized(scans, overdue)) return {Answer::can_be, std::move(played), {}};
-    return {Answer::unknown, {}, kNoTimes};
+    if (auto played = realized(scans, overdue))
+        return {.answer = Answer::can_be, .played = std::move(played)};
+    return {.why = kNoTimes};
 }
 
 Decider::Finding Decider::remembered(const Property& property) {
-    if (!coarse_->has_all_edges()) return {Answer::unknown, {}, out_of_bounds(*coarse_)};
+    return or_tried(explored_memory(property), *coarse_, [&](Excluded& excluded) -> std::optional<Way> {
+        auto scans = breaking_course(*coarse_, property, &excluded);
+        if (!scans) return std::nullopt;
+        return Way{.scans = std::move(*scans)};
+    });
+}
+
+Decider::Finding Decider::explored_memory(const Property& property) {
+    if (!coarse_->has_all_edges()) return {.why = out_of_bounds(*coarse_)};
     const auto scans = breaking_course(*coarse_, property);
-    if (!scans) return {Answer::cannot_be, {}, {}};
-    if (auto played = realized(*scans)) return {Answer::can_be, std::move(played), {}};
+    if (!scans) return {.answer = Answer::cannot_be};
+    if (auto played = realized(*scans)) return {.answer = Answer::can_be, .played = std::move(played)};
     const Explorer& exact = fine();
-    if (!exact.has_all_edges()) return {Answer::unknown, {}, out_of_bounds(exact)};
+    if (!exact.has_all_edges()) return {.why = out_of_bounds(exact)};
     const auto timed = breaking_course(exact, property);
-    if (!timed) return {Answer::cannot_be, {}, {}};
-    if (auto played = realized(*timed)) return {Answer::can_be, std::move(played), {}};
-    return {Answer::unknown, {}, kNoTimes};
+    if (!timed) return {.answer = Answer::cannot_be};
+    if (auto played = realized(*timed)) return {.answer = Answer::can_be, .played = std::move(played)};
+    return {.why = kNoTimes};
 }
 
 bool Decider::assumes_stable_inputs() const {
@@ -145,30 +227,41 @@ bool Decider::assumes_stable_inputs() const {
 }
 
 Decider::Finding Decider::stuck_outside(std::size_t index) {
-    const Target& target = targets_[index];
-    if (!coarse_->has_all_edges()) return {Answer::unknown, {}, out_of_bounds(*coarse_)};
+    Explorer::Stuck stuck;
+    Finding open = explored_stuck(targets_[index], stuck);
+    if (stuck.node == Explorer::kNone) return open;
+    return or_tried(std::move(open), *coarse_,
+                    [&](Excluded& excluded) { return way_to_stuck(*coarse_, stuck, excluded); });
+}
+
+/// `stuck` is one of the coarse exploration, if there is one.
+Decider::Finding Decider::explored_stuck(const Target& target, Explorer::Stuck& stuck) {
+    if (!coarse_->has_all_edges()) return {.why = out_of_bounds(*coarse_)};
     const std::vector<std::uint32_t> distances = coarse_->distances_to(target);
-    Explorer::Stuck stuck = coarse_->first_stuck(target, distances);
+    stuck = coarse_->first_stuck(target, distances);
     if (stuck.node == Explorer::kNone) {
         const bool is_exact = options_.assume == Assume::any && !assumes_stable_inputs() &&
                               machine_.move_ms() == 0 && !has_ranges();
-        if (is_exact) return {Answer::cannot_be, {}, {}};
-        if (!assumes_stable_inputs() && surely_possible(*coarse_, target)) return {Answer::cannot_be, {}, {}};
-        return {Answer::unknown, {}, kNotSurely};
+        if (is_exact) return {.answer = Answer::cannot_be};
+        if (!assumes_stable_inputs() && surely_possible(*coarse_, target))
+            return {.answer = Answer::cannot_be};
+        return {.why = kNotSurely};
     }
-    if (auto played = realized(coarse_->course_to(stuck))) return {Answer::can_be, std::move(played), {}};
+    if (auto played = realized(coarse_->course_to(stuck)))
+        return {.answer = Answer::can_be, .played = std::move(played)};
     const Explorer& exact = fine();  // without the scans that no times allow
-    if (!exact.has_all_edges()) return {Answer::unknown, {}, out_of_bounds(exact)};
+    if (!exact.has_all_edges()) return {.why = out_of_bounds(exact)};
     const Explorer::Scans scans = exact.scans();
     stuck = coarse_->first_stuck(target, distances, &scans);
     if (stuck.node == Explorer::kNone) {
         if (!assumes_stable_inputs() && surely_possible(*coarse_, target, &scans))
-            return {Answer::cannot_be, {}, {}};
-        return {Answer::unknown, {}, kNotSurely};
+            return {.answer = Answer::cannot_be};
+        return {.why = kNotSurely};
     }
     const Explorer::Stuck there = exact.same_scan(coarse_->place(stuck.node), stuck);
-    if (auto played = realized(exact.course_to(there))) return {Answer::can_be, std::move(played), {}};
-    return {Answer::unknown, {}, kNoTimes};
+    if (auto played = realized(exact.course_to(there)))
+        return {.answer = Answer::can_be, .played = std::move(played)};
+    return {.why = kNoTimes};
 }
 
 }  // namespace nplc::verify

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "course_search.h"
 #include "explorer.h"
 #include "realize.h"
 #include "verify/verify.h"
@@ -24,13 +26,18 @@ class Decider {
     enum class Answer : std::uint8_t { can_be, cannot_be, unknown };
     struct Finding {
         Answer answer = Answer::unknown;
-        std::optional<Played> played;
-        std::string why;  ///< it is unknown
+        std::optional<Played> played{};
+        std::string why{};       ///< it is unknown
+        std::string conflict{};  ///< in words, of the last course that was tried
     };
+    /// The next course that is not excluded.
+    using Ask = std::function<std::optional<Way>(Excluded&)>;
+    static constexpr int kMostTries = 1000;
+    /// One course after the other, until one has times or `excluded` is worn out.
+    Finding tried(Excluded& excluded, const Ask& ask) const;
 
     Finding scan_of_target(std::size_t target);
-    Finding missed_deadline(const Property& property) const;
-    Finding missed_deadline(const Property& property, const Precision& precision) const;
+    Finding missed_deadline(const Property& property);
     Finding remembered(const Property& property);
     Finding stuck_outside(std::size_t index);
 
@@ -40,10 +47,25 @@ class Decider {
     bool is_reached_with_all(std::size_t target) const;
 
     std::optional<Played> realized(const std::vector<CourseScan>& scans,
-                                   const std::optional<Overdue>& overdue = {}) const;
+                                   const std::optional<Overdue>& overdue = {}) const {
+        return attempted({scans, overdue}).played;
+    }
 
   private:
+    struct Attempted {
+        std::optional<Played> played{};
+        Conflict conflict{};
+    };
+    Attempted attempted(const Way& way) const;
+    Finding explored_scan(std::size_t target);
+    Finding explored_deadline(const Property& property) const;
+    Finding explored_deadline(const Property& property, const Precision& precision) const;
+    Finding explored_memory(const Property& property);
+    Finding explored_stuck(const Target& target, Explorer::Stuck& stuck);
+    /// An open question of a course's times is decided by trying others.
+    Finding or_tried(Finding open, const Explorer& explorer, const Ask& ask) const;
     const Explorer& fine();
+    const Explorer& punctual();
     bool assumes_stable_inputs() const;
     bool has_ranges() const { return !machine_.ranges().timer.empty() || machine_.has_counter_ranges(); }
 
@@ -53,6 +75,7 @@ class Decider {
     std::vector<Target> targets_;
     std::unique_ptr<Explorer> coarse_;
     std::unique_ptr<Explorer> fine_;
+    std::unique_ptr<Explorer> punctual_;  ///< as coarse, and no scan waits for a line that comes back
     std::array<std::uint32_t, 6> stable_ms_{};
 };
 

@@ -52,6 +52,8 @@ struct CourseScan {
     std::uint16_t counter = 0;  ///< after it
     Bounds delay;               ///< to the next scan
     bool idle = false;          ///< it did nothing: it may be repeated with the same image
+    bool next_runs = false;     ///< the timer, when the next scan begins
+    bool begins = false;        ///< a deadline, with this scan
 };
 
 inline const ImageSet& images_of_error() {

@@ -85,6 +85,7 @@ std::vector<CourseScan> Explorer::course_to_node(Node node) const {
         CourseScan scan = scan_of(from, group, narrowed(split[origin.part].images, to));
         scan.counter = to.counter;
         scan.delay = delay_of(from, group, to);
+        scan.next_runs = to.runs;
         course.push_back(scan);
     }
     std::reverse(course.begin(), course.end());
@@ -95,6 +96,7 @@ CourseScan Explorer::scan_of(const Edge& edge, const ImageSet& images) const {
     CourseScan scan = scan_of(place(edge.from), group_of(edge), images);
     scan.counter = place(edge.to).counter;
     scan.delay = delay_of(place(edge.from), group_of(edge), place(edge.to));
+    scan.next_runs = place(edge.to).runs;
     return scan;
 }
 

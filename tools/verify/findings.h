@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "explorer.h"
 #include "verify/checks.h"
+#include "walk.h"
 
 /// The built-in checks, by what they look at.
 namespace nplc::verify {
@@ -18,10 +20,30 @@ struct Finding {
     std::vector<CourseScan> way;  ///< that shows it; may be empty
 };
 
+/// Courses to places; with `excluded`, others than these.
+class Courses {
+  public:
+    explicit Courses(const Explorer& explorer, Excluded* excluded = nullptr)
+        : explorer_(explorer), excluded_(excluded) {}
+    Excluded* excluded() const { return excluded_; }
+    /// To a node, and on with some scans; nothing if all are excluded.
+    std::optional<std::vector<CourseScan>> to(Explorer::Node node, std::vector<CourseScan> then = {});
+    /// Up to and including the scan of an edge.
+    std::optional<std::vector<CourseScan>> with(const Explorer::Edge& edge) {
+        return to(edge.from, {explorer_.scan_of(edge, explorer_.images_of(edge))});
+    }
+
+  private:
+    const Explorer& explorer_;
+    Excluded* excluded_;
+    std::optional<Walk> walk_;
+};
+
 /// What the checks look at: everything that can be, with edges.
 struct Subject {
     const Explorer& explorer;
     const Names& names;
+    Courses& courses;
     /// Motor registers that a permitted value makes 0, whatever the table writes.
     const std::vector<std::uint8_t>& may_be_zero;
 };

@@ -91,10 +91,11 @@ bool is_remembered(Form form) {
     return form >= Form::only_after;
 }
 
-std::optional<std::vector<CourseScan>> breaking_course(const Explorer& explorer, const Property& property) {
+std::optional<std::vector<CourseScan>> breaking_course(const Explorer& explorer, const Property& property,
+                                                       Excluded* excluded) {
     std::optional<std::vector<CourseScan>> course;
     Conditions conditions(property);
-    Walk walk(explorer);
+    Walk walk(explorer, excluded);
     walk.begin_at_power_up(at_power_up(property));
     walk.all([&](const Walk::Scan& scan) {
         if (course) return;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "conflict.h"
 #include "explorer.h"
 
 namespace nplc::verify {
@@ -10,7 +11,8 @@ namespace nplc::verify {
 /// Whether a form is judged by what is remembered from scan to scan.
 bool is_remembered(Form form);
 
-/// The shortest course among those explored that breaks such a property.
-std::optional<std::vector<CourseScan>> breaking_course(const Explorer& explorer, const Property& property);
+/// The shortest course among those explored that breaks such a property; none of the excluded ones.
+std::optional<std::vector<CourseScan>> breaking_course(const Explorer& explorer, const Property& property,
+                                                       Excluded* excluded = nullptr);
 
 }  // namespace nplc::verify

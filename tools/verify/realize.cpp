@@ -1,10 +1,13 @@
 #include "realize.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <set>
 
 #include "preset_values.h"
 #include "sequencer/engine.h"
@@ -14,12 +17,30 @@ namespace {
 
 using Images = std::vector<std::uint8_t>;
 
-/// Of all images that a course can have, those with the fewest changes; ERROR costs a little, so that none is
-/// there without need.
-Images calm_images(std::span<const CourseScan> scans) {
-    constexpr std::uint32_t kChange = 4;
-    constexpr std::uint32_t kNever = 1'000'000'000;
-    using Costs = std::array<std::uint32_t, 256>;
+/// What it costs if an input is another in a scan than in the one before.
+class ChangeCosts {
+  public:
+    explicit ChangeCosts(std::size_t scans) : more_(scans + 1) {}
+
+    void raise(std::size_t scan, unsigned input) { more_[scan][input] += 4 * kChange; }
+    std::uint32_t of_bit(std::size_t scan, unsigned bit) const { return kChange + more_[scan][bit]; }
+    std::uint32_t of(std::size_t scan, unsigned bits) const {
+        std::uint32_t cost = 0;
+        for (; bits != 0; bits &= bits - 1)
+            cost += of_bit(scan, static_cast<unsigned>(std::countr_zero(bits)));
+        return cost;
+    }
+
+  private:
+    static constexpr std::uint32_t kChange = 4;
+    std::vector<std::array<std::uint32_t, 8>> more_;  ///< by scan and bit
+};
+
+constexpr std::uint32_t kNever = 1'000'000'000;
+using Costs = std::array<std::uint32_t, 256>;
+
+/// The least cost of a course up to a scan with each image.
+std::vector<Costs> costs_of(std::span<const CourseScan> scans, const ChangeCosts& changes) {
     std::vector<Costs> costs(scans.size());
     Costs reach{};
     for (unsigned image = 0; image < 256; ++image)
@@ -31,22 +52,27 @@ Images calm_images(std::span<const CourseScan> scans) {
             costs[k][image] = possible ? reach[image] + ((image & sequencer::kError) != 0 ? 1U : 0U) : kNever;
         }
         reach = costs[k];
-        for (unsigned bit = 1; bit < 256; bit <<= 1U) {
+        for (unsigned bit = 0; bit < 8; ++bit) {
             Costs next = reach;
             for (unsigned image = 0; image < 256; ++image)
-                next[image] = std::min(reach[image], reach[image ^ bit] + kChange);
+                next[image] = std::min(reach[image], reach[image ^ (1U << bit)] + changes.of_bit(k + 1, bit));
             reach = next;
         }
     }
+    return costs;
+}
+
+/// Of all images that a course can have, those with the least cost of changes; ERROR costs a little, so that
+/// none is there without need.
+Images calm_images(std::span<const CourseScan> scans, const ChangeCosts& changes) {
+    const std::vector<Costs> costs = costs_of(scans, changes);
     Images images(scans.size());
     for (std::size_t k = scans.size(); k-- > 0;) {
         std::uint32_t best = std::numeric_limits<std::uint32_t>::max();
         for (unsigned image = 0; image < 256; ++image) {
             if (costs[k][image] >= kNever) continue;
             const std::uint32_t change =
-                k + 1 < scans.size()
-                    ? kChange * static_cast<std::uint32_t>(std::popcount(image ^ unsigned{images[k + 1]}))
-                    : 0;
+                k + 1 < scans.size() ? changes.of(k + 1, image ^ unsigned{images[k + 1]}) : 0;
             if (costs[k][image] + change < best) {
                 best = costs[k][image] + change;
                 images[k] = static_cast<std::uint8_t>(image);
@@ -56,26 +82,48 @@ Images calm_images(std::span<const CourseScan> scans) {
     return images;
 }
 
+/// Why a time is bounded, and the scans that say so.
+struct Cause {
+    enum class Kind : std::uint8_t { delay, timer_runs, timer_ends, move, change, keeps, overdue };
+    Kind kind = Cause::Kind::delay;
+    std::size_t first = 0;
+    std::size_t last = 0;
+    unsigned input = 0;
+};
+
 /// Times with `later - sooner >= least`, found by letting each be as early as it can.
 class Times {
   public:
+    struct Bound {
+        std::size_t sooner;
+        std::size_t later;
+        std::int64_t least;
+        Cause cause;
+    };
+
     explicit Times(std::size_t count) : at_(count) {}
 
     std::size_t add() {
         at_.push_back(0);
         return at_.size() - 1;
     }
-    void at_least(std::size_t sooner, std::size_t later, std::int64_t least) {
-        bounds_.push_back({sooner, later, least});
+    void at_least(std::size_t sooner, std::size_t later, std::int64_t least, const Cause& cause) {
+        bounds_.push_back({sooner, later, least, cause});
     }
-    void at_most(std::size_t sooner, std::size_t later, std::int64_t most) { at_least(later, sooner, -most); }
+    void at_most(std::size_t sooner, std::size_t later, std::int64_t most, const Cause& cause) {
+        bounds_.push_back({later, sooner, -most, cause});
+    }
 
     bool solve() {
+        raised_by_.assign(at_.size(), bounds_.size());
         for (std::size_t round = 0; round <= at_.size(); ++round) {
             bool changed = false;
-            for (const Bound& b : bounds_) {
+            for (std::size_t i = 0; i < bounds_.size(); ++i) {
+                const Bound& b = bounds_[i];
                 if (at_[b.later] - at_[b.sooner] >= b.least) continue;
                 at_[b.later] = at_[b.sooner] + b.least;
+                raised_by_[b.later] = i;
+                last_raised_ = b.later;
                 changed = true;
             }
             if (!changed) return true;
@@ -84,21 +132,32 @@ class Times {
     }
     std::int64_t operator[](std::size_t i) const { return at_[i]; }
 
+    /// Bounds that follow each other round and ask for more time than there is; once there is no solution.
+    std::vector<Bound> round() const {
+        std::size_t at = last_raised_;
+        for (std::size_t i = 0; i < at_.size(); ++i) at = bounds_[raised_by_[at]].sooner;
+        std::vector<Bound> bounds;
+        const std::size_t begin = at;
+        do {
+            bounds.push_back(bounds_[raised_by_[at]]);
+            at = bounds.back().sooner;
+        } while (at != begin);
+        return bounds;
+    }
+
   private:
-    struct Bound {
-        std::size_t sooner;
-        std::size_t later;
-        std::int64_t least;
-    };
     std::vector<std::int64_t> at_;
     std::vector<Bound> bounds_;
+    std::vector<std::size_t> raised_by_;  ///< by time, the bound that raised it last
+    std::size_t last_raised_ = 0;
 };
 
 /// Time k is that of scan k; the last one that of the scan that would follow.
 void bound_delays(Times& times, std::span<const CourseScan> scans) {
     for (std::size_t k = 0; k < scans.size(); ++k) {
-        times.at_least(k, k + 1, scans[k].delay.least);
-        if (scans[k].delay.most < kEndless) times.at_most(k, k + 1, scans[k].delay.most);
+        const Cause cause{.first = k, .last = k};
+        times.at_least(k, k + 1, scans[k].delay.least, cause);
+        if (scans[k].delay.most < kEndless) times.at_most(k, k + 1, scans[k].delay.most, cause);
     }
 }
 
@@ -110,15 +169,16 @@ void bound_timer(Times& times, std::span<const CourseScan> scans, bool paced,
     for (std::size_t k = 0; k < scans.size(); ++k) {
         if (preset != 0) {
             if (scans[k].place.runs) {
-                times.at_most(preset_at, k, preset - 1);
+                times.at_most(preset_at, k, preset - 1, {Cause::Kind::timer_runs, preset_at, k - 1});
             } else {
-                times.at_least(preset_at, k, preset);
+                times.at_least(preset_at, k, preset, {Cause::Kind::timer_ends, preset_at, k - 1});
                 preset = 0;
             }
         }
         const bool runs_on = preset != 0 && scans[k].place.runs;
         if (paced && runs_on && scans[k].idle)
-            times.at_most(preset_at, k + 1, preset - 1 + Machine::kMostIdle);
+            times.at_most(preset_at, k + 1, preset - 1 + Machine::kMostIdle,
+                          {Cause::Kind::timer_runs, preset_at, k});
         if (scans[k].group->pending.timer_preset == 0) continue;
         preset = chosen_value(presets, scans[k].group->pending.timer_preset);
         preset_at = k;
@@ -132,29 +192,92 @@ void bound_moves(Times& times, std::span<const CourseScan> scans, std::uint32_t 
     for (std::size_t k = 0; k < scans.size(); ++k) {
         const Group& group = *scans[k].group;
         if (scans[k].place.motion == Motion::to_place && !group.in_pos && !group.disturbs) {
-            times.at_most(ordered, k, move_ms);
-            if (paced && scans[k].idle) times.at_most(ordered, k + 1, move_ms + Machine::kMostIdle);
+            const Cause cause{Cause::Kind::move, ordered, k};
+            times.at_most(ordered, k, move_ms, cause);
+            if (paced && scans[k].idle) times.at_most(ordered, k + 1, move_ms + Machine::kMostIdle, cause);
         }
         if (begins_move(group.orders)) ordered = k;
     }
 }
 
-/// An input that a scan sees changed did so after the scan before, and not before it was steady.
-void bound_inputs(Times& times, std::span<const CourseScan> scans, const Images& images,
+/// An input that a scan sees changed did so after the scan before, repeated ones too, and not before it was
+/// steady.
+void bound_inputs(Times& times, std::span<const CourseScan> scans, const Images& images, bool paced,
                   const std::array<std::uint32_t, 6>& stable_ms) {
     for (unsigned input = 0; input < stable_ms.size(); ++input) {
         const unsigned bit = 1U << input;
         if (stable_ms[input] == 0) continue;
         std::optional<std::size_t> before;
+        std::size_t changed_in = 0;
         for (std::size_t k = 1; k < images.size(); ++k) {
             if (((images[k] ^ images[k - 1]) & bit) == 0) continue;
             const std::size_t change = times.add();
-            times.at_least(k - 1, change, -std::int64_t{scans[k - 1].group->delay.end});
-            times.at_least(change, k, 0);
-            if (before) times.at_least(*before, change, stable_ms[input]);
+            const Cause cause{Cause::Kind::change, k - 1, k, input};
+            times.at_least(k - 1, change, -std::int64_t{scans[k - 1].group->delay.end}, cause);
+            times.at_least(change, k, 0, cause);
+            if (paced && scans[k - 1].idle)
+                times.at_least(k, change, -std::int64_t{Machine::kMostIdle}, cause);
+            if (before)
+                times.at_least(*before, change, stable_ms[input], {Cause::Kind::keeps, changed_in, k, input});
             before = change;
+            changed_in = k;
         }
     }
+}
+
+std::string words_of(const Times::Bound& bound, std::span<const CourseScan> scans) {
+    const auto scan = [&](std::size_t k) { return fmt::format("scan {}", k + 1); };
+    const std::int64_t ms = std::abs(bound.least);
+    switch (bound.cause.kind) {
+        case Cause::Kind::timer_ends:
+            return fmt::format("the timer of {} ms, preset in {}, has ended in {}", ms,
+                               scan(bound.cause.first), scan(bound.cause.last + 1));
+        case Cause::Kind::timer_runs:
+            return fmt::format("the timer preset in {} still runs in {}", scan(bound.cause.first),
+                               scan(bound.cause.last + 1));
+        case Cause::Kind::move:
+            return fmt::format("the move ordered in {} has not ended in {}, {} ms later at the most",
+                               scan(bound.cause.first), scan(bound.cause.last), ms);
+        case Cause::Kind::keeps:
+            return fmt::format("IN{} keeps its level for {} ms, and is another in {} and in {}",
+                               bound.cause.input, ms, scan(bound.cause.first), scan(bound.cause.last));
+        case Cause::Kind::overdue:
+            return fmt::format("{} ms pass from {} on", ms, scan(bound.cause.first));
+        case Cause::Kind::delay:
+            if (bound.least == 0 ||
+                scans[bound.cause.first].delay.least == scans[bound.cause.first].delay.most)
+                return "";
+            return fmt::format("{} {} ms pass after {}", bound.sooner < bound.later ? "at least" : "at most",
+                               ms, scan(bound.cause.first));
+        case Cause::Kind::change:
+            return "";
+    }
+    return "";
+}
+
+/// Of times that cannot be: the scans that conflict. Delays that are alike are told once.
+Conflict conflict_of(const std::vector<Times::Bound>& round, std::span<const CourseScan> scans) {
+    Conflict conflict{.first = scans.size() - 1, .last = 0, .words = {}};
+    std::set<std::string> told;
+    std::int64_t most = 0;
+    for (const Times::Bound& bound : round) {
+        conflict.first = std::min(conflict.first, bound.cause.first);
+        conflict.last = std::max(conflict.last, std::min(bound.cause.last, scans.size() - 1));
+        conflict.exact = conflict.exact || bound.cause.kind == Cause::Kind::keeps ||
+                         bound.cause.kind == Cause::Kind::change;
+        conflict.overdue = conflict.overdue || bound.cause.kind == Cause::Kind::overdue;
+        if (bound.cause.kind == Cause::Kind::delay) {
+            if (bound.sooner > bound.later) most -= bound.least;
+            continue;
+        }
+        const std::string words = words_of(bound, scans);
+        if (words.empty() || !told.insert(words).second) continue;
+        conflict.words += (conflict.words.empty() ? "" : ", ") + words;
+    }
+    if (most != 0)
+        conflict.words += fmt::format("{}no more than {} ms can pass between these scans",
+                                      conflict.words.empty() ? "" : "; but ", most);
+    return conflict;
 }
 
 /// Repeats idle scans where time passes, so that no two are further apart than the gateway's.
@@ -200,21 +323,41 @@ bool play(const sequencer::Table& table, std::span<const CourseScan> scans, Cour
 
 }  // namespace
 
-std::optional<Course> realize(const Realization& how, std::span<const CourseScan> scans,
-                              const std::optional<Overdue>& overdue) {
-    if (scans.empty()) return Course{};
-    const Images images = calm_images(scans);
-    Times times(scans.size() + 1);
-    bound_delays(times, scans);
+Attempt realize(const Realization& how, std::span<const CourseScan> scans,
+                const std::optional<Overdue>& overdue) {
+    if (scans.empty()) return {.course = Course{}, .conflict = {}};
+    constexpr int kMostImages = 8;
     const bool driver = how.assume == Assume::driver;
-    bound_timer(times, scans, driver, how.presets);
-    if (how.move_ms != 0) bound_moves(times, scans, how.move_ms, driver);
-    bound_inputs(times, scans, images, how.stable_ms);
-    if (overdue) times.at_least(overdue->from, overdue->to, std::int64_t{overdue->more_than_ms} + 1);
-    if (!times.solve()) return std::nullopt;
-    Course course = lay_out(scans, images, times, driver);
-    if (!play(how.table, scans, course)) return std::nullopt;
-    return course;
+    ChangeCosts changes(scans.size());
+    Images images;
+    Conflict conflict;
+    for (int choice = 0; choice < kMostImages; ++choice) {
+        Images others = calm_images(scans, changes);
+        if (others == images) break;
+        images = std::move(others);
+        Times times(scans.size() + 1);
+        bound_delays(times, scans);
+        bound_timer(times, scans, driver, how.presets);
+        if (how.move_ms != 0) bound_moves(times, scans, how.move_ms, driver);
+        bound_inputs(times, scans, images, driver, how.stable_ms);
+        if (overdue)
+            times.at_least(overdue->from, overdue->to, std::int64_t{overdue->more_than_ms} + 1,
+                           {Cause::Kind::overdue, overdue->from, scans.size() - 1});
+        if (times.solve()) {
+            Course course = lay_out(scans, images, times, driver);
+            if (play(how.table, scans, course)) return {.course = std::move(course), .conflict = {}};
+            return {
+                .course = {},
+                .conflict = {.last = scans.size() - 1, .exact = true, .words = "the engine goes otherwise"}};
+        }
+        const std::vector<Times::Bound> round = times.round();
+        conflict = conflict_of(round, scans);
+        if (!conflict.exact) break;
+        for (const Times::Bound& bound : round) {
+            if (bound.cause.kind == Cause::Kind::change) changes.raise(bound.cause.last, bound.cause.input);
+        }
+    }
+    return {.course = {}, .conflict = std::move(conflict)};
 }
 
 }  // namespace nplc::verify

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "conflict.h"
 #include "explorer.h"
 #include "verify/course.h"
 
@@ -25,9 +26,15 @@ struct Realization {
     std::span<const ChosenPreset> presets{};  ///< values of the explorer's ranges; the table has them
 };
 
+/// A course that was played, or why it cannot be.
+struct Attempt {
+    std::optional<Course> course{};
+    Conflict conflict{};
+};
+
 /// Chooses images and times for a course of the explorer so that timer, delays and debouncing allow it, and
-/// plays it on the engine; nothing if no times fit the images chosen.
-std::optional<Course> realize(const Realization& how, std::span<const CourseScan> scans,
-                              const std::optional<Overdue>& overdue);
+/// plays it on the engine.
+Attempt realize(const Realization& how, std::span<const CourseScan> scans,
+                const std::optional<Overdue>& overdue);
 
 }  // namespace nplc::verify

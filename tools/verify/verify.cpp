@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "decider.h"
 #include "findings.h"
@@ -85,6 +86,7 @@ Result judged(Decider& decider, const Property& property, std::size_t target, As
                                                               : decider.scan_of_target(target);
     if (finding.answer == Answer::unknown) {
         result.reason = std::move(finding.why);
+        result.conflict = std::move(finding.conflict);
         return result;
     }
     const bool wanted = property.form == Form::reachable;
@@ -100,11 +102,37 @@ Result judged(Decider& decider, const Property& property, std::size_t target, As
     return result;
 }
 
-/// The first times that fit are taken: a finding whose course has none may still be one.
-constexpr const char* kNotShown = "no times were found for a course that shows it";
+using CheckFunction = std::vector<Finding> (*)(const Subject&);
 
-Result found(const Decider& decider, const Check& check, const Finding& finding, const Names& names,
-             const Options& options) {
+/// For each scan, to ask some checks again.
+constexpr std::uint64_t kWorkOfChecks = 8;
+
+/// What some checks found, and how to ask them again.
+struct Found {
+    CheckFunction function;
+    Finding finding;
+};
+
+/// Courses that show a finding, its own first.
+Decider::Ask courses_of(const Found& found, const Explorer& explorer, const Names& names,
+                        const Options& options) {
+    return [&, is_first = true](Excluded& excluded) mutable -> std::optional<Way> {
+        if (std::exchange(is_first, false)) return Way{.scans = found.finding.way};
+        excluded.count_work(kWorkOfChecks * explorer.edges().size());
+        if (excluded.is_worn_out()) return std::nullopt;
+        Courses courses(explorer, &excluded);
+        for (Finding& finding : found.function({explorer, names, courses, options.may_be_zero})) {
+            if (finding.code == found.finding.code && finding.step == found.finding.step &&
+                !finding.way.empty())
+                return Way{.scans = std::move(finding.way)};
+        }
+        return std::nullopt;
+    };
+}
+
+Result result_of(const Decider& decider, const Check& check, const Found& found, const Names& names,
+                 const Options& options, Excluded& excluded) {
+    const Finding& finding = found.finding;
     Result result{.name = fmt::format("{}.{}", check.name, step_name(names, finding.step)),
                   .code = std::string(check.code),
                   .step = finding.step,
@@ -118,22 +146,25 @@ Result found(const Decider& decider, const Check& check, const Finding& finding,
         result.severity = Severity::advice;
     }
     if (!finding.way.empty()) {
-        keep(result, decider.realized(finding.way));
+        Decider::Finding shown = decider.tried(excluded, courses_of(found, decider.coarse(), names, options));
+        keep(result, std::move(shown.played));
         if (!result.course) {
             result.verdict = Verdict::undecided;
-            result.reason += fmt::format(" ({})", kNotShown);
+            result.reason += fmt::format("; {}", shown.why);
+            result.conflict = std::move(shown.conflict);
         }
     }
     return result;
 }
 
 /// Where ERROR lasts for ever nothing leaves a fault step, or it comes back: that is one mistake.
-void drop_what_errors_explain(std::vector<Finding>& findings) {
+void drop_what_errors_explain(std::vector<Found>& findings) {
     std::uint64_t steps = 0;
-    for (const Finding& finding : findings) {
+    for (const auto& [function, finding] : findings) {
         if (finding.code == "V004" || finding.code == "V005") steps |= std::uint64_t{1} << finding.step;
     }
-    std::erase_if(findings, [&](const Finding& finding) {
+    std::erase_if(findings, [&](const Found& found) {
+        const Finding& finding = found.finding;
         const bool is_round_in_error =
             finding.code == "V013" && (finding.way.back().images & images_with_bit(7)).any();
         const bool follows = finding.code == "V002" || finding.code == "V003" || is_round_in_error;
@@ -145,18 +176,21 @@ void drop_what_errors_explain(std::vector<Finding>& findings) {
 void judge_checks(const Decider& decider, const Names& names, const Options& options,
                   std::vector<Result>& results) {
     const Explorer& explorer = decider.coarse();
-    std::vector<Finding> findings;
+    std::vector<Found> findings;
     if (explorer.has_all_edges()) {
+        Courses courses(explorer);
         for (auto* const check : {&check_steps, &check_errors, &check_zeros, &check_motor}) {
-            for (Finding& finding : check({explorer, names, options.may_be_zero}))
-                findings.push_back(std::move(finding));
+            for (Finding& finding : check({explorer, names, courses, options.may_be_zero}))
+                findings.push_back({check, std::move(finding)});
         }
     }
     drop_what_errors_explain(findings);
+    Excluded excluded(explorer);  // together, so that the work does not grow with what is found
     for (const Check& check : checks()) {
         const std::size_t before = results.size();
-        for (const Finding& finding : findings) {
-            if (finding.code == check.code) results.push_back(found(decider, check, finding, names, options));
+        for (const Found& found : findings) {
+            if (found.finding.code == check.code)
+                results.push_back(result_of(decider, check, found, names, options, excluded));
         }
         if (results.size() > before) continue;
         results.push_back({.name = std::string(check.name),

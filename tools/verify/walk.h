@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
+#include <unordered_set>
 #include <vector>
 
+#include "conflict.h"
 #include "explorer.h"
 
 namespace nplc::verify {
@@ -14,7 +17,9 @@ class Walk {
   public:
     using Memory = std::uint16_t;
 
-    explicit Walk(const Explorer& explorer) : explorer_(explorer), known_(explorer.size()) {
+    /// With `excluded` courses that are there are not followed.
+    explicit Walk(const Explorer& explorer, Excluded* excluded = nullptr)
+        : explorer_(explorer), excluded_(excluded), known_(excluded == nullptr ? explorer.size() : 0) {
         reached_.reserve(4 * explorer.size());
     }
 
@@ -39,7 +44,13 @@ class Walk {
         /// What is remembered after it, of all its images or of some.
         void go_on(Memory then) const { walk_.go_on(*this, then, kNone); }
         void go_on(const ImageSet& some, Memory then) const {
-            if (some.any() && !walk_.knows(edge.to, then)) walk_.go_on(*this, then, walk_.kept(some));
+            if (some.none() || (walk_.excluded_ == nullptr && walk_.knows(edge.to, then))) return;
+            walk_.go_on(*this, then, walk_.kept(some));
+        }
+        /// Whether a deadline can be missed after it, as far as is known.
+        bool may_miss(bool begins) const {
+            return walk_.excluded_ == nullptr ||
+                   !walk_.excluded_->ends_out(walk_.reached_[at_].state, edge, begins);
         }
         /// The course to it.
         std::vector<CourseScan> course(const ImageSet& some) const {
@@ -59,6 +70,7 @@ class Walk {
     /// `pass(scan)` is called for each scan that can follow what is remembered.
     template <class Pass>
     void all(const Pass& pass) {
+        if (excluded_ != nullptr) return all_but_excluded(pass);
         std::size_t next_source = 0;
         for (std::uint32_t at = 0;; ++at) {
             const bool is_at_end = at == reached_.size();
@@ -75,6 +87,16 @@ class Walk {
         }
     }
 
+    /// After `all`: the first course to a node that `takes` the state it ends in; with what is excluded in
+    /// view.
+    template <class Takes>
+    std::optional<std::vector<CourseScan>> course_to_node(Explorer::Node node, const Takes& takes) const {
+        for (std::uint32_t at = 0; at < reached_.size(); ++at) {
+            if (reached_[at].node == node && takes(reached_[at].state)) return course_to(at);
+        }
+        return std::nullopt;
+    }
+
   private:
     static constexpr std::uint32_t kNone = ~std::uint32_t{0};
     struct Reached {
@@ -84,7 +106,50 @@ class Walk {
         std::uint32_t images = kNone;  ///< of that scan, if not all
         std::uint32_t depth = 0;
         std::uint32_t parent = kNone;
+        Excluded::State state = 0;
+        bool is_before = false;  ///< what is to be remembered has not begun
+        bool begins = false;     ///< the scan to it began what is remembered
     };
+
+    /// The scans before those that begin something are followed, too.
+    template <class Pass>
+    void all_but_excluded(const Pass& pass) {
+        std::stable_sort(sources_.begin(), sources_.end(),
+                         [](const Reached& a, const Reached& b) { return a.edge < b.edge; });
+        if (!sources_.empty()) add({.is_before = true});
+        for (std::uint32_t at = 0; at < reached_.size(); ++at) {
+            const Reached here = reached_[at];
+            for (const Explorer::Edge& edge : explorer_.edges_from(here.node)) {
+                excluded_->count_work();
+                if (excluded_->is_worn_out()) return;
+                const Excluded::State state = excluded_->next(here.state, edge);
+                if (state == Excluded::kOut) continue;
+                if (here.is_before) {
+                    begin_after(at, edge, state);
+                } else {
+                    pass(Scan(*this, at, edge));
+                }
+            }
+        }
+    }
+    void begin_after(std::uint32_t at, const Explorer::Edge& edge, Excluded::State state) {
+        Reached then{.node = edge.to,
+                     .edge = index_of(edge),
+                     .depth = reached_[at].depth + 1,
+                     .parent = at,
+                     .state = state,
+                     .is_before = true};
+        add(then);
+        auto source =
+            std::lower_bound(sources_.begin(), sources_.end(), then.edge,
+                             [](const Reached& of, std::uint32_t number) { return of.edge < number; });
+        then.is_before = false;
+        for (; source != sources_.end() && source->edge == then.edge; ++source) {
+            then.memory = source->memory;
+            then.images = source->images;
+            add(then);
+        }
+    }
 
     std::uint32_t index_of(const Explorer::Edge& edge) const {
         return static_cast<std::uint32_t>(&edge - explorer_.edges().data());
@@ -96,16 +161,28 @@ class Walk {
     }
 
     void go_on(const Scan& scan, Memory memory, std::uint32_t images) {
-        if (knows(scan.edge.to, memory)) return;
-        add({.node = scan.edge.to,
-             .memory = memory,
-             .edge = index_of(scan.edge),
-             .images = images,
-             .depth = reached_[scan.at_].depth + 1,
-             .parent = scan.at_});
+        Reached then{.node = scan.edge.to,
+                     .memory = memory,
+                     .edge = index_of(scan.edge),
+                     .images = images,
+                     .depth = reached_[scan.at_].depth + 1,
+                     .parent = scan.at_};
+        if (excluded_ != nullptr) {
+            then.begins = scan.memory == 0 && memory != 0;
+            then.state = excluded_->next(reached_[scan.at_].state, scan.edge, then.begins);
+            if (then.state == Excluded::kOut) return;
+        }
+        add(then);
     }
 
     void add(const Reached& place) {
+        if (excluded_ != nullptr) {
+            const std::uint64_t key = place.node | std::uint64_t{place.memory} << 32U |
+                                      (place.is_before ? std::uint64_t{1} << 38U : 0U) |
+                                      std::uint64_t{place.state} << 39U;
+            if (places_.insert(key).second) reached_.push_back(place);
+            return;
+        }
         if (knows(place.node, place.memory)) return;
         known_[place.node] |= std::uint64_t{1} << place.memory;
         reached_.push_back(place);
@@ -119,6 +196,7 @@ class Walk {
             const bool is_all = reached_[at].images == kNone;
             course.push_back(
                 explorer_.scan_of(edge, is_all ? explorer_.images_of(edge) : images_[reached_[at].images]));
+            course.back().begins = reached_[at].begins;
             if (reached_[at].parent == kNone) {
                 std::vector<CourseScan> before = explorer_.course_to_node(edge.from);
                 course.insert(course.end(), before.rbegin(), before.rend());
@@ -131,7 +209,9 @@ class Walk {
     }
 
     const Explorer& explorer_;
-    std::vector<std::uint64_t> known_;  ///< of each node what was remembered there, a bit each
+    Excluded* const excluded_;
+    std::unordered_set<std::uint64_t> places_;  ///< with what is excluded in view: those that were reached
+    std::vector<std::uint64_t> known_;          ///< of each node what was remembered there, a bit each
     std::vector<Reached> reached_;
     std::vector<Reached> sources_;
     std::vector<ImageSet> images_;

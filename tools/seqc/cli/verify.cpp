@@ -43,6 +43,7 @@ struct VerifyArguments {
     std::string output;
     std::string proof;
     bool json = false;
+    bool explains_undecided = false;
 };
 
 verify::Names names_for(const Input& input) {
@@ -62,13 +63,12 @@ const char* word_of(Verdict verdict) {
 }
 
 int exit_code_of(const verify::Report& report) {
-    const auto any = [&](Verdict verdict) {
-        return std::any_of(report.results.begin(), report.results.end(), [&](const verify::Result& r) {
-            return r.verdict == verdict && r.severity == verify::Severity::fault;
-        });
-    };
-    if (any(Verdict::broken)) return kBroken;
-    return any(Verdict::undecided) ? kUndecided : kOk;
+    bool undecided = false;
+    for (const verify::Result& result : report.results) {
+        if (result.verdict == Verdict::broken && result.severity == verify::Severity::fault) return kBroken;
+        undecided = undecided || result.verdict == Verdict::undecided;
+    }
+    return undecided ? kUndecided : kOk;
 }
 
 /// A wait of an hour has millions of scans: those that repeat the one before them are counted there.
@@ -130,6 +130,7 @@ Json document_of(const verify::Report& report, const Plays& plays, const VerifyA
         added["severity"] = result.severity == verify::Severity::fault ? "fault" : "advice";
         added["property"] = result.text;
         if (!result.reason.empty()) added["reason"] = result.reason;
+        if (!result.conflict.empty()) added["conflict"] = result.conflict;
         if (!result.allowed.empty()) added["allowed"] = result.allowed;
         if (result.course) added["course"] = course_object(*result.course, names);
         if (const auto play = plays.find(result.name); result.code.empty() && play != plays.end())
@@ -177,6 +178,12 @@ std::string assumption_text(const VerifyArguments& options, const Input& input,
     return text;
 }
 
+/// Of what is undecided, on demand: why the last course that was tried cannot be.
+std::string conflict_text(const verify::Result& result, const VerifyArguments& options) {
+    if (!options.explains_undecided || result.conflict.empty()) return "";
+    return fmt::format("  the last course: {}\n", result.conflict);
+}
+
 /// What a check found, where the step stands.
 std::string finding_text(const verify::Result& result, const VerifyArguments& options, const Input& input,
                          const verify::Names& names) {
@@ -193,6 +200,7 @@ std::string finding_text(const verify::Result& result, const VerifyArguments& op
         "{}: {} {}\n", place,
         painted(stdout, is_fault ? "1;31" : "1;33", fmt::format("{} {}:", word, result.code)), result.reason);
     if (!result.allowed.empty()) text += fmt::format("  because {}\n", result.allowed);
+    text += conflict_text(result, options);
     if (is_fault && result.course) text += story_of(*result.course, names);
     return text;
 }
@@ -213,6 +221,7 @@ std::string text_of(const verify::Report& report, const Plays& plays, const Veri
             fmt::format("{} {}: {}\n", painted(stdout, shade, fmt::format("{:<9}", word_of(result.verdict))),
                         result.name, result.text);
         if (!result.reason.empty()) text += fmt::format("  {}\n", result.reason);
+        text += conflict_text(result, options);
         if (result.verdict == Verdict::broken && result.course) text += story_of(*result.course, names);
         if (const auto play = plays.find(result.name); play != plays.end())
             text += fmt::format("  {}\n", told(play->second));
@@ -354,6 +363,8 @@ void add_verify(arguments::App& app, int& exit_code) {
                     "table's own values alone")
         ->one_of({"free", "default"});
     command.add_flag("--json", options->json, "JSON for other programs");
+    command.add_flag("--explain-undecided", options->explains_undecided,
+                     "Of what is undecided for want of times: why the last course that was tried cannot be");
     command
         .add_option("--junit", options->junit,
                     "Write the verdicts as JUnit's XML, for continuous integration")

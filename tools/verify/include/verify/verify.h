@@ -23,6 +23,8 @@ struct Result {
     Verdict verdict = Verdict::undecided;
     Severity severity = Severity::fault;
     std::string reason{};                 ///< why it is broken or undecided
+    std::string conflict{};               ///< undecided: why the last course that was tried cannot be
+    bool vacuous = false;                 ///< proved, of nothing
     std::string allowed{};                ///< a finding of a check that was switched off in its step: why
     std::optional<Course> course{};       ///< the shortest way to break it, or to reach what IS REACHABLE
     std::vector<ChosenPreset> presets{};  ///< values of ranges with which the course can be played

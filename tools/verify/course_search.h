@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "conflict.h"
+#include "realize.h"
+
+/// Courses of an exploration without times, for questions whose first course has none: each the shortest of
+/// those that are not excluded.
+namespace nplc::verify {
+
+struct Way {
+    std::vector<CourseScan> scans;
+    std::optional<Overdue> overdue{};
+};
+
+/// Up to a scan of a target.
+std::optional<Way> way_to_target(const Explorer& explorer, const Target& target, Excluded& excluded);
+/// Up to a scan from which no way leads on.
+std::optional<Way> way_to_stuck(const Explorer& explorer, const Explorer::Stuck& stuck, Excluded& excluded);
+/// That may miss the deadline of a WHENEVER or of a NEVER .. WHILE; with `cuts` also while a line that is
+/// lost holds the next scan up.
+std::optional<Way> late_way(const Explorer& explorer, const Property& property, bool cuts,
+                            Excluded& excluded);
+
+}  // namespace nplc::verify
