@@ -33,6 +33,7 @@ class Recipes(unittest.TestCase):
                 self.assertIn("\nPROPERTY ", program.read())
                 done = subprocess.run([SEQC, "verify", path], capture_output=True, text=True, check=False)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                self.assertNotIn("says nothing", done.stdout)
 
 
 if __name__ == "__main__":

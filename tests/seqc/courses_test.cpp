@@ -72,6 +72,21 @@ TEST_F(Courses, AForgottenPresetIsFoundBehindATimer) {
     }
 }
 
+TEST_F(Courses, AProofOfNothingIsToldInWordsAndInJson) {
+    write("p.seq",
+          "PROGRAM P\nMOTOR MAC140;\n"
+          "STEP A: OWN ERROR; OUT OUT0; IF IN0 THEN NEXT := B; END_IF END_STEP\n"
+          "STEP B: OWN ERROR; OUT OUT1; IF NOT IN0 THEN NEXT := A; END_IF END_STEP\n"
+          "PROPERTY Nothing: WHENEVER OUT0 AND OUT1 THEN IN0;\n"
+          "PROPERTY Something: NEVER OUT0 AND OUT1;\nEND_PROGRAM\n");
+    run("verify p.seq");
+    EXPECT_NE(read("out").find("but it says nothing: OUT0 AND OUT1 never holds"), std::string::npos);
+    run("verify --json p.seq");
+    for (const Json& result : Json::parse(read("out"))["results"]) {
+        EXPECT_EQ(result.value("vacuous", false), result["name"] == "Nothing") << result["name"];
+    }
+}
+
 TEST_F(Courses, AnAllowedFaultIsToldWithItsReasonAndIsNoFault) {
     const std::string program =
         "PROGRAM P\nMOTOR MAC140;\nON ERROR NEXT := Fault;\n"

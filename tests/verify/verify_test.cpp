@@ -123,6 +123,31 @@ TEST(Verify, WhatBreaksALongTimeBreaksAShorterOne) {
     }
 }
 
+TEST(Verify, AProofOfNothingIsToldFromOne) {
+    // Step 0 has OUT0 on, step 1 OUT1; IN0 leads to and fro.
+    Bench either{{kAny, 1, 1, 1, 2}, {kAny, 0, 1, 0, 1}, {kAny | 1, 0, 1, 0, 1}, {kAny | 1, 1, 1, 1, 2}};
+    for (const char* nothing :
+         {"WHENEVER OUT0 AND OUT1 THEN IN0", "WHENEVER OUT0 AND OUT1 THEN IN0 WITHIN 20 ms",
+          "BETWEEN (OUT0 AND OUT1) AND IN0 OUT0 STAYS OFF", "WHENEVER OUT0 AND OUT1 FOR 10 ms THEN IN0",
+          "NEVER OUT0 WHILE OUT0 AND OUT1 FOR 10 ms", "OUT2 ONLY AFTER IN0", "OUT2 CHANGES ONLY IN IN0",
+          "EVERY_SCAN FROM OUT2 ENDS IN OUT0", "WHENEVER OUT0 FOLLOWED BY OUT2 THEN IN0"}) {
+        const Result result = either.judge(nothing, Assume::driver);
+        EXPECT_EQ(result.verdict, Verdict::proved) << nothing;
+        EXPECT_TRUE(result.vacuous) << nothing;
+    }
+    EXPECT_EQ(either.judge("WHENEVER OUT0 AND OUT1 THEN IN0", Assume::any).reason,
+              "but it says nothing: OUT0 AND OUT1 never holds");
+    for (const char* something : {"WHENEVER OUT1 AND IN0 THEN NOT OUT0", "NEVER OUT0 AND OUT1",
+                                  "OUT1 ONLY AFTER IN0", "ALWAYS POSSIBLE TRUE"}) {
+        const Result result = either.judge(something, Assume::any);
+        EXPECT_EQ(result.verdict, Verdict::proved) << something;
+        EXPECT_FALSE(result.vacuous) << something;
+    }
+    either.assuming("ASSUME NEVER IN0;");
+    EXPECT_TRUE(either.judge("NEVER OUT1 AND IN0", Assume::driver).vacuous);
+    EXPECT_FALSE(either.judge("NEVER OUT1", Assume::driver).vacuous);
+}
+
 TEST(Verify, DeadlinesKnowTheTimer) {
     EXPECT_EQ(
         timed().verdict("WHENEVER IN0 AND NOT ERROR THEN step = 1 OR step = 2 WITHIN 0 ms", Assume::driver),

@@ -11,7 +11,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kFormat = "nanoplc-proof-1";
+constexpr std::string_view kFormat = "nanoplc-proof-2";
+constexpr std::string_view kAnyFormat = "nanoplc-proof-";
+constexpr const char* kForeign = "is no certificate of seqc verify, or it was cut short";
 constexpr int kDeepest = 3;
 
 std::string dumped(const Json& document, int indent) {
@@ -41,6 +43,7 @@ Json document_of(const Certificate& certificate) {
         added["property"] = proved.property;
         added["severity"] = proved.is_advice ? "advice" : "fault";
         added["verdict"] = proved.verdict;
+        if (proved.is_vacuous) added["vacuous"] = true;
         if (!proved.allowed.empty()) added["allowed"] = proved.allowed;
     }
     return document;
@@ -61,9 +64,18 @@ Certificate certificate_of(const Json& document) {
                                        .property = result.at("property"),
                                        .is_advice = result.at("severity") == "advice",
                                        .verdict = result.at("verdict"),
+                                       .is_vacuous = result.value("vacuous", false),
                                        .allowed = result.value("allowed", "")});
     }
     return certificate;
+}
+
+std::string wrong_format(const std::string& format) {
+    if (format == kFormat) return "";
+    if (!format.starts_with(kAnyFormat)) return kForeign;
+    if (format == "nanoplc-proof-1")
+        return "is one of an older seqc verify (nanoplc-proof-1), which did not tell proofs of nothing";
+    return fmt::format("is of a format that this program does not know ({})", format);
 }
 
 std::string why_refused(const Certificate& certificate) {
@@ -84,27 +96,29 @@ std::string to_text(const Certificate& certificate) {
 }
 
 CertificateReading read_certificate(std::string_view text) {
-    const std::string foreign = "is no certificate of seqc verify, or it was cut short";
     try {
-        Json document =
+        const Json document =
             Json::parse(text, [](int depth, Json::parse_event_t, const Json&) { return depth <= kDeepest; });
-        if (!document.is_object() || document.value("format", "") != kFormat)
-            return {.certificate = {}, .error = foreign};
-        const std::string check = document.at("check");
-        document.erase("check");
-        if (check != check_of(document))
+        if (!document.is_object()) return {.certificate = {}, .error = kForeign};
+        if (std::string wrong = wrong_format(document.value("format", "")); !wrong.empty())
+            return {.certificate = {}, .error = std::move(wrong)};
+        if (to_text(certificate_of(document)) != text)
             return {.certificate = {}, .error = "was changed since seqc verify wrote it"};
         CertificateReading reading{.certificate = certificate_of(document), .error = {}};
         reading.error = why_refused(reading.certificate);
         return reading;
     } catch (const Json::exception&) {
-        return {.certificate = {}, .error = foreign};
+        return {.certificate = {}, .error = kForeign};
     }
 }
 
 std::string why_not_of(const Certificate& certificate, std::span<const std::uint8_t> table) {
     const std::string own = digest::hex(digest::sha256(table));
-    if (certificate.table_sha256 == own) return "";
+    if (certificate.table_sha256 == own) {
+        if (certificate.table_bytes == table.size()) return "";
+        return fmt::format("says that the table has {} bytes, and it has {}", certificate.table_bytes,
+                           table.size());
+    }
     return fmt::format("is of another table ({}, SHA-256 {}...) than this one ({}...)", certificate.table,
                        certificate.table_sha256.substr(0, 16), own.substr(0, 16));
 }

@@ -297,6 +297,7 @@ bool PropertyParser::parse_whenever(Property& property) {
     property.form = Form::never;
     property.condition = std::move(both);
     property.then = {};
+    property.is_implied = true;
     return true;
 }
 

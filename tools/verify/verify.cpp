@@ -8,6 +8,7 @@
 #include "decider.h"
 #include "findings.h"
 #include "monitor.h"
+#include "vacuous.h"
 #include "verify/story.h"
 
 namespace nplc::verify {
@@ -227,6 +228,14 @@ void judge_checks_of_driver(const sequencer::Table& table, const Names& names, c
     judge_checks(Decider(table, machine, driver, {}), names, driver, results);
 }
 
+/// `subject` is the target of what the property is about.
+void note_vacuous(Result& result, const Explorer& explorer, const Property& property, std::size_t subject) {
+    const std::string why = why_vacuous(explorer, property, explorer.hit(subject));
+    if (why.empty()) return;
+    result.vacuous = true;
+    result.reason = "but it says nothing: " + why;
+}
+
 bool name_moving(const std::vector<Property>& properties) {
     return std::any_of(properties.begin(), properties.end(), [](const Property& property) {
         return names_moving(property.condition) || names_moving(property.then) ||
@@ -245,8 +254,9 @@ Report verify(const sequencer::Table& table, const Names& names, const std::vect
     const Machine machine(table, options.assume, options.order_time, permitted_by(options.assumptions),
                           name_moving(properties), move_ms_of(options.assumptions), options.ranges);
     std::vector<Target> targets;
-    targets.reserve(properties.size());
+    targets.reserve(2 * properties.size());
     for (const Property& property : properties) targets.push_back(target_of(property));
+    for (const Property& property : properties) targets.push_back(subject_of(property));
     Report report;
     if (options.checks && options.assume == Assume::any)
         judge_checks_of_driver(table, names, options, report.results);
@@ -261,8 +271,11 @@ Report verify(const sequencer::Table& table, const Names& names, const std::vect
     }
     if (options.checks && options.assume == Assume::driver)
         judge_checks(decider, names, options, report.results);
-    for (std::size_t i = 0; i < properties.size(); ++i)
-        report.results.push_back(judged(decider, properties[i], i, options.assume));
+    for (std::size_t i = 0; i < properties.size(); ++i) {
+        Result& result = report.results.emplace_back(judged(decider, properties[i], i, options.assume));
+        if (result.verdict == Verdict::proved)
+            note_vacuous(result, decider.coarse(), properties[i], properties.size() + i);
+    }
     return report;
 }
 

@@ -127,6 +127,7 @@ Json document_of(const verify::Report& report, const Plays& plays, const VerifyA
         added["name"] = result.name;
         if (!result.code.empty()) added["code"] = result.code;
         added["verdict"] = word_of(result.verdict);
+        if (result.vacuous) added["vacuous"] = true;
         added["severity"] = result.severity == verify::Severity::fault ? "fault" : "advice";
         added["property"] = result.text;
         if (!result.reason.empty()) added["reason"] = result.reason;

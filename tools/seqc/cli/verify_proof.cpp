@@ -34,6 +34,7 @@ proof::Certificate certificate_of(const verify::Report& report, const Input& inp
                                        .property = result.text,
                                        .is_advice = result.severity == verify::Severity::advice,
                                        .verdict = verdict_word(result.verdict),
+                                       .is_vacuous = result.vacuous,
                                        .allowed = result.allowed});
     }
     return certificate;

@@ -15,7 +15,8 @@ struct Proved {
     std::string property;
     bool is_advice = false;
     std::string verdict;
-    std::string allowed;  ///< advice that was switched off in its step: why
+    bool is_vacuous = false;  ///< proved, of nothing
+    std::string allowed;      ///< advice that was switched off in its step: why
 };
 
 struct Certificate {
@@ -36,7 +37,7 @@ struct CertificateReading {
     std::string error;  ///< what is wrong; empty if nothing is
 };
 
-/// Refuses what is damaged, and a certificate in which something is not proved.
+/// Refuses all but the bytes that `to_text` writes, and a certificate in which something is not proved.
 CertificateReading read_certificate(std::string_view text);
 
 /// Why it is not of this table; empty if it is.

@@ -87,6 +87,7 @@ struct Property {
     Condition then{};
     Condition third{};
     std::uint32_t within_ms = 0;
+    bool is_implied = false;  ///< a WHENEVER without a time: its left side is `condition`'s first operand
 };
 
 /// What may be taken for granted.
