@@ -153,7 +153,7 @@ class Modbus(image_case.ImageCase):
         self.assertEqual(master.read_holding_registers(4, 1, slave=UNIT).exception_code, NO_ADDRESS)
         self.assertEqual(master.read_holding_registers(1001, 2, slave=UNIT).exception_code, NO_ADDRESS)
         self.assertEqual(master.read_coils(7, 1, slave=UNIT).exception_code, NO_ADDRESS)
-        self.assertEqual(master.read_discrete_inputs(15, 1, slave=UNIT).exception_code, NO_ADDRESS)
+        self.assertEqual(master.read_discrete_inputs(16, 1, slave=UNIT).exception_code, NO_ADDRESS)
 
     def answer_to(self, line, data, size):
         return line.ask(data, size, 0.5)
