@@ -47,15 +47,6 @@ std::string boot_of_this_machine() {
     return boot;
 }
 
-/// In one piece: half of it is no marker.
-bool overwrite(const std::string& path, const std::string& text) {
-    const FileDescriptor file(::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
-    if (!file) return false;
-    const ssize_t count = ::pwrite(file.get(), text.data(), text.size(), 0);
-    if (count >= 0 && count != static_cast<ssize_t>(text.size())) errno = ENOSPC;
-    return count == static_cast<ssize_t>(text.size()) && ::fdatasync(file.get()) == 0;
-}
-
 }  // namespace
 
 RunMarker::RunMarker(std::string path) : path_(std::move(path)), boot_(boot_of_this_machine()) {
@@ -95,7 +86,7 @@ std::string RunMarker::clear() {
 
 std::string RunMarker::write(const std::string& state) {
     const std::string text = with_check(state + " " + boot_ + " ");
-    if (is_whole_ ? overwrite(path_, text) : make_whole_file(path_, bytes_of(text))) {
+    if (is_whole_ ? overwrite(path_, bytes_of(text)) : make_whole_file(path_, bytes_of(text))) {
         is_whole_ = true;
         return {};
     }

@@ -38,4 +38,13 @@ bool make_whole_file(const std::string& path, std::span<const std::uint8_t> byte
     return parent && ::fsync(parent.get()) == 0;
 }
 
+bool overwrite(const std::string& path, std::span<const std::uint8_t> bytes, std::uint32_t offset) {
+    const FileDescriptor file(::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    if (!file) return false;
+    const ssize_t count = ::pwrite(file.get(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    const bool is_whole = count == static_cast<ssize_t>(bytes.size());
+    if (count >= 0 && !is_whole) errno = ENOSPC;
+    return is_whole && ::fdatasync(file.get()) == 0;
+}
+
 }  // namespace nplc::hal_linux

@@ -41,11 +41,8 @@ class AxisStoreTest : public testing::Test {
             error = store.mark_running();
             said = testing::internal::GetCapturedStderr();
         }
-        void command_run() {
-            store.note_run();
-            for (error = store.look(); store.permission_is_being_written(); error += store.look()) {
-            }
-        }
+        /// On the disk when this Run ends.
+        void command_run() { store.note_run(); }
         void end() { EXPECT_EQ(store.mark_ended(), ""); }
 
         std::string axis;

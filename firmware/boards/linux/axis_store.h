@@ -46,7 +46,6 @@ class AxisStore {
     void note_run();
     /// To be called now and then after note_run(): why it could not be written, one line, once.
     std::string look();
-    bool permission_is_being_written() const { return owner_ && owner_->is_writing(); }
     std::string mark_ended();
     bool is_marked() const { return is_marked_; }
 

@@ -13,6 +13,7 @@
 #include "base/bytes.h"
 #include "base/crc32.h"
 #include "hal_linux/quiet_thread.h"
+#include "hal_linux/whole_file.h"
 
 namespace nplc::boards {
 namespace {
@@ -35,18 +36,6 @@ std::string record_of(AutostartPermission permission, const std::string& axis) {
     base::store_u32(check, base::crc32(bytes_of(record)));
     record.append(reinterpret_cast<const char*>(check), sizeof check);
     return record;
-}
-
-bool put(const std::string& path, const std::string& record) {
-    const int file = ::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
-    if (file < 0) return false;
-    const ssize_t count = ::pwrite(file, record.data(), record.size(), StoreOwner::kAddress);
-    if (count >= 0 && count != static_cast<ssize_t>(record.size())) errno = ENOSPC;
-    const bool is_put = count == static_cast<ssize_t>(record.size()) && ::fdatasync(file) == 0;
-    const int reason = errno;
-    ::close(file);
-    errno = reason;
-    return is_put;
 }
 
 }  // namespace
@@ -84,7 +73,7 @@ void StoreOwner::look() {
 }
 
 std::string StoreOwner::write(AutostartPermission permission) {
-    if (!put(path_, record_of(permission, axis_)))
+    if (!hal_linux::overwrite(path_, bytes_of(record_of(permission, axis_)), kAddress))
         return path_ + ": cannot be written: " + std::strerror(errno);
     found_ = Found::whole;
     permission_ = permission;
