@@ -249,7 +249,7 @@ JvlLink::Result JvlLink::judge(base::Instant now) {
 /// After that no echo can be on its way. Before the last one a repeat that comes too early does no harm.
 base::Microseconds JvlLink::patience() const {
     if (repeat_is_harmless() && resends_ < kMostResends) return echo_.patience();
-    return std::max(settings_.proof_time, EchoTime::kPatience);
+    return echo_.proof(settings_.proof_time, resends_ == kMostResends);
 }
 
 JvlLink::Result JvlLink::judge_message(base::Instant now) {

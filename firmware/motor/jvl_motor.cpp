@@ -15,6 +15,9 @@ constexpr std::uint8_t kModeReg = 2;
 constexpr base::Microseconds kBlindPause{100'000};
 /// For an answer that comes after the motor's acceptance: two answers' length at 19200 baud, sent slowly.
 constexpr base::Microseconds kLateReply{40'000};
+/// Of a NOP with rapid communication, where a damaged one is another command.
+constexpr base::Microseconds kRapidProof{1'000'000};
+constexpr int kProofEchoes = 5;
 
 /// Rounded up.
 constexpr std::uint32_t bytes_within(base::Microseconds time, std::uint32_t baud) {
@@ -62,8 +65,8 @@ base::Instant JvlMotor::next_poll(base::Instant now) const {
     base::Instant next = link_.next_poll(now);
     if (link_.busy()) return next;
     if (has_work()) return now;
-    if (reply_until_) next = std::min(next, *reply_until_);
-    if (phase_ != Phase::down) return next;
+    if (reply_until_) return std::min(next, *reply_until_);
+    if (phase_ != Phase::down) return std::min(next, proof_due());
     if (blind_stop_.is_under_way()) return link_.has_left() ? now : next;
     if (link_.framing_error_seen()) next = std::min(next, next_blind_);
     if (stop_wanted_ && link_.has_left()) next = std::min(next, blind_stop_.due());
@@ -77,7 +80,7 @@ void JvlMotor::lose_link(base::Instant now) {
         ++losses_;
     }
     access_.fail_open();
-    was_up_ = safe_now_ = slowed_ = holds_ = for_access_ = false;
+    was_up_ = safe_now_ = slowed_ = holds_ = is_aside_ = false;
     reply_until_.reset();
     sending_ = Sending::nothing;
     phase_ = Phase::down;
@@ -197,8 +200,9 @@ bool JvlMotor::has_work() const {
 
 void JvlMotor::work(base::Instant now) {
     const bool in_flexmac = link_.flexmac();
-    const bool writes = stop_wanted_ || (!orders_.empty() && orders_.front().is_register_write);
-    const bool accesses = !stop_wanted_ && orders_.empty() && access_.waits();
+    const bool idle = !stop_wanted_ && orders_.empty();
+    const bool writes = stop_wanted_ || (!idle && orders_.front().is_register_write);
+    const bool accesses = idle && access_.waits();
     if (in_flexmac && !writes && !accesses) {
         sending_ = Sending::link_command;
         return link_.leave_flexmac(now);
@@ -207,7 +211,7 @@ void JvlMotor::work(base::Instant now) {
         slowed_ = true;
         return command(Sending::link_command, command_byte(Number::transmit_slowly), now);
     }
-    for_access_ = accesses;
+    is_aside_ = idle;
     if (!in_flexmac && (writes || accesses))
         return command(Sending::link_command, command_byte(Number::use_flexmac), now);
     if (stop_wanted_) {
@@ -216,10 +220,22 @@ void JvlMotor::work(base::Instant now) {
                               now);
     }
     if (accesses) return send_access(now);
-    if (orders_.empty()) return;
+    if (idle) return prove_link(now);
     const Order& order = orders_.begin();
     if (order.is_register_write) return write_register(Sending::order, order, now);
     command(Sending::order, order.command, now);
+}
+
+/// Frames that never change may come from a broken wire: only an echo proves that the motor lives.
+void JvlMotor::prove_link(base::Instant now) {
+    if (now >= proof_due()) command(Sending::link_command, command_byte(Number::nop), now);
+}
+
+base::Instant JvlMotor::proof_due() const {
+    if (!safe_now_) return link_.left_at() + kRapidProof;
+    const base::Microseconds echoes = kProofEchoes * link_.echo_time();
+    const bool is_late = EchoTime::kMost.count() != 0 && echoes > link_.silence();
+    return link_.left_at() + (is_late ? echoes : link_.silence());
 }
 
 void JvlMotor::write_register(Sending what, const Order& order, base::Instant now) {
@@ -279,7 +295,7 @@ void JvlMotor::stop() {
 bool JvlMotor::settled() const {
     if (!is_up()) return true;
     const bool wants_slow = link_.framing_error_seen() && !slowed_;
-    if (for_access_) return orders_.empty() && !stop_wanted_;
+    if (is_aside_) return orders_.empty() && !stop_wanted_;
     return !link_.busy() && orders_.empty() && !stop_wanted_ && !link_.flexmac() && !wants_slow;
 }
 

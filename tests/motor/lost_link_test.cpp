@@ -10,6 +10,7 @@ struct LostLink : MotorTest {
         start();
         motor.hear_times(2, 0x90);
         for (int i = 0; i < 45; ++i) motor.silence();
+        line.take();  // the NOP that nobody answered
     }
     void restart() {
         motor.hear_times(2, 0x10);

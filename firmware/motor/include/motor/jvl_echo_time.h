@@ -43,6 +43,10 @@ class MeasuredEchoTime {
     base::Microseconds patience() const {
         return is_known_ ? base::Microseconds(std::max(wait_, late_)) : kPatience;
     }
+    /// How long where a repeat would act twice, or is the last: `least`, and what is measured.
+    base::Microseconds proof(base::Microseconds least, bool is_last) const {
+        return is_known_ && !is_last ? least + measured() : std::max(least, kPatience);
+    }
 
   private:
     bool is_known_ = false;
@@ -68,6 +72,7 @@ class NoEchoTime {
     base::Microseconds measured() const { return {}; }
     base::Microseconds at_most() const { return {}; }
     base::Microseconds patience() const { return {}; }
+    base::Microseconds proof(base::Microseconds least, bool) const { return least; }
 };
 
 using EchoTime = std::conditional_t<NPLC_LATE_LINES != 0, MeasuredEchoTime, NoEchoTime>;

@@ -21,8 +21,8 @@ class JvlLink {
         std::uint32_t baud = 19'200;
         base::Microseconds silence{
             20'000};  ///< no status byte, or nobody who listened, for this long and the echo's delay: lost
-        /// A FlexMAC message or a change of protocol, which would act twice, also waits this long for an echo
-        /// that may be late, and EchoTime::kPatience at the least.
+        /// A FlexMAC message or a change of protocol, which would act twice, waits this long for an echo
+        /// beyond the measured echo time; EchoTime::kPatience at the least where none is measured.
         base::Microseconds proof_time{20'000};
     };
 
@@ -43,6 +43,8 @@ class JvlLink {
     bool busy() const { return expect_ != Expect::nothing; }
     /// The last message, if there was one, has left the transmitter.
     bool has_left() const { return size_ == 0 || on_the_line_; }
+    /// When it had.
+    base::Instant left_at() const { return left_at_; }
     base::Microseconds silence() const { return settings_.silence; }
     /// `copies`: 2 for safe communication.
     void send_command(std::uint8_t command, int copies, base::Instant now);

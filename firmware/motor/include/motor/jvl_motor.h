@@ -64,6 +64,8 @@ class JvlMotor final : public Motor {
     bool send_blind_stop(base::Instant now);
     bool has_work() const;
     void work(base::Instant now);
+    void prove_link(base::Instant now);
+    base::Instant proof_due() const;
     void write_register(Sending what, const Order& order, base::Instant now);
     void send_access(base::Instant now);
     void follow_access(base::Instant now);
@@ -83,8 +85,8 @@ class JvlMotor final : public Motor {
     bool stop_wanted_ = false;
     bool link_error_ = false;
     bool was_up_ = false;
-    bool for_access_ = false;  ///< in FlexMAC, or on the way there and back, for accesses only
-    bool holds_ = false;       ///< IN_POS reads 0 until the motor has worked it out anew
+    bool is_aside_ = false;  ///< what is under way is no order: an access, its way there and back, a NOP
+    bool holds_ = false;     ///< IN_POS reads 0 until the motor has worked it out anew
     JvlLink link_;
     BlindStop blind_stop_;
     AccessSlot access_;
