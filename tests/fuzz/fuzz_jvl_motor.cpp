@@ -1,5 +1,5 @@
 // Any bytes from the motor's line, at any time, among any orders: the driver stays bounded, delivers nothing
-// while the link is not up, and settles once the line is steady.
+// but a stop while the link is not up, and settles once the line is steady.
 
 #include <deque>
 
@@ -22,11 +22,32 @@ bool belongs_to_the_link(std::uint8_t byte) {
     }
 }
 
+/// What a stop is while the link is lost: into FlexMAC, MODE_REG := 0 twice, back to FastMAC.
+class BlindStop {
+  public:
+    /// It goes on with `byte`, or begins.
+    bool take(std::uint8_t byte) {
+        constexpr std::uint8_t kBytes[]{0x7F, 0x7F, 0xFF, 0xFF, 0x60, 0x60, 0x60, 0x02, 0xFD,
+                                        0x00, 0xFF, 0x00, 0xFF, 0x60, 0x60, 0x60, 0x02, 0xFD,
+                                        0x00, 0xFF, 0x00, 0xFF, 0x7E, 0x7E, 0x7E};
+        if (byte != kBytes[next_]) next_ = 0;
+        if (byte != kBytes[next_]) return false;
+        next_ = (next_ + 1) % sizeof kBytes;
+        return true;
+    }
+
+  private:
+    std::size_t next_ = 0;
+};
+
 struct Line final : ports::SerialPort {
     std::size_t write(std::span<const std::uint8_t> bytes) override {
-        for (const std::uint8_t byte : bytes)
-            require(motor::delivers(driver->link()) || belongs_to_the_link(byte));
-        return bytes.size() < room ? bytes.size() : room;
+        const std::size_t taken = bytes.size() < room ? bytes.size() : room;
+        for (const std::uint8_t byte : bytes.first(taken)) {
+            const bool stops = blind_stop.take(byte) && was_told_to_stop;
+            require(motor::delivers(driver->link()) || stops || belongs_to_the_link(byte));
+        }
+        return taken;
     }
     std::size_t read(std::span<ports::ReceivedByte> out) override {
         std::size_t count = 0;
@@ -41,6 +62,8 @@ struct Line final : ports::SerialPort {
     std::deque<ports::ReceivedByte> received;
     std::size_t room = 64;
     bool idle = true;
+    bool was_told_to_stop = false;
+    BlindStop blind_stop;
     const motor::Motor* driver = nullptr;
 };
 
@@ -77,7 +100,10 @@ class Run {
                 }
                 return poll(base::Microseconds(100));
             default:
-                if (value % 8 == 0) driver_.stop();
+                if (value % 8 == 0) {
+                    line_.was_told_to_stop = true;
+                    driver_.stop();
+                }
                 if (value % 8 == 4) driver_.drop_access();
                 if (value % 8 < 4 && value % 8 > 0) {
                     const bool taken = driver_.begin_access({.is_write = value % 8 == 3,

@@ -62,7 +62,10 @@ class DisturbedRun {
         for (const sim::SentOrder& order : ordered_) auditor.ordered(order);
         for (const sim::Order& order : world_.mac().orders()) auditor.executed(order);
         const auto result = auditor.finish(world_.on_their_way());
-        EXPECT_TRUE(result.unordered.empty()) << result.unordered.count << " orders executed and not ordered";
+        EXPECT_EQ(result.unordered.count, result.unordered.first.size());
+        for (const sim::SentOrder& order : result.unordered.first)
+            EXPECT_TRUE(is_rest_of_a_blind_stop(order))
+                << int{order.command} << ", register " << int{order.reg} << ": executed and not ordered";
         for (const sim::Order& order : world_.mac().orders()) {
             if (!order.flexmac || order.reg == 2) continue;  // 2: the gateway's own stop
             EXPECT_TRUE(was_ordered_lately(order)) << "register " << int{order.reg} << " is written late";
@@ -101,6 +104,13 @@ class DisturbedRun {
     void spoil(double drop, double delay, double framing) {
         world_.spoil_line(
             {.drop = drop, .damage = {}, .framing = framing, .delay = delay, .longest_delay = {}});
+    }
+
+    /// A motor that is switched on in the middle of a blind stop, with rapid communication as always then,
+    /// takes its bytes 00h and 02h for commands: INIT(P1) and INIT(P3), which leave it without power, as the
+    /// stop does.
+    static bool is_rest_of_a_blind_stop(const sim::SentOrder& order) {
+        return !order.is_register_write && (order.command == 0x00 || order.command == 0x02);
     }
 
     /// Within the second before it was executed: a full queue with resends takes less.
