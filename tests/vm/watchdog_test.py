@@ -37,7 +37,7 @@ SCRIPT = """
 modprobe -a virtio_blk crc32c_generic ext4 || exit 1
 mkdir /disk
 mount -t ext4 /dev/vda /disk || exit 1
-[ -e /disk/state ] || cp -r state /disk/state
+[ -e /disk/state ] || { cp -r state /disk/state; sync; }
 ./nanoplc --config nanoplc.toml 2>&1 &
 while true; do
     if [ -e freeze ]; then rm freeze; sync; kill -STOP $!; fi
