@@ -142,9 +142,9 @@ TEST(OrderedRestart, WhoStopsTheAxisMeanwhileKeepsItStopped) {
 /// The motor does not come to rest in time; later nobody expects a start.
 TEST(OrderedRestart, WhatComesToNothingRunsNothingLater) {
     Bench bench(Activation::restart);
+    bench.port.board.motor_registers[registers::V_IST] = 500;
     bench.order(1);
     ASSERT_TRUE(bench.stops_for_it());
-    bench.port.board.motor_registers[registers::V_IST] = 500;
     bench.run(15s);
     EXPECT_NE(bench.told.find("is not run again"), std::string::npos) << bench.told;
     bench.port.board.motor_registers[registers::V_IST] = 0;
