@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -119,6 +120,7 @@ Condition ConditionParser::order() {
 
 Condition ConditionParser::comparison() {
     Condition result{.value = value(), .order = {}, .parts = {}};
+    if (result.value.kind == Value::Kind::step && reader_.take("in")) return group();
     for (const auto& [symbol, relation] : kRelations) {
         if (!reader_.take(symbol)) continue;
         result.relation = relation;
@@ -216,8 +218,41 @@ std::int64_t ConditionParser::place() {
     return std::llround(counts);
 }
 
+/// `step in Moving`
+Condition ConditionParser::group() {
+    Condition any{.kind = Condition::Kind::either, .value = {}, .order = {}, .parts = {}};
+    const auto add = [&](double step) {
+        any.parts.push_back(
+            {.value = {.kind = Value::Kind::step}, .operand = step, .order = {}, .parts = {}});
+    };
+    const Token& token = reader_.peek();
+    std::string known;
+    for (const auto& [name, steps] : names_.groups) {
+        known += (known.empty() ? "" : ", ") + name;
+        if (token.kind != Token::Kind::word || !same_name(name, token.text)) continue;
+        reader_.next();
+        for (const std::uint8_t step : steps) add(step);
+        return any;
+    }
+    const bool is_step = std::any_of(names_.steps.begin(), names_.steps.end(), [&](const auto& step) {
+        return token.kind == Token::Kind::word && same_name(step.second, token.text);
+    });
+    if (!is_step && token.kind == Token::Kind::word) {
+        reader_.refuse_next(fmt::format(
+            "the program has no GROUP \"{}\"; write {}", token.text,
+            known.empty() ? "GROUP Name: steps; in it, or step = Name" : fmt::format("one of {}", known)));
+    }
+    if (!is_step) reader_.fail("a group's name");
+    add(step_number());
+    return any;
+}
+
 double ConditionParser::step_number() {
     const Token& token = reader_.peek();
+    for (const auto& [name, steps] : names_.groups) {
+        if (token.kind == Token::Kind::word && same_name(name, token.text))
+            reader_.refuse_next(fmt::format("{} is a group of steps; write step in {}", name, name));
+    }
     if (token.kind == Token::Kind::number) {
         const double number = reader_.next().number;
         if (number != static_cast<int>(number) || number > 62)

@@ -107,6 +107,7 @@ class ConditionParser {
     void operand(Condition& condition);
     void quantity(Condition& condition);
     double step_number();
+    Condition group();
     struct Measure {
         double value;  ///< in the value's own steps
         Unit unit;

@@ -139,7 +139,7 @@ TEST_F(Include, PropertiesOfAFileAreProvedAndTheirMistakesAreAtTheirLines) {
     EXPECT_NE(read("out").find("Dark"), std::string::npos) << read("out");
     write("wiring.seqi", kWiring + std::string("PROPERTY Dark: NEVER Lmp AND STEP = Idle;\n"));
     EXPECT_EQ(run("verify p.seq"), 2);
-    EXPECT_NE(read("err").find("wiring.seqi:3: "), std::string::npos) << read("err");
+    EXPECT_NE(read("err").find("wiring.seqi:3:22: error E021"), std::string::npos) << read("err");
 }
 
 TEST(Sources, AFileCanStandFirstAndTheProgramMeansTheSame) {

@@ -115,6 +115,22 @@ TEST(SymbolFileReading, GivesBackTheExamples) {
     EXPECT_GE(examples, 3);
 }
 
+TEST(SymbolFileReading, GivesBackGroups) {
+    const std::string source =
+        "PROGRAM P MOTOR MAC140; GROUP Both: S, T; GROUP Last: T; ON IN5 IN Both NEXT := U; ON IN4 IN Last "
+        "NEXT := U;\n"
+        "STEP S: OWN ERROR; IF IN0 THEN NEXT := T; END_IF END_STEP STEP T: OWN ERROR; IF IN1 THEN NEXT := S; "
+        "END_IF END_STEP\n"
+        "STEP U: OWN ERROR; IF IN2 THEN NEXT := S; END_IF END_STEP END_PROGRAM";
+    const Compilation compilation = compile(source);
+    const std::vector<StepGroup> groups = {{"Both", 0b110}, {"Last", 0b100}};
+    EXPECT_EQ(compilation.symbols.groups, groups);
+    Json file = Json::parse(write_symbols(compilation, source, "p.seq"));
+    EXPECT_EQ(read_symbols(file.dump()).file.symbols.groups, groups);
+    file["groups"][1]["steps"][0] = 63;
+    EXPECT_EQ(read_symbols(file.dump()).error.find("groups[1].steps[0]: this must be a whole number"), 0U);
+}
+
 TEST(SymbolFileReading, GivesBackEveryRegister) {
     for (const auto model : {registers::Model::mac50, registers::Model::mac140, registers::Model::mac800}) {
         std::string source = fmt::format("PROGRAM P MOTOR {}; VAR_MOTOR\n", registers::name_of(model));

@@ -13,6 +13,7 @@ Names program_names() {
     names.outputs = {"Grip", "", "", "Lamp"};
     names.machine = {"mm", 5};
     names.steps = {{0, "POWER_UP"}, {1, "Idle"}, {2, "Travel"}};
+    names.groups = {{"Working", {1, 2}}};
     return names;
 }
 
@@ -43,6 +44,7 @@ TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
         every 500 ms from 1 s until 2 min toggle Guard
         when OUT0 rises after 300 ms IN2 := 1
         when step = Travel and not (Guard or IN4) IN2 := 1
+        expect not step in working or step in Idle at 2 s
         once P_IST > 4096 IN2 := 1
         when P_IST = -1.5 rev +- 2 counts IN2 := 1
         when step changes log "step"
@@ -112,7 +114,7 @@ TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
     )scn",
                                         "MAC800");
     for (const Mistake& found : parsed.mistakes) ADD_FAILURE() << found.line << ": " << found.message;
-    EXPECT_EQ(parsed.scenario.expectations.size(), 26U);
+    EXPECT_EQ(parsed.scenario.expectations.size(), 27U);
     EXPECT_EQ(parsed.scenario.when.size(), 14U);
     EXPECT_EQ(parsed.scenario.every.size(), 3U);
     EXPECT_EQ(parsed.scenario.follow.size(), 2U);
@@ -258,6 +260,9 @@ TEST(ScenarioParser, MistakesSayWhatIsWrongAndWhatToWrite) {
               "Grip is an output: the sequence sets it, a scenario can only watch it; name an input");
     EXPECT_EQ(mistake("at 5 s Start := 2"), "\"2\" is out of place; write 0 or 1");
     EXPECT_EQ(mistake("at 5 s Start = 1"), "\"=\" is out of place; write := and the level, such as IN0 := 1");
+    EXPECT_EQ(mistake("expect step in Hold"), "the program has no GROUP \"Hold\"; write one of Working");
+    EXPECT_EQ(mistake("expect step in 5"), "\"5\" is out of place; write a group's name");
+    EXPECT_EQ(mistake("expect step = Working"), "Working is a group of steps; write step in Working");
     EXPECT_EQ(mistake("expect step = Hold"),
               "the program has no step \"Hold\"; write one of POWER_UP, Idle, Travel");
     EXPECT_EQ(mistake("expect step = 63"), "a step is a whole number 0 to 62");

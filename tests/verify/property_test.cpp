@@ -12,6 +12,7 @@ Names names() {
     result.steps[2] = "Push";
     result.inputs = {"Start", "Door", "IN2", "IN3", "IN4", "IN5"};
     result.outputs = {"Clamp", "OUT1", "OUT2", "OUT3"};
+    result.groups = {{"Both", 0b110}, {"Nobody", 0}};
     return result;
 }
 
@@ -32,6 +33,16 @@ TEST(Property, NamesAndAddressesMeanTheSame) {
     EXPECT_TRUE(condition("in0 AND OUT0 AND STEP = 1", 0x01, view));
     EXPECT_TRUE(condition("%IX0.0 AND %QX0.0 AND step = idle", 0x01, view));
     EXPECT_FALSE(condition("Door OR OUT1 OR step = Push", 0x01, view));
+}
+
+TEST(Property, AGroupIsAnyOfItsSteps) {
+    EXPECT_TRUE(condition("step in both", 0, {.step = 1}));
+    EXPECT_TRUE(condition("STEP IN Both AND Start", 1, {.step = 2}));
+    EXPECT_FALSE(condition("STEP IN Both", 0, {.step = 0}));
+    EXPECT_FALSE(condition("STEP IN Nobody", 0, {.step = 0}));
+    EXPECT_TRUE(condition("STEP IN Push", 0, {.step = 2}));
+    EXPECT_NE(read_properties("PROPERTY P: NEVER STEP IN Moving;", names()).error.find("no group 'Moving'"),
+              std::string::npos);
 }
 
 TEST(Property, NotBindsTightestAndOrLoosest) {
@@ -75,6 +86,9 @@ TEST(Property, EveryFormIsRead) {
               Form::scan_ends);
     EXPECT_EQ(only("PROPERTY P: WHENEVER IN0 THEN IN1 WITHIN T#1s500ms;").within_ms, 1500U);
     EXPECT_EQ(only("PROPERTY P: WHENEVER IN0 THEN IN1 WITHIN 20ms;").within_ms, 20U);
+    EXPECT_EQ(only("PROPERTY P: WHENEVER IN0 THEN IN1 WITHIN 1_500 ms;").within_ms, 1500U);
+    EXPECT_EQ(only("PROPERTY P: WHENEVER IN0 THEN IN1 WITHIN TIME#1m30s;").within_ms, 90'000U);
+    EXPECT_EQ(only("PROPERTY P: WHENEVER IN0 THEN IN1 WITHIN t#1h;").within_ms, 3'600'000U);
 }
 
 TEST(Property, AssumptionsAreOfInputs) {

@@ -7,6 +7,7 @@
 #include "lowering/lower.h"
 #include "lowering/set_points.h"
 #include "semantics/checker.h"
+#include "semantics/claims.h"
 #include "semantics/copies.h"
 #include "semantics/helper_steps.h"
 #include "semantics/oversights.h"
@@ -120,6 +121,15 @@ void name_origins(const ast::Program& program, const Scope& scope, Compilation& 
     }
 }
 
+void add_copies_to_groups(Symbols& symbols) {
+    for (StepGroup& group : symbols.groups) {
+        for (std::uint8_t step = 0; step < symbols.steps.size(); ++step) {
+            const std::optional<std::uint8_t> of = symbols.copy_of[step];
+            if (of && ((group.steps >> *of) & 1U) != 0) group.steps |= std::uint64_t{1} << step;
+        }
+    }
+}
+
 std::vector<LoweredTerm> lower_all(const Plan& plan, const std::vector<DeclaredSetPoint>& points,
                                    Symbols& symbols, Report& checks) {
     const std::vector<std::uint8_t> outputs = outputs_of_steps(plan);
@@ -171,6 +181,10 @@ Compilation compile(const Sources& sources) {
     if (syntax_sound && !checks.has_errors()) make_copies(plan, result, checks);
     if (syntax_sound && !checks.has_errors()) make_helper_steps(plan, result, checks);
     name_origins(program, scope, result);
+    add_copies_to_groups(result.symbols);
+    const bool is_whole = syntax_sound && !checks.has_errors();
+    Report claims;
+    check_claims(program, result.symbols, is_whole, claims);
     for (const StepPlan& step : plan.steps) result.steps.push_back({step.number, step.span, step.outputs});
     result.written = written_of(program, plan, scope.initial_values());
     collect_allowances(program, plan, result);
@@ -195,6 +209,7 @@ Compilation compile(const Sources& sources) {
     if (syntax_sound && !checks.has_errors()) check_oversights(plan, result.symbols, checks);
     if (!checks.has_errors()) check_length(terms.size(), plan, program.name.span, checks);
     merge(report, checks, syntax_sound);
+    merge(report, claims, true);
     result.ok = !report.has_errors();
     if (result.ok) emit_all(terms, plan, result);
     result.more_diagnostics = report.has_more();

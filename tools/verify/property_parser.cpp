@@ -7,6 +7,7 @@
 #include <cctype>
 #include <charconv>
 #include <optional>
+#include <span>
 
 namespace nplc::verify {
 namespace {
@@ -70,6 +71,18 @@ struct Unit {
     double milliseconds;
 };
 constexpr std::array kUnits = {Unit{"ms", 1}, Unit{"s", 1'000}, Unit{"min", 60'000}};
+/// Behind T#.
+constexpr std::array kTimeUnits = {Unit{"ms", 1}, Unit{"s", 1'000}, Unit{"m", 60'000}, Unit{"h", 3'600'000},
+                                   Unit{"d", 86'400'000}};
+
+/// How long T# or TIME# is at the beginning of a text; 0: it does not begin so.
+std::size_t time_prefix(std::string_view text) {
+    for (const std::string_view prefix : {std::string_view("T#"), std::string_view("TIME#")}) {
+        if (text.size() > prefix.size() && same_word(text.substr(0, prefix.size()), prefix))
+            return prefix.size();
+    }
+    return 0;
+}
 
 }  // namespace
 
@@ -104,12 +117,13 @@ void PropertyParser::split(std::string_view text) {
         } else if (c == '%') {
             end = run(at + 1, [](char x) { return is_word_character(x) || x == '.'; });
             tokens_.push_back({Token::Kind::direct, text.substr(at, end - at), line});
-        } else if ((c == 'T' || c == 't') && rest.size() > 1 && rest[1] == '#') {
-            end = run(at + 2, [](char x) { return is_word_character(x) || x == '.'; });
+        } else if (const std::size_t prefix = time_prefix(rest); prefix != 0) {
+            end = run(at + prefix, [](char x) { return is_word_character(x) || x == '.'; });
             tokens_.push_back({Token::Kind::number, text.substr(at, end - at), line});
         } else if (std::isdigit(static_cast<unsigned char>(c)) != 0) {
-            end =
-                run(at, [](char x) { return std::isdigit(static_cast<unsigned char>(x)) != 0 || x == '.'; });
+            end = run(at, [](char x) {
+                return std::isdigit(static_cast<unsigned char>(x)) != 0 || x == '.' || x == '_';
+            });
             tokens_.push_back({Token::Kind::number, text.substr(at, end - at), line});
         } else if (is_word_character(c)) {
             end = run(at, is_word_character);
@@ -344,18 +358,17 @@ bool PropertyParser::parse_time(std::uint32_t& milliseconds) {
     std::string_view text = token().text;
     if (token().kind != Token::Kind::number) return fail(fmt::format("a time is expected, not {}", shown()));
     double total = 0;
-    if (text.size() > 2 && text[1] == '#') {
-        text.remove_prefix(2);
-    } else {
-        text = {};
-    }
-    const auto add = [&](std::string_view number, std::string_view unit) {
+    const std::size_t prefix = time_prefix(text);
+    text = prefix != 0 ? text.substr(prefix) : std::string_view();
+    const auto add = [&](std::string_view written, std::string_view unit) {
+        std::string number(written);
+        std::erase(number, '_');
         double value = 0;
         const auto read = std::from_chars(number.data(), number.data() + number.size(), value);
-        const auto* found = std::find_if(kUnits.begin(), kUnits.end(),
-                                         [&](const Unit& u) { return same_word(u.word, unit); });
-        if (read.ptr != number.data() + number.size() || number.empty() || found == kUnits.end())
-            return false;
+        const std::span<const Unit> units = prefix != 0 ? std::span<const Unit>(kTimeUnits) : kUnits;
+        const auto found =
+            std::find_if(units.begin(), units.end(), [&](const Unit& u) { return same_word(u.word, unit); });
+        if (read.ptr != number.data() + number.size() || number.empty() || found == units.end()) return false;
         total += value * found->milliseconds;
         return true;
     };
@@ -414,6 +427,10 @@ bool PropertyParser::parse_primary(Condition& result) {
         at_ += 2;
         return parse_step(result);
     }
+    if (at("step") && at("IN", 1)) {
+        at_ += 2;
+        return parse_group(result);
+    }
     return parse_signal(result);
 }
 
@@ -438,6 +455,26 @@ bool PropertyParser::parse_step(Condition& result) {
         if (result.kind == Kind::step) result = {.kind = Kind::any_of, .number = 0, .operands = {result}};
         result.operands.push_back(leaf(Kind::step, copy));
     }
+    return true;
+}
+
+/// A group or one step.
+bool PropertyParser::parse_group(Condition& result) {
+    const auto group = std::find_if(names_.groups.begin(), names_.groups.end(), [&](const StepGroup& known) {
+        return token().kind == Token::Kind::word && same_word(known.name, token().text);
+    });
+    if (group == names_.groups.end()) {
+        if (token().kind == Token::Kind::word && named(token().text, names_.steps)) return parse_step(result);
+        return fail(
+            fmt::format("there is no group {}; a group is declared with GROUP Name: steps;", shown()));
+    }
+    ++at_;
+    result = leaf(Kind::any_of);
+    for (std::uint8_t step = 0; step < names_.steps.size(); ++step) {
+        if (((group->steps >> step) & 1U) != 0) result.operands.push_back(leaf(Kind::step, step));
+    }
+    if (result.operands.empty()) result = leaf(Kind::constant);
+    if (result.operands.size() == 1) result = Condition(result.operands.front());
     return true;
 }
 

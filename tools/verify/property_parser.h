@@ -46,6 +46,7 @@ class PropertyParser {
     bool parse_operators(Condition& result, std::size_t level);
     bool parse_primary(Condition& result);
     bool parse_step(Condition& result);
+    bool parse_group(Condition& result);
     bool parse_signal(Condition& result);
 
     static constexpr int kDeepest = 100;

@@ -96,7 +96,9 @@ class Speller {
         if (item.is_keyword("SCALE")) in_scale_ = true;
         if (item.is_symbol(";")) in_scale_ = in_steps_ = false;
         if (item.is_keyword("NEXT")) in_steps_ = false;
-        if (item.is_keyword("GROUP") || item.is_keyword("IN") || item.is_keyword("EXCEPT")) in_steps_ = true;
+        if (item.is_keyword("GROUP") || (item.is_keyword("IN") && !behind_keyword("STEP")) ||
+            item.is_keyword("EXCEPT"))
+            in_steps_ = true;
         if (item.is_keyword("END_VAR")) in_variables_ = false;
         if (item.is_keyword("VAR_INPUT") || item.is_keyword("VAR_OUTPUT") || item.is_keyword("VAR_MOTOR"))
             in_variables_ = true;
@@ -222,7 +224,8 @@ std::string Speller::name_here() const {
         behind_keyword("SET_POINT"))
         return std::string(text);
     const bool behind_next = at_ > 1 && behind_symbol(":=") && tokens_.is_keyword(at_ - 2, "NEXT");
-    if (behind_next || in_steps_ || behind_keyword("TERM"))
+    const bool behind_step_in = at_ > 1 && behind_keyword("IN") && tokens_.is_keyword(at_ - 2, "STEP");
+    if (behind_next || behind_step_in || in_steps_ || behind_keyword("TERM"))
         return std::string(steps_.find(text).value_or(text));
     if (behind_keyword("MOTOR")) return motor_named(text) ? upper(text) : std::string(text);
     if (in_variables_ && tokens_.is_keyword(at_ + 1, "AT")) return std::string(text);

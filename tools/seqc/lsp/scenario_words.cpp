@@ -47,7 +47,7 @@ constexpr auto kSentences = std::to_array<Sentence>({
     {"gateway", "`gateway stop`, `gateway run`, `gateway restart`"},
     {"log", "`log \"text\"`: a remark in the timeline"},
     {"seed", "`seed 7`: starts the line's chance anew"},
-    {"step", "the active step: `step = Name`"},
+    {"step", "the active step: `step = Name`, `step in Group`"},
     {"INPOS", "the motor is in position"},
     {"ERROR", "the sequence sees an error"},
     {"LINK", "the gateway can reach the motor"},
@@ -82,7 +82,10 @@ const Sentence* sentence_word(std::string_view word) {
 }
 
 const analysis::Definition* definition_of(const analysis::Program& program, const Word& word) {
-    if (word.is_step) return program.find(Kind::step, word.text);
+    if (word.is_step) {
+        const auto* step = program.find(Kind::step, word.text);
+        return step != nullptr ? step : program.find(Kind::group, word.text);
+    }
     if (const auto* input = program.find(Kind::input, word.text)) return input;
     return program.find(Kind::output, word.text);
 }
@@ -111,6 +114,7 @@ std::vector<Word> words_of(std::string_view text) {
     std::vector<Word> words;
     std::string_view before;
     bool compares = false;
+    bool in_group = false;
     for (std::size_t at = 0; at < text.size();) {
         const char c = text[at];
         if (c == '#' || text.substr(at, 2) == "//") {
@@ -125,7 +129,8 @@ std::vector<Word> words_of(std::string_view text) {
             const std::string_view word = text.substr(at, end - at);
             words.push_back({{static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(end - at)},
                              word,
-                             compares && same_name(before, "step")});
+                             in_group || (compares && same_name(before, "step"))});
+            in_group = same_name(word, "in") && same_name(before, "step");
             before = word;
             compares = false;
             at = end;
@@ -209,7 +214,8 @@ Json scenario_completion(Workspace& workspace, const At& at) {
         const bool compares = before.ends_with('=') || before.ends_with("<>");
         while (!before.empty() && std::string_view("=<> ").find(before.back()) != std::string_view::npos)
             before.pop_back();
-        after_step = compares && upper(before).ends_with("STEP");
+        const bool in_group = upper(before).ends_with("STEP IN");
+        after_step = in_group || (compares && upper(before).ends_with("STEP"));
     }
     const Json range = workspace.range_json(at.document.lines(), replaced);
     Json items = Json::array();
@@ -222,8 +228,8 @@ Json scenario_completion(Workspace& workspace, const At& at) {
     if (at.view.program) {
         for (const analysis::Definition& definition : at.view.program->definitions()) {
             const bool signal = definition.kind == Kind::input || definition.kind == Kind::output;
-            if (after_step ? definition.kind == Kind::step : signal)
-                add(definition.name, definition.kind == Kind::step ? 3 : 6, definition.address);
+            const bool steps = definition.kind == Kind::step || definition.kind == Kind::group;
+            if (after_step ? steps : signal) add(definition.name, steps ? 3 : 6, definition.address);
         }
         if (after_step) add("POWER_UP", 3, "step 0");
     }
@@ -241,6 +247,7 @@ std::vector<analysis::Coloured> scenario_colours(const At& at) {
             at.view.program ? definition_of(*at.view.program, word) : nullptr;
         if (definition != nullptr) {
             const TokenType type = definition->kind == Kind::step    ? TokenType::step
+                                   : definition->kind == Kind::group ? TokenType::group
                                    : definition->kind == Kind::input ? TokenType::input
                                                                      : TokenType::output;
             colours.push_back({word.span, type});
@@ -253,11 +260,12 @@ std::vector<analysis::Coloured> scenario_colours(const At& at) {
 
 void add_scenario_locations(Workspace& workspace, const std::string& program_uri, std::string_view name,
                             Kind kind, Json& found) {
-    if (kind != Kind::input && kind != Kind::output && kind != Kind::step) return;
+    const bool is_step = kind == Kind::step || kind == Kind::group;
+    if (kind != Kind::input && kind != Kind::output && !is_step) return;
     for (const auto& [uri, text] : workspace.dependants_of(program_uri)) {
         const analysis::Lines lines(text);
         for (const Word& word : words_of(text)) {
-            if (same_name(word.text, name) && word.is_step == (kind == Kind::step))
+            if (same_name(word.text, name) && word.is_step == is_step)
                 found.push_back({{"uri", uri}, {"range", workspace.range_json(lines, word.span)}});
         }
     }

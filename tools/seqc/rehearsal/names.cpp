@@ -16,6 +16,9 @@ sim::Names names_of(const seqc::Symbols& symbols) {
         const auto number = static_cast<std::uint8_t>(step);
         if (!symbols.steps[step].empty()) names.steps[number] = symbols.steps[step];
         if (symbols.copy_of[step]) names.copy_of[number] = *symbols.copy_of[step];
+        for (const seqc::StepGroup& group : symbols.groups) {
+            if (((group.steps >> step) & 1U) != 0) names.groups[group.name].push_back(number);
+        }
     }
     return names;
 }

@@ -22,7 +22,10 @@ class Groups {
             for (const ast::Step* named : scope.steps()) {
                 if (same_name(named->name.text, group.name.text)) step = named;
             }
-            if (is_new && step == nullptr) continue;
+            if (is_new && step == nullptr) {
+                scope.add_group(group.name.text, steps.to_ullong());
+                continue;
+            }
             scope.report()
                 .add("E020", group.name.span,
                      fmt::format("'{}' is {} already", group.name.text, is_new ? "a step" : "a group"),

@@ -70,6 +70,7 @@ Scope::Scope(const ast::Program& program, std::string_view source, Report& repor
         if (use.declares) declared_.emplace(use.span.offset, declared_.size());
     }
     for (const ast::Sequence& sequence : program.sequences) sequences_.push_back(sequence.name.text);
+    for (const ast::Group& group : program.groups) groups_.push_back(group.name.text);
     declare_motor(program);
     declare_scale(program);
     declare_steps(program);
@@ -283,10 +284,15 @@ std::optional<std::uint8_t> Scope::step(const ast::Name& name) {
         if (numbers_[i] <= kLastNamed) names.push_back(steps_[i]->name.text);
     }
     std::string help = suggestion(name.text, names);
-    if (help.empty() || std::find(sequences_.begin(), sequences_.end(), name.text) != sequences_.end())
-        help = help_for_step(name.text);
+    const bool is_sequence = std::find(sequences_.begin(), sequences_.end(), name.text) != sequences_.end();
+    if (help.empty() || is_sequence || is_group(name.text)) help = help_for_step(name.text);
     report_.add("E021", name.span, fmt::format("there is no step '{}'", name.text), help);
     return std::nullopt;
+}
+
+bool Scope::is_group(std::string_view name) const {
+    return std::any_of(groups_.begin(), groups_.end(),
+                       [&](std::string_view group) { return same_name(group, name); });
 }
 
 std::string Scope::help_for_step(std::string_view name) const {
@@ -297,6 +303,7 @@ std::string Scope::help_for_step(std::string_view name) const {
                                is_it ? "it is a SEQUENCE" : "the steps of a SEQUENCE are entered through it",
                                sequence);
     }
+    if (is_group(name)) return "it is a GROUP of several steps: name the one that is meant";
     return fmt::format("write STEP {}: ... END_STEP, or name one of the steps there are", name);
 }
 
@@ -387,6 +394,8 @@ Truth Scope::truth_of(const ast::Expression& expression) {
         case Kind::rising:
         case Kind::falling:
             return truth_of_edge(expression);
+        case Kind::step:  // of properties alone
+            return {};
         case Kind::negation:
             return ~truth_of(expression.operands.front());
         case Kind::all_of:

@@ -56,6 +56,10 @@ class Scope {
     std::size_t faulty_names_met() const { return faulty_names_met_; }
     bool is_input(std::string_view name) const { return find(inputs_, name) != nullptr; }
     bool is_step(std::string_view name) const;
+    /// Steps under one name, a bit for each by number.
+    void add_group(std::string_view name, std::uint64_t steps) {
+        result_.symbols.groups.push_back({std::string(name), steps});
+    }
     bool is_output(std::string_view name) const { return find(outputs_, name) != nullptr; }
     const ast::Constant* constant(std::string_view name) const { return constants_.find(name); }
     /// "a velocity", by the unit of a value; empty where the unit says nothing.
@@ -131,6 +135,7 @@ class Scope {
     bool stands_before(Span a, Span b) const;
     std::string help_for_step(std::string_view name) const;
     bool is_faulty(std::string_view name);
+    bool is_group(std::string_view name) const;
     void note_value(Diagnostic& diagnostic, const ast::Value& value, std::string_view shown) const;
     std::string unit_help(const registers::Register& reg, std::string_view unit) const;
     void report_no_value(const ast::Name& name, const registers::Register* reg);
@@ -167,6 +172,7 @@ class Scope {
     bool scale_missing_ = false;
     std::unordered_map<std::uint32_t, std::size_t> declared_;  ///< the order of declarations, by offset
     std::vector<std::string_view> sequences_;
+    std::vector<std::string_view> groups_;
     std::vector<Variable> inputs_;
     std::vector<Variable> outputs_;
     std::vector<Variable> motor_variables_;

@@ -139,6 +139,16 @@ void read_steps(const Node& node, SymbolFile& file) {
     }
 }
 
+void read_groups(const Node& node, SymbolFile& file) {
+    Different different;
+    for (const Node& entry : node.list()) {
+        StepGroup group{entry["name"].name(), 0};
+        different.add(entry["name"], group.name);
+        for (const Node& step : entry["steps"].list()) group.steps |= std::uint64_t{1} << step.whole(0, 62);
+        file.symbols.groups.push_back(std::move(group));
+    }
+}
+
 void read_registers(const Node& node, Symbols& symbols, Different& different) {
     for (const Node& entry : node.list()) {
         MotorName named{entry["name"].name(),
@@ -236,6 +246,7 @@ SymbolFile read(const Node& root) {
                               scale["unit"].word()};
     }
     read_steps(root["steps"], file);
+    if (root.has("groups")) read_groups(root["groups"], file);
     Different different;
     read_signals(root["inputs"], file.symbols.inputs, different);
     read_signals(root["outputs"], file.symbols.outputs, different);

@@ -74,6 +74,18 @@ Json steps_of(const Compilation& compilation, const Places& places, const Source
     return list;
 }
 
+Json groups_of(const Symbols& symbols) {
+    Json list = Json::array();
+    for (const StepGroup& group : symbols.groups) {
+        Json steps = Json::array();
+        for (unsigned step = 0; step < symbols.steps.size(); ++step) {
+            if (((group.steps >> step) & 1U) != 0) steps.push_back(step);
+        }
+        list.push_back({{"name", group.name}, {"steps", std::move(steps)}});
+    }
+    return list;
+}
+
 Json terms_of(const Compilation& compilation, const Places& places, const Sources& sources) {
     Json list = Json::array();
     for (const TermOrigin& origin : compilation.origins) {
@@ -109,6 +121,7 @@ std::string write_symbols(const Compilation& compilation, const Sources& sources
                      {"terms", compilation.table.size() / sequencer::kTermBytes},
                      {"crc32", fmt::format("{:08X}", base::crc32(compilation.table))}};
     file["steps"] = steps_of(compilation, places, sources);
+    if (!symbols.groups.empty()) file["groups"] = groups_of(symbols);
     file["inputs"] = symbols.inputs;
     file["outputs"] = symbols.outputs;
     file["registers"] = registers_of(symbols);

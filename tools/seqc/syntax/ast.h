@@ -67,6 +67,7 @@ struct Expression {
         counter_q,
         rising,   ///< R_TRIG(name)
         falling,  ///< F_TRIG(name)
+        step,     ///< of a property, STEP = name; a number stands in `name` too; with `value` STEP IN name
         negation,
         all_of,
         any_of,
@@ -75,7 +76,7 @@ struct Expression {
     Kind kind = Kind::constant;
     Span span;
     Name name;           ///< Kind::name, rising, falling
-    bool value = false;  ///< Kind::constant
+    bool value = false;  ///< Kind::constant, step
     std::vector<Expression> operands;
 };
 
@@ -268,6 +269,16 @@ struct Sequence {
     bool is_broken = false;  ///< its parameters could not be read
 };
 
+/// PROPERTY or ASSUME: what it names.
+struct Claim {
+    enum class Kind : std::uint8_t { property, never, stable, ends };  ///< the last three are of ASSUME
+    Kind kind = Kind::property;
+    Name name;
+    std::vector<Expression> conditions;
+    std::vector<Value> times;
+    bool time_may_be_zero = false;  ///< WHENEVER .. WITHIN
+};
+
 struct Scale {
     Span span;
     double revolutions = 1;
@@ -299,6 +310,7 @@ struct Program {
     std::vector<RawTerm> terms;
     std::vector<Span> includes;     ///< texts behind INCLUDE, with their quotes
     std::vector<Span> properties;   ///< PROPERTY Name: ... ; each
+    std::vector<Claim> claims;      ///< the same, those that could be read
     std::deque<std::string> texts;  ///< of units that are written with blanks or comments in them
     std::vector<Use> uses;          ///< every name that was read, in the order of reading
     std::vector<Block> blocks;      ///< in the order of their ends

@@ -51,6 +51,16 @@ std::string_view nearest(std::string_view name, const std::vector<std::string_vi
     return best;
 }
 
+std::string_view numbered_timer(std::string_view name) {
+    for (const std::string_view word : {"TIMER", "COUNTER"}) {
+        if (name.size() <= word.size() || !same_name(name.substr(0, word.size()), word)) continue;
+        std::string_view digits = name.substr(word.size());
+        if (digits.size() > 1 && digits.front() == '_') digits.remove_prefix(1);
+        if (digits.find_first_not_of("0123456789") == digits.npos) return word;
+    }
+    return {};
+}
+
 std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates) {
     const std::string_view best = nearest(name, candidates);
     return best.empty() ? std::string() : fmt::format("did you mean '{}'?", best);

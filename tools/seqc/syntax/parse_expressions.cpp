@@ -85,8 +85,8 @@ bool Parser::parse_primary(Expression& result) {
 }
 
 bool Parser::parse_named_primary(Expression& result) {
-    if (is_symbol_at(1, ".")) mend({"TIMER", "COUNTER"}, "a condition");
-    if (in_property_ && at("STEP")) return parse_step_test();
+    if (is_symbol_at(1, ".") && !mend_numbered_timer()) mend({"TIMER", "COUNTER"}, "a condition");
+    if (in_property_ && at("STEP")) return parse_step_test(result);
     if (at_edge()) return parse_edge(result);
     if (refuse_call_or_part() || refuse_time_as_condition(result)) return true;
     if (at("TRUE") || at("FALSE")) {

@@ -101,6 +101,16 @@ bool Parser::refuse_state(const ast::Statement& statement) {
     return true;
 }
 
+/// IF TIMER2.Q THEN
+bool Parser::mend_numbered_timer() {
+    const std::string_view word = numbered_timer(token().text);
+    if (word.empty()) return false;
+    report_.add("E014", token().span, fmt::format("there is one {}", word),
+                fmt::format("write {}.Q, and preset it anew on the way to each step that needs it", word));
+    tokens_[at_].text = word;
+    return true;
+}
+
 /// IF AFTER 3 s THEN
 bool Parser::refuse_time_as_condition(ast::Expression& result) {
     const Token first = token();

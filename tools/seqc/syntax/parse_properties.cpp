@@ -6,9 +6,13 @@ void Parser::parse_property(ast::Program& program) {
     const Token first = token();
     ++at_;
     ast::Name name;
-    if (!expect_name(name, "the property's name", ast::Role::property, true) ||
-        !expect_symbol(":", "behind the property's name"))
+    if (!expect_name(name, "the property's name", ast::Role::property, true)) {
+        if (is_symbol_at(1, ":")) ++at_;  // a word of the language: what follows is the claim all the same
         return recover_claim();
+    }
+    if (!expect_symbol(":", "behind the property's name")) return recover_claim();
+    claim_ = {};
+    claim_.name = name;
     in_property_ = true;
     const bool sound = parse_claim();
     in_property_ = false;
@@ -16,98 +20,119 @@ void Parser::parse_property(ast::Program& program) {
     add_claim(first, program);
 }
 
-/// BETWEEN's second test: what follows in parentheses is the next condition.
-bool Parser::parse_before_fact(ast::Expression& condition) {
-    before_fact_ = true;
+bool Parser::parse_fact() {
+    ast::Expression condition;
+    const bool sound = parse_expression(condition);
+    claim_.conditions.push_back(std::move(condition));
+    return sound;
+}
+
+bool Parser::parse_single_fact() {
+    ast::Expression condition;
     const bool sound = parse_primary(condition);
+    claim_.conditions.push_back(std::move(condition));
+    return sound;
+}
+
+/// BETWEEN's second test: what follows in parentheses is the next condition.
+bool Parser::parse_before_fact() {
+    before_fact_ = true;
+    const bool sound = parse_single_fact();
     before_fact_ = false;
     return sound;
 }
 
-bool Parser::parse_claim() {
-    ast::Expression condition;
+bool Parser::parse_claimed_time() {
     ast::Value time;
+    if (!parse_literal(time)) return false;
+    claim_.times.push_back(std::move(time));
+    return true;
+}
+
+bool Parser::parse_claim() {
     if (take("NEVER")) {
-        if (!parse_expression(condition)) return false;
-        return !take("WHILE") || (parse_expression(condition) && expect("FOR", "behind WHILE's condition") &&
-                                  parse_literal(time));
+        if (!parse_fact()) return false;
+        return !take("WHILE") ||
+               (parse_fact() && expect("FOR", "behind WHILE's condition") && parse_claimed_time());
     }
     if (take("ALWAYS")) {
         take("POSSIBLE");
-        return parse_expression(condition);
+        return parse_fact();
     }
     if (take("WHENEVER")) return parse_whenever();
     if (take("BETWEEN")) {
-        return parse_primary(condition) && expect("AND", "behind BETWEEN's first condition") &&
-               parse_before_fact(condition) && parse_expression(condition) &&
-               expect("STAYS", "behind what is to stay") &&
+        return parse_single_fact() && expect("AND", "behind BETWEEN's first condition") &&
+               parse_before_fact() && parse_fact() && expect("STAYS", "behind what is to stay") &&
                (take("OFF") || expect("ON", "or OFF behind STAYS"));
     }
     if (take("AFTER")) {
-        return parse_expression(condition) && expect("ALWAYS", "behind AFTER's condition") &&
-               expect("POSSIBLE", "behind ALWAYS") && parse_expression(condition);
+        return parse_fact() && expect("ALWAYS", "behind AFTER's condition") &&
+               expect("POSSIBLE", "behind ALWAYS") && parse_fact();
     }
     if (take("EVERY_SCAN")) {
-        return expect("FROM", "behind EVERY_SCAN") && parse_expression(condition) &&
-               expect("ENDS", "behind FROM's condition") && expect("IN", "behind ENDS") &&
-               parse_expression(condition);
+        return expect("FROM", "behind EVERY_SCAN") && parse_fact() &&
+               expect("ENDS", "behind FROM's condition") && expect("IN", "behind ENDS") && parse_fact();
     }
-    if (!parse_expression(condition)) return false;
+    if (!parse_fact()) return false;
     if (take("ONLY")) return parse_only();
     if (take("CHANGES")) {
-        return expect("ONLY", "behind CHANGES") && expect("IN", "behind ONLY") && parse_expression(condition);
+        return expect("ONLY", "behind CHANGES") && expect("IN", "behind ONLY") && parse_fact();
     }
     return expect("IS", "behind a condition that begins a property") && expect("REACHABLE", "behind IS");
 }
 
 bool Parser::parse_whenever() {
-    ast::Expression condition;
-    ast::Value time;
-    if (!parse_expression(condition)) return false;
+    if (!parse_fact()) return false;
     if (take("FOLLOWED")) {
-        return expect("BY", "behind FOLLOWED") && parse_expression(condition) &&
-               expect("THEN", "behind BY's condition") && parse_expression(condition);
+        return expect("BY", "behind FOLLOWED") && parse_fact() && expect("THEN", "behind BY's condition") &&
+               parse_fact();
     }
     const bool lasts = take("FOR");
-    if ((lasts && !parse_literal(time)) || !expect("THEN", "behind WHENEVER's condition") ||
-        !parse_expression(condition))
+    if ((lasts && !parse_claimed_time()) || !expect("THEN", "behind WHENEVER's condition") || !parse_fact())
         return false;
-    return lasts || !take("WITHIN") || parse_literal(time);
+    claim_.time_may_be_zero = !lasts;
+    return lasts || !take("WITHIN") || parse_claimed_time();
 }
 
 bool Parser::parse_only() {
-    ast::Expression condition;
-    if (take("FROM")) return parse_expression(condition);
-    if (!expect("AFTER", "or FROM behind ONLY") || !parse_expression(condition)) return false;
-    return !take("FOLLOWED") || (expect("BY", "behind FOLLOWED") && parse_expression(condition));
+    if (take("FROM")) return parse_fact();
+    if (!expect("AFTER", "or FROM behind ONLY") || !parse_fact()) return false;
+    return !take("FOLLOWED") || (expect("BY", "behind FOLLOWED") && parse_fact());
+}
+
+bool Parser::parse_assumed() {
+    if (take("NEVER")) {
+        claim_.kind = ast::Claim::Kind::never;
+        return parse_fact();
+    }
+    if (parse_single_fact() && take("ENDS")) {
+        claim_.kind = ast::Claim::Kind::ends;
+        return expect("WITHIN", "behind ENDS") && parse_claimed_time();
+    }
+    claim_.kind = ast::Claim::Kind::stable;
+    return expect("STABLE", "behind ASSUME's input, or ENDS behind moving") &&
+           expect("FOR", "behind STABLE") && parse_claimed_time();
 }
 
 /// What is taken for granted when properties are proved.
 void Parser::parse_assumption(ast::Program& program) {
     const Token first = token();
     ++at_;
-    ast::Expression condition;
-    ast::Value time;
+    claim_ = {};
     in_property_ = true;
-    bool sound = false;
-    if (take("NEVER")) {
-        sound = parse_expression(condition);
-    } else if (parse_primary(condition) && take("ENDS")) {
-        sound = expect("WITHIN", "behind ENDS") && parse_literal(time);
-    } else {
-        sound = expect("STABLE", "behind ASSUME's input, or ENDS behind moving") &&
-                expect("FOR", "behind STABLE") && parse_literal(time);
-    }
+    const bool sound = parse_assumed();
     in_property_ = false;
     if (!sound) return recover_claim();
     add_claim(first, program);
 }
 
+bool Parser::at_step_test() const {
+    return at("STEP") && (is_symbol_at(1, "=") || same_name(token(1).text, "IN"));
+}
+
 /// To its end; a step tested in it begins none.
 void Parser::recover_claim() {
-    while (!at_symbol(";") && (!at_boundary() || (at("STEP") && is_symbol_at(1, "="))) &&
-           token().kind != TokenKind::end)
-        ++at_;
+    while (!at_symbol(";") && (!at_boundary() || at_step_test()) && token().kind != TokenKind::end) ++at_;
     take_symbol(";");
 }
 
@@ -115,18 +140,27 @@ void Parser::add_claim(const Token& first, ast::Program& program) {
     Span span = span_since(first);
     if (at_symbol(";")) span.length = token().span.offset + token().span.length - span.offset;
     program.properties.push_back(span);
+    program.claims.push_back(std::move(claim_));
     end_statement();
 }
 
-/// STEP = Name, or its number. What it means is `tools/verify`'s.
-bool Parser::parse_step_test() {
+/// STEP = Name, or its number; STEP IN Group.
+bool Parser::parse_step_test(ast::Expression& result) {
     ++at_;
-    ast::Name name;
-    ast::Value number;
-    if (!expect_symbol("=", "behind STEP, as in STEP = Idle")) return false;
+    result.kind = ast::Expression::Kind::step;
+    if (take("IN")) {
+        result.value = true;
+        result.name = name_of(token());
+        return expect_name(result.name, "the name of a group", ast::Role::step_or_group);
+    }
+    if (!expect_symbol("=", "or IN behind STEP, as in STEP = Idle")) return false;
+    const Token target = token();
+    result.name = name_of(target);
     if (take("POWER_UP")) return true;
-    return token().kind == TokenKind::identifier ? expect_name(name, "the name of a step", ast::Role::step)
-                                                 : parse_literal(number);
+    if (target.kind == TokenKind::identifier)
+        return expect_name(result.name, "the name of a step", ast::Role::step);
+    ast::Value number;
+    return parse_literal(number);
 }
 
 }  // namespace nplc::seqc

@@ -148,6 +148,7 @@ class Parser {
     bool refuse_entry_with_condition();
     bool refuse_out_tail();
     bool refuse_state(const ast::Statement& statement);
+    bool mend_numbered_timer();
     bool refuse_time_as_condition(ast::Expression& result);
     bool refuse_modulo(ast::Value& value);
     bool expect_time(ast::Value& time, std::string_view word);
@@ -213,13 +214,18 @@ class Parser {
     // parse_properties.cpp
     void parse_property(ast::Program& program);
     bool parse_claim();
-    bool parse_before_fact(ast::Expression& condition);
+    bool parse_single_fact();
+    bool parse_before_fact();
     bool parse_whenever();
     bool parse_only();
     void recover_claim();
     void parse_assumption(ast::Program& program);
     void add_claim(const Token& first, ast::Program& program);
-    bool parse_step_test();
+    bool parse_fact();
+    bool parse_claimed_time();
+    bool parse_assumed();
+    bool parse_step_test(ast::Expression& result);
+    bool at_step_test() const;
 
     static constexpr int kDeepest = 100;
 
@@ -241,6 +247,7 @@ class Parser {
     bool comment_is_open_;
     bool end_reported_ = false;
     bool in_property_ = false;
+    ast::Claim claim_;          ///< the property that is read
     bool before_fact_ = false;  ///< another condition follows: its ( calls nothing
     bool in_term_ = false;
     bool in_value_ = false;

@@ -31,7 +31,9 @@ verify::Delay order_time(std::span<const sequencer::MotorOrder> orders, bool tra
 }  // namespace
 
 verify::Names verify_names(const Symbols& symbols) {
-    return {symbols.steps, symbols.inputs, symbols.outputs, symbols.copy_of};
+    verify::Names names{symbols.steps, symbols.inputs, symbols.outputs, symbols.copy_of};
+    for (const StepGroup& group : symbols.groups) names.groups.push_back({group.name, group.steps});
+    return names;
 }
 
 verify::OrderTime order_times(bool translated) {

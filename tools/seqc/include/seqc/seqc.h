@@ -27,6 +27,13 @@ struct MotorName {
     bool operator==(const MotorName&) const = default;
 };
 
+/// A name for several steps: a GROUP, or the steps of a SEQUENCE.
+struct StepGroup {
+    std::string name;
+    std::uint64_t steps = 0;  ///< a bit for each, copies included
+    bool operator==(const StepGroup&) const = default;
+};
+
 /// SCALE 1 rev = 5 mm
 struct Scale {
     double revolutions = 1;
@@ -46,6 +53,7 @@ struct Symbols {
     std::array<std::string, 63> made_for;  ///< why the compiler made the step; empty: the program has it
     /// Of which step it is a copy; a step's name means its copies too.
     std::array<std::optional<std::uint8_t>, 63> copy_of;
+    std::vector<StepGroup> groups;
     std::array<std::string, 6> inputs;   ///< as declared, else IN0..IN5
     std::array<std::string, 4> outputs;  ///< as declared, else OUT0..OUT3
     std::vector<MotorName> motor_names;  ///< in source order

@@ -11,6 +11,12 @@
 /// What a property says, in the words of a machine builder, and whether a scan fits a condition.
 namespace nplc::verify {
 
+/// Several steps under one name.
+struct StepGroup {
+    std::string name;
+    std::uint64_t steps = 0;  ///< a bit for each
+};
+
 /// What the numbers of a table are called. Steps without a name have an empty one.
 struct Names {
     std::array<std::string, 63> steps;
@@ -18,6 +24,7 @@ struct Names {
     std::array<std::string, 4> outputs;
     /// Of which step it is a copy: `step = Name` means its copies too.
     std::array<std::optional<std::uint8_t>, 63> copy_of = {};
+    std::vector<StepGroup> groups = {};
 };
 
 /// A set of images of HW_INP, one bit for each of the 256.
