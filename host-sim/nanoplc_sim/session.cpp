@@ -13,6 +13,8 @@ namespace nplc::sim {
 namespace {
 
 constexpr Time kDefaultLength = std::chrono::seconds{10};
+/// A motor that is there has answered by then.
+constexpr Time kLongestStart = std::chrono::seconds{1};
 
 WorldOptions world_options(const RunOptions& options, const Names& names, const Scenario& scenario,
                            ports::Storage* storage) {
@@ -233,10 +235,21 @@ void Session::note_changes() {
         motor_note_ = note;
         if (!note.empty()) timeline_.alarm(fmt::format("motor: {}", note));
     }
+    if (!said_that_it_waits_ && waits_for_motor()) {
+        said_that_it_waits_ = true;
+        timeline_.alarm(
+            "the gateway waits for the motor, which does not answer: no step begins before it does");
+    }
     if (const auto bites = world_.board().bites(); bites != bites_) {
         bites_ = bites;
         timeline_.alarm("the watchdog resets the gateway");
     }
+}
+
+bool Session::waits_for_motor() const {
+    const gateway::Gateway& gateway = world_.gateway();
+    return now() >= kLongestStart && gateway.run_state() == gateway::RunState::waiting_for_motor &&
+           gateway.scans() == 0;
 }
 
 void Session::press(unsigned input) {
@@ -292,6 +305,8 @@ void Session::summary() {
         "resets",
         world_.gateway().scans(), driver.counters().orders, driver.counters().discarded,
         driver.counters().resent, driver.counters().link_losses, world_.board().bites()));
+    if (waits_for_motor())
+        say("the sequence has not begun: the gateway waits for the motor, which does not answer");
     lines_in_words();
     if (csv_) say(fmt::format("trace: {}", *options_.csv));
     if (vcd_) say(fmt::format("trace: {}", *options_.vcd));

@@ -71,6 +71,7 @@ class Session {
     void lines_in_words();
     void show();
     void note_changes();
+    bool waits_for_motor() const;
     void summary();
     void follow_orders();
     void compare_orders();
@@ -93,6 +94,7 @@ class Session {
     gateway::SafeReason reason_ = gateway::SafeReason::not_started;
     std::string motor_note_;
     std::uint32_t bites_ = 0;
+    bool said_that_it_waits_ = false;
     bool ended_ = false;
     std::function<void()> after_step_;
 };

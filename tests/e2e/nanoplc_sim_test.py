@@ -187,6 +187,16 @@ class Run(Case):
         self.assertEqual(done.returncode, 1)
         self.assertIn("the run ended at 500.000 ms, before that time", done.stdout.decode())
 
+    def test_a_gateway_without_a_motor_is_said_to_wait_for_it(self):
+        waits = b"the gateway waits for the motor, which does not answer"
+        for missing in ("line cut", "motor power off"):
+            done = self.run_with(f"{missing}\nend at 2 s\n")
+            self.assertEqual(done.stdout.count(waits), 2, done.stdout)  # in the timeline and behind it
+        for there in ("line restored", "line cut for 500 ms", "at 500 ms line cut"):
+            self.assertNotIn(waits, self.run_with(f"{there}\nend at 2 s\n").stdout, there)
+        done = self.run_with("end at 2 s\n", "--new")  # it waits for somebody
+        self.assertNotIn(waits, done.stdout)
+
     def test_the_earlier_end_counts(self):
         self.assertIn("ended at 300.000 ms", self.run_with("end at 2 s", "--for", "300ms").stdout.decode())
         self.assertIn("ended at 300.000 ms", self.run_with("end at 300 ms", "--for", "1s").stdout.decode())
