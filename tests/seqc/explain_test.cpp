@@ -59,6 +59,11 @@ TEST_F(Explain, EveryWordOfTheLanguageAndEveryCommand) {
     const std::string page = read("out");
     EXPECT_TRUE(page.starts_with("TIMER\n\nLANGUAGE.md, ")) << page;
     EXPECT_NE(page.find("the timer is set, 1 ms to 65.535 s"), std::string::npos) << page;
+    ASSERT_EQ(run("explain MOVING"), 0);
+    EXPECT_NE(read("out").find("holds from a scan that sends an order that moves"), std::string::npos)
+        << read("out");
+    ASSERT_EQ(run("explain property"), 0);
+    EXPECT_NE(read("out").find("says what a machine must never do"), std::string::npos) << read("out");
     ASSERT_EQ(run("explain --json MOVE_P7_BY_P_FNC"), 0);
     const Json document = Json::parse(read("out"));
     EXPECT_EQ(document["word"], "MOVE_P7_BY_P_FNC");

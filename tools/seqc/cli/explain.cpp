@@ -125,7 +125,9 @@ int explain(const ExplainArguments& options) {
     const auto found = std::find_if(
         all.begin(), all.end(), [&](const Explanation& info) { return same_name(info.code, options.code); });
     if (found == all.end()) {
-        const std::string word = upper(options.code);
+        constexpr std::string_view kMoving = "moving";  // the one word that is written small
+        const std::string word =
+            same_name(options.code, kMoving) ? std::string(kMoving) : upper(options.code);
         const std::vector<Paragraph> passages = passages_about(word);
         return passages.empty() ? unknown(options, all) : explain_word(word, passages, options.json);
     }
