@@ -13,8 +13,8 @@ import registers
 from remembering import machine_for
 from tools import Tools, as_columns, sent_in_order, step_of_program
 
-# What a whole machine would have and a fragment leaves out: exits, presets, values, RESET_ERROR.
-OVERSIGHTS = {"W019", "W020", "W021", "W022", "W023"}
+# What a whole machine would have and a fragment leaves out: exits, presets, values, RESET_ERROR, uses of all names.
+OVERSIGHTS = {"W019", "W020", "W021", "W022", "W023", "W034"}
 SEQC = NANOPLC_SIM = LANGUAGE = REGISTERS = ""
 
 

@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 using test::Cli;
 
 const char* const kNamedProgram =
-    "PROGRAM Blink VAR_INPUT Go AT IN1; END_VAR VAR_OUTPUT Lamp AT OUT0; END_VAR\n"
+    "PROGRAM Blink MOTOR MAC140; VAR_INPUT Go AT IN1; END_VAR VAR_OUTPUT Lamp AT OUT0; END_VAR\n"
     "STEP Off: OWN ERROR; IF Go THEN NEXT := Lit; END_IF END_STEP\n"
     "STEP Lit: OWN ERROR; OUT Lamp; IF NOT Go THEN NEXT := Off; END_IF END_STEP\n"
     "END_PROGRAM\n";

@@ -49,9 +49,9 @@ TEST(Diagnostics, RegistersAreCalledAsWritten) {
 
 // Where the motor runs already MODE_REG starts nothing, and 0 stops it.
 TEST(Diagnostics, ModeWrittenWhereTheMotorRuns) {
-    EXPECT_EQ(test::codes(compile(in_branch("MODE_REG := 0;"))), "");
-    EXPECT_EQ(test::codes(compile(in_branch("VELOCITY(V1); MODE_REG := 2;"))), "");
-    EXPECT_EQ(test::codes(compile(in_branch("INIT(V1); MODE_REG := 1;"))), "W011");
+    EXPECT_EQ(test::codes_in_frame(compile(in_branch("MODE_REG := 0;"))), "");
+    EXPECT_EQ(test::codes_in_frame(compile(in_branch("VELOCITY(V1); MODE_REG := 2;"))), "");
+    EXPECT_EQ(test::codes_in_frame(compile(in_branch("INIT(V1); MODE_REG := 1;"))), "W011");
 }
 
 TEST(Diagnostics, ColumnsCountCharacters) {

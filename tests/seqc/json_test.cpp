@@ -32,7 +32,7 @@ TEST_F(JsonOutput, ADiagnosticWithItsPlaceAndNotes) {
 }
 
 TEST_F(JsonOutput, AGoodProgramHasNoneAndIsBuilt) {
-    write("a.seq", "PROGRAM P STEP S: OWN ERROR; END_STEP END_PROGRAM\n");
+    write("a.seq", "PROGRAM P MOTOR MAC140; STEP S: OWN ERROR; END_STEP END_PROGRAM\n");
     EXPECT_EQ(run("build --json a.seq"), 0);
     const Json document = Json::parse(read("out"));
     EXPECT_EQ(document["ok"], true);
@@ -42,7 +42,8 @@ TEST_F(JsonOutput, AGoodProgramHasNoneAndIsBuilt) {
 }
 
 TEST_F(JsonOutput, AWarningIsNoError) {
-    write("a.seq", "PROGRAM P STEP S: OWN ERROR; END_STEP STEP T: OWN ERROR; END_STEP END_PROGRAM\n");
+    write("a.seq",
+          "PROGRAM P MOTOR MAC140; STEP S: OWN ERROR; END_STEP STEP T: OWN ERROR; END_STEP END_PROGRAM\n");
     EXPECT_EQ(run("check --json a.seq"), 0);
     const Json document = Json::parse(read("out"));
     EXPECT_EQ(document["ok"], true);

@@ -113,7 +113,7 @@ TEST(SingleTerm, WhatOneTermCannotHoldIsAnError) {
 
 TEST(SingleTerm, ItsNextCountsAsAWayToAStep) {
     const std::string lost = "STEP U: OWN ERROR; NEXT := S; END_STEP";
-    EXPECT_EQ(test::codes(compile(in_program("", lost))), "W005");
+    EXPECT_EQ(test::codes_in_frame(compile(in_program("", lost))), "W005");
     EXPECT_EQ(test::codes(compile(in_program("TERM IF IN0 THEN NEXT := U; END_IF;", lost))), "");
     EXPECT_EQ(test::codes(compile(in_program("TERM 16#C1, 0, 0, 3, 16#80, 0, 0, 0;", lost))), "");
     EXPECT_EQ(test::codes(compile(in_program("", lost + " TERM T: IF IN0 THEN NEXT := U; END_IF;"))), "");
@@ -170,7 +170,7 @@ TEST(StepNumbers, SixtyTwoStepsWithAStepZero) {
         source += "STEP N" + std::to_string(i) + (i == 40 ? " AT 0" : "") + ": OWN ERROR; NEXT := N" +
                   std::to_string((i + 1) % 62) + "; END_STEP\n";
     }
-    EXPECT_EQ(test::codes(compile(source + "END_PROGRAM")), "");
+    EXPECT_EQ(test::codes_in_frame(compile(source + "END_PROGRAM")), "");
     source += "STEP More: OWN ERROR; NEXT := N0; END_STEP END_PROGRAM";
     EXPECT_EQ(test::codes(compile(source)), "E083");
 }
@@ -193,7 +193,7 @@ TEST(StepNumbers, NothingOfPowerUpGoesWithAStepZero) {
         const std::string source = "PROGRAM P MOTOR MAC140; " + head +
                                    " STEP A AT 0: OWN ERROR; NEXT := B; " + "END_STEP STEP B: OWN ERROR; " +
                                    body + " END_STEP END_PROGRAM";
-        return test::codes(compile(source));
+        return test::codes_in_frame(compile(source));
     };
     EXPECT_EQ(with("", "NEXT := A;"), "");
     EXPECT_EQ(with("", "NEXT := POWER_UP;"), "E096");

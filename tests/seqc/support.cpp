@@ -92,4 +92,12 @@ std::string codes(const Compilation& compilation) {
     return text;
 }
 
+std::string codes_in_frame(const Compilation& compilation) {
+    Compilation left = compilation;
+    std::erase_if(left.diagnostics, [](const Diagnostic& d) {
+        return d.code == "W026" || d.code == "W033" || d.code == "W034";
+    });
+    return codes(left);
+}
+
 }  // namespace nplc::seqc::test

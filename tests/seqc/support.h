@@ -59,4 +59,7 @@ std::string shown(const Compilation& compilation, std::string_view source);
 /// Codes in order, space separated.
 std::string codes(const Compilation& compilation);
 
+/// The same without W026, W033 and W034: the program is a frame that declares more than it needs.
+std::string codes_in_frame(const Compilation& compilation);
+
 }  // namespace nplc::seqc::test

@@ -14,6 +14,7 @@
 #include "semantics/scope.h"
 #include "semantics/sequences.h"
 #include "semantics/set_points.h"
+#include "semantics/unused.h"
 #include "semantics/written.h"
 #include "seqc/seqc.h"
 #include "syntax/lexer.h"
@@ -88,9 +89,37 @@ bool stands_without_the_rest(const Diagnostic& d) {
            (phase == Phase::names || phase == Phase::motor || phase == Phase::commands);
 }
 
+/// A gateway does not begin before its motor has answered, whatever the program is about.
+void check_motor_is_named(const ast::Program& program, const Plan& plan, Report& report) {
+    if (program.motor || program.motor_missing || plan.steps.empty()) return;
+    report.add("W026", program.name.span,
+               "no MOTOR is named, and a gateway begins only when a motor answers it",
+               "write MOTOR MAC140; or which one is on its line");
+}
+
+/// Advice that a step allows: what stands between its first word and its END_STEP.
+bool is_allowed(const ast::Program& program, const Diagnostic& d) {
+    const auto allows = [&](const ast::Step& step) {
+        return std::any_of(
+            step.allowances.begin(), step.allowances.end(), [&](const ast::Allowance& allowance) {
+                if (upper(allowance.code.text) != d.code) return false;
+                return std::any_of(
+                    program.blocks.begin(), program.blocks.end(), [&](const ast::Block& block) {
+                        const auto holds = [&](Span span) {
+                            return span.offset >= block.span.offset &&
+                                   span.offset < block.span.offset + block.span.length;
+                        };
+                        return block.end_word == "END_STEP" && holds(d.span) && holds(allowance.code.span);
+                    });
+            });
+    };
+    return is_advice(d.code) && std::any_of(program.steps.begin(), program.steps.end(), allows);
+}
+
 void collect_allowances(const ast::Program& program, const Plan& plan, Compilation& result) {
     const auto collect = [&](const ast::Step& step) {
         for (const ast::Allowance& allowance : step.allowances) {
+            if (is_advice(upper(allowance.code.text))) continue;
             for (const StepPlan& planned : plan.steps) {
                 if (same_name(planned.name, step.name.text) ||
                     (planned.is_copy && planned.span == step.name.span))
@@ -145,6 +174,24 @@ std::vector<LoweredTerm> lower_all(const Plan& plan, const std::vector<DeclaredS
     return terms;
 }
 
+/// The motor followed through the steps.
+void check_motion(const ast::Program& program, const Plan& plan, Scope& scope, const Sources& sources,
+                  Compilation& result, Report& checks) {
+    const Symbols& symbols = result.symbols;
+    check_motor_state(plan, symbols, sources.text(), checks);
+    check_relative_moves(plan, result.roundings, checks);
+    check_replaced_moves(plan, checks);
+    check_invisible_limits(plan, symbols.motor, checks);
+    check_home_mode(plan, symbols.motor, checks);
+    check_lasting_selections(plan, symbols, sources.text(), checks);
+    check_standing_in_position(plan, checks);
+    check_restart(program, plan, scope, checks);
+    check_arrivals(plan, checks);
+    if (symbols.drive == nullptr) return;
+    check_drive_motion(plan, *symbols.drive, scope.set_points(), checks, result.roundings);
+    check_drive_registers(plan, *symbols.drive, checks);
+}
+
 void merge(Report& report, Report& checks, bool all) {
     if (checks.has_more()) report.note_more();
     for (Diagnostic& d : checks.take()) {
@@ -191,23 +238,19 @@ Compilation compile(const Sources& sources) {
     std::sort(result.steps.begin(), result.steps.end(),
               [](const StepOrigin& a, const StepOrigin& b) { return a.number < b.number; });
     if (syntax_sound && !checks.has_errors()) check_fewest_terms(plan, program.name.span, checks);
-    if (syntax_sound && !checks.has_errors()) {
-        check_motor_state(plan, result.symbols, checks);
-        check_relative_moves(plan, result.roundings, checks);
-        check_replaced_moves(plan, checks);
-        check_invisible_limits(plan, result.symbols.motor, checks);
-        if (result.symbols.drive != nullptr) {
-            check_drive_motion(plan, *result.symbols.drive, scope.set_points(), checks, result.roundings);
-            check_drive_registers(plan, *result.symbols.drive, checks);
-        }
-    }
+    if (syntax_sound && !checks.has_errors()) check_motion(program, plan, scope, sources, result, checks);
     std::vector<LoweredTerm> terms;
     if (syntax_sound && !checks.has_errors()) {
         terms = lower_all(plan, scope.set_points(), result.symbols, checks);
         check_set_points(plan, scope.set_points(), result.symbols, checks);
     }
-    if (syntax_sound && !checks.has_errors()) check_oversights(plan, result.symbols, checks);
+    if (syntax_sound && !checks.has_errors()) {
+        check_oversights(plan, result.symbols, checks);
+        check_unused(program, plan, sources, result.symbols, checks);
+        check_motor_is_named(program, plan, checks);
+    }
     if (!checks.has_errors()) check_length(terms.size(), plan, program.name.span, checks);
+    checks.drop([&](const Diagnostic& d) { return is_allowed(program, d); });
     merge(report, checks, syntax_sound);
     merge(report, claims, true);
     result.ok = !report.has_errors();

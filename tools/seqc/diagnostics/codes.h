@@ -82,13 +82,22 @@ constexpr auto kCodes = std::to_array<CodeRow>({
     {"W020", Severity::warning, Phase::steps},    {"W021", Severity::warning, Phase::steps},
     {"W022", Severity::warning, Phase::steps},    {"W023", Severity::warning, Phase::motor},
     {"W024", Severity::warning, Phase::scan},     {"W025", Severity::warning, Phase::names},
-    {"W030", Severity::warning, Phase::motion},   {"W031", Severity::warning, Phase::motion},
+    {"W026", Severity::warning, Phase::motor},    {"W030", Severity::warning, Phase::motion},
+    {"W031", Severity::warning, Phase::motion},   {"W032", Severity::warning, Phase::motion},
+    {"W033", Severity::warning, Phase::motor},    {"W034", Severity::warning, Phase::names},
+    {"W035", Severity::warning, Phase::motion},   {"W036", Severity::warning, Phase::motion},
+    {"W037", Severity::warning, Phase::motion},   {"W038", Severity::warning, Phase::motion},
 });
 
 constexpr const CodeRow* find_code(std::string_view code) {
     const auto* row = std::lower_bound(kCodes.begin(), kCodes.end(), code,
                                        [](const CodeRow& a, std::string_view b) { return a.code < b; });
     return row != kCodes.end() && row->code == code ? row : nullptr;
+}
+
+/// Warnings of what may be meant: a step can ALLOW them, as what `seqc verify` finds by itself.
+constexpr bool is_advice(std::string_view code) {
+    return code >= "W035" && code <= "W038";
 }
 
 /// A code of the table: any other literal does not compile.

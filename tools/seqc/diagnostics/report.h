@@ -28,6 +28,12 @@ class Report {
     void note_more() { more_ = true; }
     bool has(std::string_view code) const;
     bool has(std::string_view code, Span span) const;
+    /// Warnings of which `unwanted` holds.
+    template <class Unwanted>
+    void drop(const Unwanted& unwanted) {
+        std::erase_if(diagnostics_,
+                      [&](const Diagnostic& d) { return d.severity == Severity::warning && unwanted(d); });
+    }
     /// In source order.
     std::vector<Diagnostic> take();
 

@@ -73,6 +73,7 @@ class Checker {
                 plan.steps.push_back(step(*scope_.steps()[i], scope_.number_of(i)));
             }
         }
+        warn_idle_conditions();
         for (const ast::RawTerm& term : program_.terms) plan.terms.push_back(raw_term(term, {}));
         check_raw_terms(plan, symbols_.drive, report_);
         warn_unreachable(plan, report_);
@@ -255,10 +256,20 @@ class Checker {
         if (fault_) {
             plan.rules.push_back(fault_rule({}));
         } else if (!program_.on_error) {
-            report_.add("E080", written.name.span,
-                        fmt::format("'{}' does not say what happens on ERROR", plan.name),
-                        "write ON ERROR NEXT := Fault; at the top, or OWN ERROR; in the step");
+            refuse_silent_step(written.name);
         }
+    }
+
+    /// ON ERROR EXCEPT .. is like any other ON condition: one that names ERROR is for steps with OWN ERROR.
+    void refuse_silent_step(const ast::Name& step) {
+        const auto on = std::find_if(program_.on_conditions.begin(), program_.on_conditions.end(),
+                                     [](const auto& written) { return names_error(written.condition); });
+        const bool has_on = on != program_.on_conditions.end();
+        Diagnostic& d = report_.add(
+            "E080", step.span, fmt::format("'{}' does not say what happens on ERROR", step.text),
+            has_on ? "write OWN ERROR; in the step, or ON ERROR NEXT := Fault; without IN, EXCEPT or more"
+                   : "write ON ERROR NEXT := Fault; at the top, or OWN ERROR; in the step");
+        if (has_on) d.notes.push_back({on->span, "this is for steps with OWN ERROR alone"});
     }
 
     /// With what FOR and WITHIN make of a branch's condition.
@@ -292,6 +303,11 @@ class Checker {
         for (const ast::Name& name : written.outputs) {
             const auto bit = scope_.output(name);
             if (!bit) continue;
+            if ((plan.outputs >> *bit) & 1)
+                report_
+                    .add("W008", name.span, fmt::format("'{}' is named twice in OUT", name.text),
+                         "name it once")
+                    .notes.push_back({places.at(*bit), "the first time"});
             plan.outputs |= static_cast<std::uint8_t>(1U << *bit);
             places.at(*bit) = name.span;
         }
@@ -334,11 +350,12 @@ class Checker {
             add_choice(written.choices[i], i, plan, seen, on);
     }
 
-    void add_on_condition(const OnCondition& on, std::size_t choice, StepPlan& plan, SeenBranches& seen,
+    void add_on_condition(OnCondition& on, std::size_t choice, StepPlan& plan, SeenBranches& seen,
                           Earlier& earlier) {
         ActionBuilder builder(scope_);
         Action action = builder.build({on.written->next});
         if (action.next == plan.number) return;  // it is where the condition leads
+        on.covers_one = true;
         enter(action, *action.next);
         const Span place = on.written->condition.span;
         if (plan.memory.timer_span && depends_on(on.when, kTimerZero)) {
@@ -352,8 +369,29 @@ class Checker {
         earlier.taken |= on.when;
         earlier.rules.push_back({on.when, {}, place});
         if (rule.when.none()) return;
+        on.may_act = true;
         check_error_covered(place, rule, plan);
         add_rule(std::move(rule), place, choice, plan, seen);
+    }
+
+    /// An ON condition that acts in no step, although it can hold.
+    void warn_idle_conditions() {
+        for (std::size_t i = 0; i < on_conditions_.size(); ++i) {
+            const OnCondition& on = on_conditions_[i];
+            const Span place = on.written->condition.span;
+            if (on.may_act || on.when.none() || report_.has("W001", place) || report_.full()) continue;
+            if (!on.covers_one) {
+                report_.add("W001", place, "this condition does nothing: it is for no step",
+                            "name in IN the steps that it is to end; EXCEPT takes steps out");
+                continue;
+            }
+            Diagnostic& d = report_.add("W001", place, "this condition never acts",
+                                        "the conditions before it take every case: put it before them");
+            for (std::size_t k = 0; k < i; ++k) {
+                if ((on_conditions_[k].when & on.when).any())
+                    d.notes.push_back({on_conditions_[k].written->condition.span, "this one comes first"});
+            }
+        }
     }
 
     void add_choice(const ast::Choice& choice, std::size_t index, StepPlan& plan, SeenBranches& seen,

@@ -15,7 +15,7 @@ void warn_unreachable(const Plan& plan, Report& report);
 
 /// Follows the motor's mode from step to step: what would start it towards an old target, or not at all, and
 /// what waits for an INPOS that never comes.
-void check_motor_state(const Plan& plan, const Symbols& symbols, Report& report);
+void check_motor_state(const Plan& plan, const Symbols& symbols, std::string_view source, Report& report);
 
 /// What a drive that the gateway translates for makes of a program's moves: ramps, which depend on velocity
 /// and acceleration together and go into `roundings`, and orders that wait until it stands.
@@ -33,6 +33,25 @@ void check_relative_moves(const Plan& plan, const std::vector<Rounding>& roundin
 
 /// Moves that a later order of the same scan makes void.
 void check_replaced_moves(const Plan& plan, Report& report);
+
+/// Whether the step ends by a time or a count, whatever the motor does.
+bool has_time_limit(const StepPlan& step);
+
+/// HOME where HOME_MODE has no kind of homing for it.
+void check_home_mode(const Plan& plan, registers::Model model, Report& report);
+
+/// Moves that take the velocity, acceleration or torque of another move, on some ways into their step.
+void check_lasting_selections(const Plan& plan, const Symbols& symbols, std::string_view source,
+                              Report& report);
+
+/// A fault step that is left without asking a person, where the motor may move then.
+void check_restart(const ast::Program& program, const Plan& plan, Scope& scope, Report& report);
+
+/// Branches that go on with INPOS or when the timer has run down, whichever it was.
+void check_arrivals(const Plan& plan, Report& report);
+
+/// Waits for an INPOS that stands already.
+void check_standing_in_position(const Plan& plan, Report& report);
 
 /// Limits of the motor that a program sets, although reaching them does not show in ERROR (001 §5.2.1.6).
 void check_invisible_limits(const Plan& plan, registers::Model model, Report& report);

@@ -125,4 +125,13 @@ std::string describe_command(std::uint8_t command) {
                        select->selection.index);
 }
 
+std::string statement_text(std::string_view source, Span statement) {
+    std::string text;
+    for (const char c : source.substr(statement.offset, statement.length)) {
+        const bool is_blank = c == ' ' || (c >= '\t' && c <= '\r');
+        if (!is_blank || (!text.empty() && text.back() != ' ')) text += is_blank ? ' ' : c;
+    }
+    return text;
+}
+
 }  // namespace nplc::seqc

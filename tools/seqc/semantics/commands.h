@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "protocol/fastmac.h"
+#include "seqc/diagnostic.h"
 
 namespace nplc::seqc {
 
@@ -42,5 +43,8 @@ std::uint8_t command_byte(protocol::fastmac::Mode mode, Selection selection);
 
 /// As it would be written in a program: "POSITION(P2)", "STOP", "NOP".
 std::string describe_command(std::uint8_t command);
+
+/// A statement as written, in one line.
+std::string statement_text(std::string_view source, Span statement);
 
 }  // namespace nplc::seqc

@@ -248,9 +248,12 @@ Constants::Result Constants::multiplied(Value left, const Value& right) {
 Constants::Result Constants::divided(Value left, const Value& right) {
     const bool ratio = has_dimension(right) && is_same_dimension(left, right);
     if (left.is_raw || right.is_raw || (has_dimension(right) && !ratio)) {
+        const bool has_its_unit = !left.is_raw && !has_dimension(left) && !right.unit.text.empty();
         return refuse(right.span,
                       fmt::format("{} cannot be divided by {}", dimension_of(left), dimension_of(right)),
-                      "divide by a plain number, as in 360 deg / 7");
+                      has_its_unit ? fmt::format("the unit goes to the first number: {} {} / {}", left.number,
+                                                 right.unit.text, right.number)
+                                   : "divide by a plain number, as in 360 deg / 7");
     }
     if (right.number == 0) return refuse(right.span, "this divides by 0", "write another divisor");
     keep_name(left, right);

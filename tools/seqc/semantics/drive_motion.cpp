@@ -161,7 +161,10 @@ class DriveWalk {
     void apply(const Send& send, const Effect& effect, DriveState& state) const {
         if (effect.v) state.v = values_of<std::int16_t>(*effect.v, send);
         if (effect.a) state.a = values_of<std::uint16_t>(*effect.a, send);
-        if (effect.mode) {
+        const bool selects_only = effect.mode == 2U && !effect.sets_position && send.reg == nullptr;
+        if (selects_only && !state.runs) {
+            // it is where P_SOLL says, or on its way there: see E052 for INIT
+        } else if (effect.mode) {
             state.stand();
             state.runs = *effect.mode == 1;
             state.positions = *effect.mode == 2;
@@ -188,7 +191,9 @@ class DriveWalk {
                              drive_.program_name,
                              std::string_view(what).substr(std::string_view(what).find(' ') + 1)),
                  "wait for INPOS before, or STOP first; leave it if waiting is what you want")
-            .notes.push_back({state.motion, "it may still move since this"});
+            .notes.push_back({state.motion, state.motion == send.span
+                                                ? "the same order, given a round before, may not be done"
+                                                : "it may still move since this"});
     }
 
     void judge_ramps(const Send& send, const DriveState& state) {

@@ -36,13 +36,16 @@ bool needs_in_position(const Rule& rule) {
     return (rule.when & ~truth_of_bit(kInPosBit)).none();
 }
 
-/// Whether the step ends by a time or a count, whatever the motor does.
+}  // namespace
+
 bool has_time_limit(const StepPlan& step) {
     return std::any_of(step.rules.begin(), step.rules.end(), [&](const Rule& rule) {
         return leaves(step, rule) && !needs_in_position(rule) &&
                (depends_on(rule.when, kTimerZero) || depends_on(rule.when, kCounterZero));
     });
 }
+
+namespace {
 
 /// The first wait for INPOS that only INPOS can end, or nullptr; `waits`: there are any waits.
 const Rule* endless_wait(const Plan& plan, bool& waits) {

@@ -148,13 +148,15 @@ class MotorWalk {
   public:
     using State = MotorState;
 
-    MotorWalk(const Symbols& symbols, Report& report)
+    MotorWalk(const Symbols& symbols, std::string_view source, Report& report)
         : symbols_(symbols),
+          source_(source),
           start_mode_(registers::find(symbols.motor, registers::STARTMODE)->name),
           report_(report) {}
 
     /// An error puts the motor in INIT (001 §3.2.35), so where ERROR is dealt with it may be there.
-    static void enter(MotorState& state, const StepPlan& step, const Rule& rule) {
+    void enter(MotorState& state, const StepPlan& step, const Rule& rule) {
+        step_ = &step;
         if (step.own_error || (rule.when & truth_of_bit(kErrorBit)).any()) state.modes = kAnyMode;
     }
 
@@ -203,8 +205,7 @@ class MotorWalk {
                 complain("E052", send, rule,
                          fmt::format("{} may start the motor towards an old P_SOLL: it may be in INIT here",
                                      named(send, rule)),
-                         fmt::format("select it first: INIT({}); and then only the position: POSITION({});",
-                                     name_of(select.selection), selected_beside(send, rule, Group::p)));
+                         help_for_position(send, rule, state));
             note_init(said, state);
         } else if (select.mode == Mode::velocity && group != Group::v && may_start) {
             Diagnostic* said =
@@ -217,6 +218,38 @@ class MotorWalk {
         } else if (select.mode == Mode::position && group == Group::p && state.stopped) {
             warn_stopped(send, rule, state);
         }
+    }
+
+    /// INIT brakes: it is right where the motor stands anyway.
+    std::string help_for_position(const Send& send, const Rule& rule, const MotorState& state) const {
+        const std::string place = selected_beside(send, rule, Group::p);
+        const std::vector<Selection> others = selected_with(send, rule);
+        const bool writable = std::all_of(others.begin(), others.end(), [](const Selection& selection) {
+            return selection.group == Group::v || selection.group == Group::a || selection.group == Group::t;
+        });
+        std::string names;
+        std::string writes;
+        for (const Selection& selection : others) {
+            constexpr std::string_view kLetters = "PVATLZ";
+            names += fmt::format("{}{}", names.empty() ? "" : ", ", name_of(selection));
+            writes += fmt::format("{}_SOLL := ..; ", kLetters.at(static_cast<std::size_t>(selection.group)));
+        }
+        const std::string first = fmt::format("INIT({}); POSITION({});", names, place);
+        if (state.modes == kInit || !writable) return fmt::format("select it first: {}", first);
+        return fmt::format("write the value itself: {}POSITION({}); or, if the motor may stop for it, {}",
+                           writes, place, first);
+    }
+
+    /// All that the same statement selects, without positions.
+    static std::vector<Selection> selected_with(const Send& send, const Rule& rule) {
+        std::vector<Selection> selections;
+        for (const Send& other : rule.action.sends) {
+            const auto also = select_command(other.command);
+            if (other.reg == nullptr && other.span.offset == send.span.offset && also &&
+                also->selection.group != Group::p)
+                selections.push_back(also->selection);
+        }
+        return selections;
     }
 
     /// As the program calls the register.
@@ -246,9 +279,8 @@ class MotorWalk {
                                                             "a torque",   "a load factor", "a window"};
         const auto select = select_command(send.command);
         const bool to_position = select->mode == Mode::position;
-        std::string shown =
-            fmt::format("{}({})", to_position ? "POSITION" : "VELOCITY", name_of(select->selection));
         const std::string wanted = selected_beside(send, rule, to_position ? Group::p : Group::v);
+        std::string shown = statement_text(source_, send.span);
         if (!wanted.ends_with("..")) return shown;
         return fmt::format("{} names {} and no {}, so it", shown,
                            kKinds.at(static_cast<std::size_t>(select->selection.group)),
@@ -271,7 +303,10 @@ class MotorWalk {
         if (!is_news(rule.condition)) return;
         Diagnostic& d = report_.add(
             "W012", rule.condition,
-            "this may wait for ever: INPOS stays 0 while the motor homes, and then depends on " + start_mode_,
+            fmt::format(
+                "{}: INPOS stays 0 while the motor homes, and then depends on {}",
+                has_time_limit(*step_) ? "this may always end by its time limit" : "this may wait for ever",
+                start_mode_),
             fmt::format(
                 "write {} := 2; before it begins: the motor then goes on to position 0, where INPOS comes; "
                 "or wait for an input or a time, and move with POSITION(P..)",
@@ -305,6 +340,8 @@ class MotorWalk {
     }
 
     const Symbols& symbols_;
+    std::string_view source_;
+    const StepPlan* step_ = nullptr;
     std::string start_mode_;
     Report& report_;
     std::vector<std::uint32_t> said_;
@@ -312,8 +349,8 @@ class MotorWalk {
 
 }  // namespace
 
-void check_motor_state(const Plan& plan, const Symbols& symbols, Report& report) {
-    MotorWalk walk(symbols, report);
+void check_motor_state(const Plan& plan, const Symbols& symbols, std::string_view source, Report& report) {
+    MotorWalk walk(symbols, source, report);
     MotorState at_power_up;
     at_power_up.modes = kAnyMode;
     walk_steps(plan, at_power_up, walk);

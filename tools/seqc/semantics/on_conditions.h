@@ -16,6 +16,8 @@ struct OnCondition {
     const ast::OnCondition* written = nullptr;
     Truth when;
     std::bitset<64> steps;
+    bool covers_one = false;  ///< a step beside the one that it leads to
+    bool may_act = false;     ///< those before it leave it a case in one of them
 };
 
 /// Those of the program, the first one first. `fault`: the step of ON ERROR, which only its name covers.

@@ -99,17 +99,27 @@ class Oversights {
         if (set.empty()) return;
         for (const MotorName& named : symbols_.motor_names) add(named.number);
         for_each_send(plan_, [&](const Send& send) {
-            const auto select = select_command(send.command);
-            if (send.reg != nullptr || !select) return;
-            if (!set.emplace(select->selection.group, select->selection.index).second) return;
-            const std::string shown = describe_command(send.command);
-            const std::string reg = shown.substr(shown.find('(') + 1, 2);
+            const auto selection = selected_by(send);
+            if (!selection || !set.emplace(selection->group, selection->index).second) return;
+            constexpr std::string_view kLetters = "PVATLZ";
+            const std::string reg = fmt::format(
+                "{}{}", kLetters.at(static_cast<std::size_t>(selection->group)), selection->index);
             report_.add("W023", send.span,
                         fmt::format("{} is selected here, and nothing gives it a value", reg),
                         fmt::format("write Name AT {0} := value; in VAR_MOTOR, or Name AT {0}; if the motor "
                                     "has it in its memory or somebody else sets it",
                                     reg));
         });
+    }
+
+    static std::optional<Selection> selected_by(const Send& send) {
+        if (send.reg != nullptr) return std::nullopt;
+        if (const auto select = select_command(send.command)) return select->selection;
+        if (is_number(send, Number::move_p7_by_p_fnc) || is_number(send, Number::move_p7_by_p_soll))
+            return Selection{Group::p, 7};
+        if (is_number(send, Number::move_p8_by_p_fnc) || is_number(send, Number::move_p8_by_p_soll))
+            return Selection{Group::p, 8};
+        return std::nullopt;
     }
 
     void check_presets(std::size_t bit, Code code, const char* test, const char* what, const char* how) {

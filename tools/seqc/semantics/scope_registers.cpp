@@ -36,6 +36,19 @@ std::string some_of(std::span<const std::string_view> names) {
                        shown.size() < names.size() ? " and others of the register map" : "");
 }
 
+/// HOME1_MODE for HOME_MODE, which has two parts that take it.
+std::string help_of_parts(registers::Model model, const Register* reg, std::string_view text) {
+    std::vector<std::string> ways;
+    if (reg == nullptr) return {};
+    for (const registers::Field& field : registers::fields_of(model, reg->number)) {
+        for (const registers::NamedValue& value : field.values) {
+            if (same_name(value.name, text)) ways.push_back(fmt::format("{} = {}", field.name, value.name));
+        }
+    }
+    if (ways.empty()) return {};
+    return fmt::format("say of which part of {} it is: {}", reg->name, fmt::join(ways, " or "));
+}
+
 /// P9 and the like: nothing that a misspelling could explain.
 bool is_set_register(std::string_view name) {
     return name.size() == 2 && std::string_view("PVATLZpvatlz").find(name[0]) != std::string_view::npos &&
@@ -179,6 +192,9 @@ void Scope::report_no_register(const ast::Name& name) {
     std::string help = is_set_register(name.text)
                            ? "there are P1..P8, V1..V8, A1..A4, T1..T4, L1..L4 and Z1..Z4"
                            : suggestion(name.text, names);
+    if (const std::string_view word = numbered_timer(name.text); !word.empty())
+        help =
+            fmt::format("there is one {0}: {0} := value; presets it, anew for each step that needs it", word);
     if (is_output(name.text)) help = fmt::format("to switch an output: OUT {}; in the step", name.text);
     if (is_input(name.text)) help = "an input is wired: it cannot be written";
     if (mode_named(name.text))
@@ -255,6 +271,8 @@ void Scope::report_no_value(const ast::Name& name, const Register* reg) {
         help = fmt::format("a step is named with NEXT := {};", text);
     else if (is_input(text) || is_output(text))
         help = "a value is a number, a constant, or a mode or bit of the register";
+    else if (const std::string parts = help_of_parts(model_, reg, text); !parts.empty())
+        help = parts;
     else if (help.empty() && names.size() > constants)
         help = some_of(std::span(names).subspan(constants));
     else if (help.empty())

@@ -428,9 +428,9 @@ void Parser::parse_allowance(ast::Step& step) {
     allowance.reason.text.remove_suffix(1);
     ++at_;
     const CodeRow* row = find_code(upper(allowance.code.text));
-    if (row == nullptr || row->phase != Phase::courses) {
+    if (row == nullptr || (row->phase != Phase::courses && !is_advice(row->code))) {
         report_.add("E021", allowance.code.span, fmt::format("there is no check '{}'", allowance.code.text),
-                    "ALLOW takes the codes that seqc verify finds by itself: V001 and on");
+                    "ALLOW takes what seqc verify finds by itself, V001 and on, and the advice W035 to W038");
     } else {
         step.allowances.push_back(allowance);
     }

@@ -1,0 +1,247 @@
+// What a step finds of earlier ones: velocities that were selected for another move, an INPOS that stands.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include "semantics/checker.h"
+#include "semantics/commands.h"
+#include "semantics/step_walk.h"
+
+namespace nplc::seqc {
+namespace {
+
+using protocol::fastmac::Group;
+using protocol::fastmac::Mode;
+using protocol::fastmac::Number;
+
+/// V, A and T: what a move to a place takes besides the place.
+constexpr std::array<Group, 3> kGroups = {Group::v, Group::a, Group::t};
+
+struct Selected {
+    std::uint8_t index = 0;   ///< 0: written to V_SOLL itself
+    std::uint32_t value = 0;  ///< what was written
+    bool for_move = false;    ///< selected together with a move
+    Span span;
+
+    bool is_same(const Selected& other) const { return index == other.index && value == other.value; }
+};
+
+bool selects_place(const Send& send) {
+    const auto select = send.reg == nullptr ? select_command(send.command) : std::nullopt;
+    return select && select->mode == Mode::position && select->selection.group == Group::p;
+}
+
+bool runs(const Send& send) {
+    const auto select = send.reg == nullptr ? select_command(send.command) : std::nullopt;
+    return select && select->mode == Mode::velocity;
+}
+
+std::optional<Group> group_written(const Send& send) {
+    if (send.reg == nullptr) return std::nullopt;
+    switch (send.reg->number) {
+        case registers::V_SOLL:
+            return Group::v;
+        case registers::A_SOLL:
+            return Group::a;
+        case registers::T_SOLL:
+            return Group::t;
+        default:
+            return std::nullopt;
+    }
+}
+
+struct SelectionState {
+    bool known = false;
+    std::array<std::vector<Selected>, kGroups.size()> selected;
+
+    bool is_known() const { return known; }
+    bool join(const SelectionState& other) {
+        bool news = !known;
+        known = true;
+        for (std::size_t i = 0; i < kGroups.size(); ++i) {
+            for (const Selected& more : other.selected[i]) {
+                const bool is_here = std::any_of(
+                    selected[i].begin(), selected[i].end(),
+                    [&](const Selected& own) { return own.is_same(more) && own.for_move == more.for_move; });
+                if (is_here) continue;
+                selected[i].push_back(more);
+                news = true;
+            }
+        }
+        return news;
+    }
+};
+
+class SelectionWalk {
+  public:
+    using State = SelectionState;
+
+    SelectionWalk(const Symbols& symbols, std::string_view source, Report& report)
+        : symbols_(symbols), source_(source), report_(report) {}
+
+    void enter(SelectionState&, const StepPlan&, const Rule& rule) {
+        moves_ = std::any_of(rule.action.sends.begin(), rule.action.sends.end(),
+                             [](const Send& send) { return selects_place(send) || runs(send); });
+    }
+
+    void apply(SelectionState& state, const Send& send) const {
+        const auto written = group_written(send);
+        const auto select = send.reg == nullptr ? select_command(send.command) : std::nullopt;
+        const auto number = static_cast<Number>(send.command & 0x1F);
+        const bool stops = send.reg == nullptr && !select && number == Number::clear_v_soll;
+        for (std::size_t i = 0; i < kGroups.size(); ++i) {
+            if (written == kGroups[i]) state.selected[i] = {{0, send.value, moves_, send.span}};
+            if (select && select->selection.group == kGroups[i])
+                state.selected[i] = {{select->selection.index, 0, moves_, send.span}};
+            if (stops && kGroups[i] == Group::v) state.selected[i].clear();  // W004 tells
+            if (is_set(send)) state.selected[i] = {{index_of_set(send), 0, false, send.span}};
+        }
+    }
+
+    void judge(const Rule& rule, SelectionState state) {
+        for (const Send& send : rule.action.sends) {
+            if (selects_place(send)) judge_move(send, state);
+            apply(state, send);
+        }
+    }
+
+  private:
+    static std::uint8_t index_of_set(const Send& send) {
+        return static_cast<std::uint8_t>((send.command & 0x1F) -
+                                         static_cast<std::uint8_t>(Number::use_set_1) + 1);
+    }
+    static bool is_set(const Send& send) {
+        if (send.reg != nullptr || select_command(send.command)) return false;
+        const int index = (send.command & 0x1F) - static_cast<int>(Number::use_set_1);
+        return index >= 0 && index < 4;
+    }
+
+    void judge_move(const Send& send, const SelectionState& state) {
+        for (std::size_t i = 0; i < kGroups.size(); ++i) {
+            const std::vector<Selected>& ways = state.selected[i];
+            const auto of_move =
+                std::find_if(ways.begin(), ways.end(), [](const Selected& way) { return way.for_move; });
+            if (of_move == ways.end()) continue;
+            const auto other = std::find_if(ways.begin(), ways.end(),
+                                            [&](const Selected& way) { return !way.is_same(*of_move); });
+            if (other == ways.end() || !said_.insert({send.span.offset, i}).second) continue;
+            warn(send, kGroups[i], *of_move, *other);
+        }
+    }
+
+    void warn(const Send& send, Group group, const Selected& of_move, const Selected& other) {
+        const std::string_view what = group == Group::v   ? "velocity"
+                                      : group == Group::a ? "acceleration"
+                                                          : "torque";
+        Diagnostic& d =
+            report_.add("W035", send.span,
+                        fmt::format("the {} of this move depends on the way into the step: {} or {}", what,
+                                    name_of(group, of_move), name_of(group, other)),
+                        fmt::format("write its value in front of the move: {}_SOLL := ..; {};",
+                                    letter_of(group), statement_text(source_, send.span)));
+        d.notes.push_back({of_move.span, "selected here for another move, and it stays"});
+        d.notes.push_back({other.span, "selected here on another way"});
+    }
+
+    static char letter_of(Group group) {
+        constexpr std::string_view kLetters = "PVATLZ";
+        return kLetters.at(static_cast<std::size_t>(group));
+    }
+
+    std::string name_of(Group group, const Selected& selected) const {
+        const char letter = letter_of(group);
+        if (selected.index == 0) return fmt::format("'{}'", statement_text(source_, selected.span));
+        const std::string reg = fmt::format("{}{}", letter, selected.index);
+        const auto named = std::find_if(symbols_.motor_names.begin(), symbols_.motor_names.end(),
+                                        [&](const MotorName& variable) { return variable.reg == reg; });
+        return named == symbols_.motor_names.end() ? reg : named->name;
+    }
+
+    const Symbols& symbols_;
+    std::string_view source_;
+    Report& report_;
+    bool moves_ = false;
+    std::set<std::pair<std::uint32_t, std::size_t>> said_;
+};
+
+/// Whether an order may have come since INPOS was seen last.
+struct InPosState {
+    bool known = false;
+    bool may_move = false;
+    Span seen;
+
+    bool is_known() const { return known; }
+    bool join(const InPosState& other) {
+        const bool news = !known || (other.may_move && !may_move);
+        if (!known) seen = other.seen;
+        known = true;
+        may_move = may_move || other.may_move;
+        return news;
+    }
+};
+
+class InPosWalk {
+  public:
+    using State = InPosState;
+
+    explicit InPosWalk(Report& report) : report_(report) {}
+
+    void enter(InPosState& state, const StepPlan& step, const Rule& rule) {
+        leaves_ = leaves(step, rule);
+        before_ = state;
+        if (!needs_in_position(rule)) return;
+        state.may_move = false;
+        state.seen = rule.condition;
+    }
+
+    static void apply(InPosState& state, const Send&) { state.may_move = true; }
+
+    void judge(const Rule& rule, const InPosState&) {
+        const bool waits_for_it_alone = needs_in_position(rule) && !depends_on(rule.when, kTimerZero) &&
+                                        !depends_on(rule.when, kCounterZero) && !tests_inputs(rule);
+        if (before_.may_move || !leaves_ || !waits_for_it_alone || before_.seen == rule.condition) return;
+        report_
+            .add("W036", rule.condition, "this holds at once: nothing was ordered since INPOS came last",
+                 "order the move that it is to wait for, or take INPOS out")
+            .notes.push_back({before_.seen, "INPOS came here"});
+    }
+
+  private:
+    static bool needs_in_position(const Rule& rule) {
+        return rule.condition.length != 0 && (rule.when & ~truth_of_bit(kInPosBit)).none();
+    }
+    static bool tests_inputs(const Rule& rule) {
+        for (std::size_t bit = 0; bit < 6; ++bit) {
+            if (depends_on(rule.when, bit)) return true;
+        }
+        return false;
+    }
+
+    Report& report_;
+    InPosState before_;
+    bool leaves_ = false;
+};
+
+}  // namespace
+
+void check_lasting_selections(const Plan& plan, const Symbols& symbols, std::string_view source,
+                              Report& report) {
+    SelectionWalk walk(symbols, source, report);
+    SelectionState at_power_up;
+    at_power_up.known = true;
+    walk_steps(plan, at_power_up, walk);
+}
+
+void check_standing_in_position(const Plan& plan, Report& report) {
+    InPosWalk walk(report);
+    InPosState at_power_up;
+    at_power_up.known = true;
+    at_power_up.may_move = true;
+    walk_steps(plan, at_power_up, walk);
+}
+
+}  // namespace nplc::seqc
