@@ -6,27 +6,59 @@
 
 namespace nplc::hal_linux {
 
-/// What a client says first tells a device's protocol from what a browser sends: the head of a request is
-/// text from its first character on, and TLS begins with 16h. MacTalk has an inverse among its first five
-/// bytes, FastMAC its toggle bit in the first, V24 STX; none of these is text.
+/// What a client says first tells what a browser sends from everything else: the head of an HTTP request (a
+/// method, a space, and the `/` or `*` that its target begins with), or a record of a TLS handshake (16h,
+/// 03h, 00h to 04h). No message of a device's protocol begins so, however many of its start bytes came
+/// before: in MacTalk an inverse follows each byte, and 16h is none of its start bytes.
 class StreamOpening {
   public:
     /// To be asked for all bytes in their order until it says no.
     bool admits(std::span<const std::uint8_t> bytes) {
         for (const std::uint8_t byte : bytes) {
             if (decided_) return true;
-            if (seen_ == 0 && byte == kTlsHandshake) return false;
-            decided_ = byte < ' ' || byte > '~';
-            if (!decided_ && ++seen_ == kMostText) return false;
+            if (!admits(byte)) return false;
         }
         return true;
     }
 
   private:
-    static constexpr std::uint8_t kTlsHandshake = 0x16;
-    static constexpr std::size_t kMostText = 5;
+    enum class Part : std::uint8_t { first, method, target, tls_major, tls_minor };
 
-    std::size_t seen_ = 0;
+    bool admits(std::uint8_t byte) {
+        switch (part_) {
+            case Part::first:
+                part_ = byte == kTlsHandshake ? Part::tls_major : Part::method;
+                if (byte != kTlsHandshake) decided_ = !is_of_method(byte);
+                return true;
+            case Part::method:
+                if (byte == ' ')
+                    part_ = Part::target;
+                else
+                    decided_ = !is_of_method(byte);
+                return true;
+            case Part::target:
+                decided_ = byte != '/' && byte != '*';
+                return decided_;
+            case Part::tls_major:
+                decided_ = byte != kTlsMajor;
+                part_ = Part::tls_minor;
+                return true;
+            case Part::tls_minor:
+                decided_ = byte > kTlsMostMinor;
+                return decided_;
+        }
+        return true;
+    }
+    static bool is_of_method(std::uint8_t byte) {
+        return (byte >= 'A' && byte <= 'Z') || (byte >= 'a' && byte <= 'z') || (byte >= '0' && byte <= '9') ||
+               byte == '-' || byte == '_' || byte == '.';
+    }
+
+    static constexpr std::uint8_t kTlsHandshake = 0x16;
+    static constexpr std::uint8_t kTlsMajor = 0x03;
+    static constexpr std::uint8_t kTlsMostMinor = 0x04;
+
+    Part part_ = Part::first;
     bool decided_ = false;
 };
 

@@ -417,7 +417,7 @@ TEST_F(ByteServerTest, NothingOfARequestOfABrowserIsReadFromTcp) {
     const std::string message("\x50\x50\x50\x80\x7F\x10\xEF\xAA\xAA", 9);
     for (const std::string& opening :
          {std::string("POST / HTTP/1.1\r\n\r\n"), std::string("PPP / HTTP/1.1\r\n\r\n"),
-          std::string("\x16\x03\x01\x02\x00", 5)}) {
+          std::string("OPTIONS * HTTP/1.1\r\n\r\n"), std::string("\x16\x03\x01\x02\x00", 5)}) {
         const int client = connect_tcp(server->name());
         EXPECT_TRUE(server->has_client());
         write_to(client, opening + message);
@@ -429,8 +429,10 @@ TEST_F(ByteServerTest, NothingOfARequestOfABrowserIsReadFromTcp) {
 
 TEST_F(ByteServerTest, WhatADeviceIsSentFirstIsReadFromTcp) {
     const auto server = open("tcp:127.0.0.1:0");
-    for (const std::string& opening : {std::string("\x50\x50\x50 \xDF\x10\xEF\xAA\xAA"),
-                                       std::string("\xE0\x60"), std::string("\x02 0140200")}) {
+    for (const std::string& opening :
+         {std::string("\x50\x50\x50 \xDF\x10\xEF\xAA\xAA"), std::string("\xE0\x60"),
+          std::string("\x02 0140200"), std::string("RRRRRR\x80\x7F\x30\xCF"), std::string("RRRRRR \xDF"),
+          std::string("\x16\x80\x7F"), std::string("\x16\x03\x52")}) {
         const int client = connect_tcp(server->name());
         EXPECT_TRUE(server->has_client());
         write_to(client, opening);

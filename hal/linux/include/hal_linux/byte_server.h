@@ -23,8 +23,8 @@ namespace nplc::hal_linux {
 /// settings say `at_once`.
 ///
 /// Over TCP a page in this machine's browser can send bytes, behind the head of a request or a greeting of
-/// TLS. A client of a TCP socket whose first bytes are such is turned away, and nothing of it is read: five
-/// characters of text, or 16h.
+/// TLS. A client of a TCP socket that begins so (a method, a space and `/` or `*`; 16h, 03h and 00h to 04h)
+/// is turned away; what it sent before that was clear held no message.
 class ByteServer {
   public:
     struct Opened {
