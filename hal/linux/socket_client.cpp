@@ -30,6 +30,11 @@ std::string cannot_connect(const std::string& name, int reason) {
     }
 }
 
+/// Its backlog is: of a socket in the file system it says so, of TCP it does not answer.
+bool is_full(int reason) {
+    return reason == EAGAIN || reason == ETIMEDOUT;
+}
+
 class SocketClient final : public DescriptorClient {
   public:
     SocketClient(FileDescriptor descriptor, std::string name, std::function<std::string()> other_client)
@@ -61,7 +66,7 @@ host::ByteClient::Opened open_unix_client(const std::string& path) {
     FileDescriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
     const int reason =
         socket ? join(socket.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address) : errno;
-    if (reason != 0) return {nullptr, cannot_connect(name, reason)};
+    if (reason != 0) return {nullptr, cannot_connect(name, reason), false, is_full(reason)};
     return {std::make_unique<SocketClient>(std::move(socket), name, [path] { return client_of_unix(path); }),
             {}};
 }
@@ -74,7 +79,7 @@ host::ByteClient::Opened open_tcp_client(const std::string& where) {
     FileDescriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
     const int reason =
         socket ? join(socket.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address) : errno;
-    if (reason != 0) return {nullptr, cannot_connect(name, reason)};
+    if (reason != 0) return {nullptr, cannot_connect(name, reason), false, is_full(reason)};
     const int on = 1;
     ::setsockopt(socket.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
     const std::uint16_t port = ntohs(address->sin_port);

@@ -6,6 +6,7 @@
 
 #include "base/crc32.h"
 #include "gateway_unit.h"
+#include "nanoctl/reconnecting.h"
 #include "nanoctl/status.h"
 #include "nanoctl/stopping.h"
 #include "nanoctl/transfer.h"
@@ -199,6 +200,62 @@ TEST(Client, AMotorThatCannotBeToldIsNotTakenForStopped) {
     bench.unit.board.link_state = motor::Link::up;
     EXPECT_EQ(stop_machine(bench.gateway, Command::stop).run_state, gw::RunState::stopped);
     EXPECT_EQ(bench.refusal([&] { stop_machine(bench.gateway, Command::hold); }), gw::Result::not_running);
+}
+
+/// A connection on the wire that the other end closes after some writes.
+class Connection final : public host::ByteClient {
+  public:
+    Connection(SimWire& wire, int writes) : wire_(wire), writes_(writes) {}
+    const std::string& name() const override { return wire_.name(); }
+    bool write(std::span<const std::uint8_t> bytes) override { return writes_-- > 0 && wire_.write(bytes); }
+    std::optional<std::size_t> read(std::span<std::uint8_t> out, base::Microseconds wait) override {
+        if (writes_ <= 0) return std::nullopt;
+        return wire_.read(out, wait);
+    }
+    base::Instant now() const override { return wire_.now(); }
+
+  private:
+    SimWire& wire_;
+    int writes_;
+};
+
+struct ConnectedAgain : Bench {
+    /// `lives`: writes that each connection takes; then there is none to be had.
+    explicit ConnectedAgain(std::vector<int> lives)
+        : again(
+              std::make_unique<Connection>(wire, lives.front()),
+              [this, lives, next = std::size_t{1}]() mutable {
+                  host::ByteClient::Opened opened;
+                  if (next < lives.size()) opened.client = std::make_unique<Connection>(wire, lives[next++]);
+                  return opened;
+              },
+              [this](base::Microseconds time) {
+                  std::array<std::uint8_t, 64> lost{};
+                  const base::Instant end = wire.now() + time;
+                  while (wire.now() < end) static_cast<void>(wire.read(lost, end - wire.now()));
+              },
+              kLongestStop) {}
+
+    Reconnecting again;
+    Master client{again, {.attempts = 10}};
+    GatewayClient stopper{client, gw::kDefaultAddress};
+};
+
+TEST(Client, AStopIsSentAgainOnAnotherConnectionWhenItsOwnWasClosed) {
+    for (const std::vector<int>& lives :
+         {std::vector<int>{0, 0, 0, 100}, {1, 1, 100}, {2, 100}, {0, 1, 2, 100}}) {
+        ConnectedAgain bench(lives);
+        bench.run_a_table();
+        EXPECT_EQ(stop_machine(bench.stopper, Command::stop).run_state, gw::RunState::stopped);
+    }
+}
+
+TEST(Client, WhoseConnectionsAreAllClosedIsToldAfterTenSeconds) {
+    ConnectedAgain bench({0, 0, 1});
+    const base::Instant begun = bench.wire.now();
+    EXPECT_THROW(stop_machine(bench.stopper, Command::stop), NotConfirmed);
+    EXPECT_GE(bench.wire.now() - begun, std::chrono::seconds{9});
+    EXPECT_LE(bench.wire.now() - begun, std::chrono::seconds{11});
 }
 
 // Longer than the look at STATUS takes: what is asked again and again would never be confirmed.

@@ -131,7 +131,9 @@ std::unique_ptr<host::ByteClient> open_port(const Common& common, host::ByteClie
     auto opened = host::ByteClient::open(common.port, common.baud, holding);
     if (opened.never) throw UserError(opened.error);
     if (opened.client == nullptr)
-        throw mactalk_client::LineError(mactalk_client::LineError::Kind::port_gone, opened.error);
+        throw mactalk_client::LineError(opened.full ? mactalk_client::LineError::Kind::port_full
+                                                    : mactalk_client::LineError::Kind::port_gone,
+                                        opened.error);
     return std::move(opened.client);
 }
 

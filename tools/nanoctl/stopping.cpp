@@ -12,7 +12,6 @@ using mactalk_client::LineError;
 
 namespace {
 
-constexpr base::Milliseconds kLongest{10'000};
 /// The motor's confirmation is waited for so long.
 constexpr base::Milliseconds kConfirmationWait{1'000};
 constexpr base::Milliseconds kBetweenLooks{20};
@@ -31,7 +30,7 @@ class Stopping {
             if (status && is_idle(*status))
                 throw Refused(gw::Result::not_running, gw::COMMAND, 0,
                               fmt::format("hold: {}", gw::describe(gw::Result::not_running)));
-            if (now() - begun_ >= kLongest) fail(status);
+            if (now() - begun_ >= kLongestStop) fail(status);
             gateway_.look_for_interruption();
         }
     }

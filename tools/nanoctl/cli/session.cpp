@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include "command_line/files.h"
+#include "host/endpoint.h"
+#include "nanoctl/reconnecting.h"
 #include "nanoctl/stopping.h"
 #include "seqc/symbol_file.h"
 
@@ -17,10 +21,32 @@ namespace {
 
 /// A whole upload of another program is waited for.
 constexpr base::Milliseconds kTurnWait{60'000};
+constexpr base::Milliseconds kBetweenTries{20};
+
+/// A socket whose program closes the connection, or has no room at the moment, is connected again.
+std::unique_ptr<ByteClient> open_for_stop(const Common& common) {
+    constexpr auto kHolding = ByteClient::Holding::at_once;
+    if (!host::Endpoint(common.port).is_socket()) return command_line::open_port(common, kHolding);
+    const auto sleep = [](base::Microseconds time) {
+        std::this_thread::sleep_for(std::chrono::microseconds(time.count()));
+    };
+    base::Microseconds left = kLongestStop;
+    for (;; left -= kBetweenTries) {
+        try {
+            const auto again = [&common] { return ByteClient::open(common.port, common.baud, kHolding); };
+            return std::make_unique<Reconnecting>(command_line::open_port(common, kHolding), again, sleep,
+                                                  left);
+        } catch (const LineError& error) {
+            if (error.kind() != LineError::Kind::port_full || left <= base::Microseconds{0} || !goes_on())
+                throw;
+        }
+        sleep(kBetweenTries);
+    }
+}
 
 /// Who stops neither waits nor needs a password.
 std::unique_ptr<ByteClient> open(const Common& common, ByteClient::Holding holding) {
-    if (holding == ByteClient::Holding::at_once) return command_line::open_port(common, holding);
+    if (holding == ByteClient::Holding::at_once) return open_for_stop(common);
     return command_line::open_with_password(common, static_cast<std::uint8_t>(common.address), holding);
 }
 

@@ -31,6 +31,7 @@ class ByteClient {
         std::unique_ptr<ByteClient> client;
         std::string error;   ///< what went wrong and what to do, in one line; empty when it was opened
         bool never = false;  ///< no such endpoint can be: it, or the speed, is written wrongly
+        bool full = false;   ///< somebody listens there, and has no room at the moment
     };
     /// `baud`: 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800 or 921600, on Windows what
     /// the port takes; sockets have none.

@@ -42,6 +42,7 @@ class LineError : public EndedWith<kNoAnswer> {
   public:
     enum class Kind : std::uint8_t {
         port_gone,
+        port_full,  ///< it may be had a moment later
         no_answer,
         no_message,  ///< what no message can say: register 0, a wrong length
     };

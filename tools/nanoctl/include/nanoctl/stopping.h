@@ -10,6 +10,9 @@ namespace nplc::nanoctl {
 /// What every message says about a stop, safe or hold that was not seen to be done.
 inline constexpr const char* kMayStillRun = "THE MACHINE MAY STILL BE RUNNING";
 
+/// A stop is asked for so long.
+inline constexpr base::Milliseconds kLongestStop{10'000};
+
 class NotConfirmed : public mactalk_client::EndedWith<mactalk_client::kNotConfirmed> {
     using EndedWith::EndedWith;
 };
