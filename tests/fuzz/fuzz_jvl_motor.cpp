@@ -30,8 +30,12 @@ class BlindStop {
         constexpr std::uint8_t kBytes[]{0x7F, 0x7F, 0xFF, 0xFF, 0x60, 0x60, 0x60, 0x02, 0xFD,
                                         0x00, 0xFF, 0x00, 0xFF, 0x60, 0x60, 0x60, 0x02, 0xFD,
                                         0x00, 0xFF, 0x00, 0xFF, 0x7E, 0x7E, 0x7E};
-        if (byte != kBytes[next_]) next_ = 0;
-        if (byte != kBytes[next_]) return false;
+        // An order 1Fh may stand right before it: of three 7Fh the last two are its first.
+        if (byte != kBytes[next_]) next_ = next_ == 2 ? 1 : 0;
+        if (byte != kBytes[next_]) {
+            next_ = 0;
+            return false;
+        }
         next_ = (next_ + 1) % sizeof kBytes;
         return true;
     }
