@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_set>
 #include <utility>
 
 #include "syntax/characters.h"
@@ -127,8 +128,7 @@ class Lexer {
             at_ += at_foreign_letter() ? 2U : std::max<std::size_t>(invisible_here(), 1);
         }
         const std::string_view word = source_.substr(start, at_ - start);
-        if (foreign && std::find(refused_.begin(), refused_.end(), word) == refused_.end()) {
-            refused_.push_back(word);
+        if (foreign && refused_.insert(word).second) {
             const bool is_hidden = hides_something(word);
             report_.add("E001", span_from(start),
                         is_hidden
@@ -276,9 +276,9 @@ class Lexer {
 
     /// INCLUDE "wiring.seqi";
     bool lex_double_quoted_text(std::size_t start) {
+        if (peek() != '"' || !takes_text()) return false;
         const std::size_t end = source_.find_first_of("\"\n", at_ + 1);
-        if (peek() != '"' || !takes_text() || end == std::string_view::npos || source_[end] == '\n')
-            return false;
+        if (end == std::string_view::npos || source_[end] == '\n') return false;
         at_ = end + 1;
         report_.add("E001", span_from(start), "quotes are ' on both sides",
                     fmt::format("write '{}'", source_.substr(start + 1, end - start - 1).substr(0, 60)));
@@ -353,8 +353,8 @@ class Lexer {
         constexpr std::pair<std::string_view, std::string_view> kQuotes[] = {
             {"\u201c", "\u201d"}, {"\u201e", "\u201c"}, {"\u2018", "\u2019"}, {"\u00ab", "\u00bb"}};
         for (const auto& [open, close] : kQuotes) {
-            const std::string_view rest = source_.substr(at_);
-            if (!rest.starts_with(open)) continue;
+            if (!source_.substr(at_).starts_with(open)) continue;
+            const std::string_view rest = source_.substr(at_, kLongestText);
             const std::size_t end = rest.find(close, open.size());
             if (end == rest.npos || end > rest.find('\n')) continue;
             at_ += end + close.size();
@@ -408,9 +408,15 @@ class Lexer {
             tokens_.push_back({TokenKind::identifier, end, {static_cast<std::uint32_t>(start), 1}});
     }
 
+    /// Words between IF or STEP and its brace, and characters of a quoted text, so that reading takes no
+    /// longer than the text is long.
+    static constexpr std::size_t kLongestHead = 200;
+    static constexpr std::size_t kLongestText = 1000;
+
     void open_brace(std::size_t start) {
         const Span span{static_cast<std::uint32_t>(start), 1};
-        for (auto token = tokens_.rbegin(); token != tokens_.rend(); ++token) {
+        std::size_t looked_at = 0;
+        for (auto token = tokens_.rbegin(); token != tokens_.rend() && ++looked_at < kLongestHead; ++token) {
             if (same_name(token->text, "IF") || same_name(token->text, "ELSIF")) {
                 tokens_.push_back({TokenKind::identifier, "THEN", span});
                 return braces_.push_back("END_IF");
@@ -462,8 +468,8 @@ class Lexer {
     std::vector<Token> tokens_;
     bool braces_refused_ = false;
     bool blanks_refused_ = false;
-    std::vector<std::string_view> braces_;   ///< open ones: the word that ends each
-    std::vector<std::string_view> refused_;  ///< words with foreign letters
+    std::vector<std::string_view> braces_;          ///< open ones: the word that ends each
+    std::unordered_set<std::string_view> refused_;  ///< words with foreign letters
 };
 
 }  // namespace
