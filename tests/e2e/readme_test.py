@@ -161,7 +161,8 @@ class Outputs(Readme):
     def test_diff_of_a_branch(self):
         before = read(EXAMPLE + ".seq")
         after = before.replace("ON Guard IN Travel, Return", "ON Guard IN Return", 1)
-        after = after.replace("IF INPOS", "IF Guard THEN HOME; NEXT := Fault; ELSIF INPOS", 1)
+        after = after.replace("IF INPOS", "IF INPOS AND NOT Guard", 1)
+        after = after.replace("ELSE", "ELSIF Guard THEN HOME; NEXT := Fault; ELSE", 1)
         self.assertEqual(self.diff(before, after), block_after(self.text, "or what is different:").split("\n")[3:])
 
     def diff(self, before, after):

@@ -138,8 +138,8 @@ TEST_F(Courses, JUnitHasATestForEachPropertyAndCheck) {
     write("p.seq", kProgram);
     EXPECT_EQ(run("verify --junit p.xml p.seq"), 1);
     const std::string xml = read("p.xml");
-    // 14 checks and 2 properties, one of them broken.
-    EXPECT_NE(xml.find("<testsuites tests=\"16\" failures=\"1\" errors=\"0\""), std::string::npos) << xml;
+    // 15 checks and 2 properties, one of them broken.
+    EXPECT_NE(xml.find("<testsuites tests=\"17\" failures=\"1\" errors=\"0\""), std::string::npos) << xml;
     EXPECT_NE(xml.find("name=\"Wrong: BETWEEN step = S AND step = Fault Lamp STAYS ON\" file=\"p.seq\">\n"
                        "      <failure message=\"after the last scan it is otherwise\" type=\"broken\">"),
               std::string::npos)

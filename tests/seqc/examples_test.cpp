@@ -47,12 +47,14 @@ TEST(Examples, PickAndPlaceWalk) {
               (std::vector<std::string>{"49=0L", "51=49152L", "65=3146", "73=81", "08", "10"}));
     EXPECT_EQ(at(0, 0x00, true).next, 1);
     EXPECT_EQ(at(0, 0x00, true).outputs, 8);
-    EXPECT_EQ(at(1, 0x01, true), (test::Scan{.next = 2, .outputs = 1, .sends = {"41"}}));
+    EXPECT_EQ(at(1, 0x01, true), (test::Scan{.next = 2, .outputs = 1, .timer = 3000, .sends = {"41"}}));
     EXPECT_EQ(at(1, 0x03, true), test::Scan{});
     EXPECT_EQ(at(2, 0x42, true), (test::Scan{.next = 5, .outputs = 0, .sends = {"65"}}));
     EXPECT_EQ(at(2, 0x40, true), (test::Scan{.next = 3, .outputs = 0, .timer = 500}));
+    EXPECT_EQ(at(2, 0x00, false), test::Scan{});
+    EXPECT_EQ(at(2, 0x00, true), (test::Scan{.next = 5, .outputs = 0, .sends = {"65"}}));  // 3 s are over
     EXPECT_EQ(at(3, 0x40, false), test::Scan{});
-    EXPECT_EQ(at(3, 0x40, true), (test::Scan{.next = 4, .outputs = 0, .sends = {"40"}}));
+    EXPECT_EQ(at(3, 0x40, true), (test::Scan{.next = 4, .outputs = 0, .timer = 3000, .sends = {"40"}}));
     EXPECT_EQ(at(3, 0x42, true), test::Scan{});  // no move starts at an open door
     EXPECT_EQ(at(4, 0x40, true), (test::Scan{.next = 1, .outputs = 8}));
     EXPECT_EQ(at(4, 0xC0, true), (test::Scan{.next = 5, .outputs = 0, .sends = {"65"}}));
@@ -83,7 +85,7 @@ TEST(Examples, IndexingTableMovesOnce) {
     EXPECT_EQ(test::scan(t, 0, 0, true, true).sends,
               (std::vector<std::string>{"49=5120L", "65=1887", "73=40", "08", "10", "62", "64", "76"}));
     EXPECT_EQ(test::scan(t, 2, 0x01, true, true).sends, (std::vector<std::string>{"40"}));
-    EXPECT_EQ(test::scan(t, 3, 0x01, true, true), test::Scan{});
+    EXPECT_EQ(test::scan(t, 3, 0x01, false, true), test::Scan{});
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ constexpr std::array kChecks = {
     Check{"V012", Severity::advice, "OrdersLast", "no order of a scan undoes another of the same scan"},
     Check{"V013", Severity::advice, "StepsSettle", "with inputs that stay, steps do not switch for ever"},
     Check{"V014", Severity::advice, "SelectedWritten", "every register that is selected is written"},
+    Check{"V015", Severity::advice, "MoveLimited", "every wait for the end of a move has a time limit"},
 };
 
 bool same_outcome(const Group& a, const Group& b) {

@@ -95,6 +95,42 @@ std::array<bool, 63> steps_without_limit(const Machine& machine, const Sensitivi
     return result;
 }
 
+/// Whether a step goes on to somewhere with INPOS alone: a way to the same step without it waits for none.
+bool waits_for_in_pos(const Machine& machine, std::uint8_t step) {
+    std::uint64_t with = 0;
+    std::uint64_t without = 0;
+    for (const Group& group : machine.groups(step, false, false)) {
+        const std::uint8_t next = group.pending.next_step;
+        if (next == sequencer::kNoSwitch || next == step) continue;
+        const ImageSet calm = group.images & ~images_with_bit(7);
+        if ((calm & images_with_bit(6)).any()) with |= std::uint64_t{1} << next;
+        if ((calm & ~images_with_bit(6)).any()) without |= std::uint64_t{1} << next;
+    }
+    return (with & ~without) != 0;
+}
+
+/// V015: a move into a step that waits for its end and for no time.
+std::vector<Finding> find_no_limit(const Subject& subject, const Sensitivity& sensitivity) {
+    const Explorer& explorer = subject.explorer;
+    const auto no_limit = steps_without_limit(explorer.machine(), sensitivity);
+    std::array<bool, 63> told{};
+    std::vector<Finding> findings;
+    for (const Explorer::Edge& edge : explorer.edges()) {
+        const std::uint8_t step = explorer.place(edge.to).step;
+        if (!no_limit[step] || told[step] || !begins_move(explorer.group_of(edge).orders) ||
+            !waits_for_in_pos(explorer.machine(), step))
+            continue;
+        auto course = subject.courses.with(edge);
+        if (!course) continue;
+        told[step] = true;
+        findings.push_back({"V015", step,
+                            fmt::format("step {} waits for the end of a move without a time limit",
+                                        step_name(subject.names, step)),
+                            std::move(*course)});
+    }
+    return findings;
+}
+
 const char* why_zero(MotorState::Speed speed) {
     return speed == MotorState::Speed::zero ? "V_SOLL is 0, or may be, by the value it is set to"
                                             : "V_SOLL is 0 from a STOP";
@@ -258,9 +294,17 @@ std::vector<Finding> find_never_written(const Subject& subject) {
 std::vector<Finding> check_motor(const Subject& subject) {
     const Sensitivity sensitivity(subject.explorer.machine());
     std::vector<Finding> findings = find_unseen_ends(subject, sensitivity);
-    for (auto& more :
-         {find_motor_stands(subject, sensitivity), find_undone(subject), find_never_written(subject)})
+    for (auto& more : {find_motor_stands(subject, sensitivity), find_undone(subject),
+                       find_never_written(subject), find_no_limit(subject, sensitivity)})
         findings.insert(findings.end(), more.begin(), more.end());
+    // Of a step whose INPOS may never come more was said.
+    std::array<bool, 63> may_wait_for_ever{};
+    for (const Finding& finding : findings) {
+        if (finding.code == "V010") may_wait_for_ever[finding.step] = true;
+    }
+    std::erase_if(findings, [&](const Finding& finding) {
+        return finding.code == "V015" && may_wait_for_ever[finding.step];
+    });
     return findings;
 }
 
