@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "syntax/names.h"
@@ -145,11 +146,25 @@ void ActionBuilder::add_by_kind(const Statement& statement) {
     }
 }
 
+void warn_named_twice(const std::vector<ast::Name>& outputs, Scope& scope) {
+    std::array<const ast::Name*, 4> first{};
+    for (const ast::Name& name : outputs) {
+        const auto bit = scope.output(name);
+        if (!bit) continue;
+        if (first.at(*bit) != nullptr)
+            scope.report()
+                .add("W008", name.span, fmt::format("'{}' is named twice here", name.text), "name it once")
+                .notes.push_back({first.at(*bit)->span, "the first time"});
+        first.at(*bit) = &name;
+    }
+}
+
 void ActionBuilder::add_switch(const Statement& statement) {
     if (statement.every_scan) {
         scope_.report().add("W006", statement.every_scan_span, "an output that is set stays on by itself",
                             "leave EVERY_SCAN out");
     }
+    warn_named_twice(statement.arguments, scope_);
     for (const ast::Name& name : statement.arguments) {
         const auto bit = scope_.output(name);
         if (!bit) continue;

@@ -52,6 +52,9 @@ std::optional<std::uint16_t> milliseconds_of(const ast::Value& value, Report& re
 /// The same of a value that has to be worked out.
 std::optional<std::uint16_t> timer_value(const ast::Value& value, Scope& scope);
 
+/// Of a list of outputs in which one is named twice.
+void warn_named_twice(const std::vector<ast::Name>& outputs, Scope& scope);
+
 /// Adds what `more` switches to what `action` does; reports an output that both switch, each its way.
 void add_switches(Action& action, const Action& more, const char* note, Report& report);
 

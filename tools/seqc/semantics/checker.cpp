@@ -300,14 +300,11 @@ class Checker {
 
     void add_outputs(const ast::Step& written, StepPlan& plan) {
         std::array<Span, 4> places{};
+        warn_named_twice(written.outputs, scope_);
+        for (const ast::Blinking& blinking : written.blinking) warn_named_twice(blinking.outputs, scope_);
         for (const ast::Name& name : written.outputs) {
             const auto bit = scope_.output(name);
             if (!bit) continue;
-            if ((plan.outputs >> *bit) & 1)
-                report_
-                    .add("W008", name.span, fmt::format("'{}' is named twice in OUT", name.text),
-                         "name it once")
-                    .notes.push_back({places.at(*bit), "the first time"});
             plan.outputs |= static_cast<std::uint8_t>(1U << *bit);
             places.at(*bit) = name.span;
         }
@@ -315,6 +312,7 @@ class Checker {
             ConditionalOutput output;
             output.when = scope_.branch_truth(conditional.condition);
             output.condition = conditional.condition.span;
+            warn_named_twice(conditional.outputs, scope_);
             for (const ast::Name& name : conditional.outputs) {
                 const auto bit = scope_.output(name);
                 if (!bit) continue;

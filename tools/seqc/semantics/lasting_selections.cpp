@@ -35,6 +35,14 @@ bool selects_place(const Send& send) {
     return select && select->mode == Mode::position && select->selection.group == Group::p;
 }
 
+/// MOVE_P7_BY_P_SOLL and its like.
+bool moves_by(const Send& send) {
+    if (send.reg != nullptr || select_command(send.command)) return false;
+    const auto number = static_cast<Number>(send.command & 0x1F);
+    return number == Number::move_p7_by_p_fnc || number == Number::move_p8_by_p_fnc ||
+           number == Number::move_p7_by_p_soll || number == Number::move_p8_by_p_soll;
+}
+
 bool runs(const Send& send) {
     const auto select = send.reg == nullptr ? select_command(send.command) : std::nullopt;
     return select && select->mode == Mode::velocity;
@@ -84,8 +92,9 @@ class SelectionWalk {
         : symbols_(symbols), source_(source), report_(report) {}
 
     void enter(SelectionState&, const StepPlan&, const Rule& rule) {
-        moves_ = std::any_of(rule.action.sends.begin(), rule.action.sends.end(),
-                             [](const Send& send) { return selects_place(send) || runs(send); });
+        moves_ = std::any_of(rule.action.sends.begin(), rule.action.sends.end(), [](const Send& send) {
+            return selects_place(send) || moves_by(send) || runs(send);
+        });
     }
 
     void apply(SelectionState& state, const Send& send) const {
@@ -104,7 +113,9 @@ class SelectionWalk {
 
     void judge(const Rule& rule, SelectionState state) {
         for (const Send& send : rule.action.sends) {
-            if (selects_place(send)) judge_move(send, state);
+            if (selects_place(send) || moves_by(send)) judge_move(rule, send, state);
+            if (runs(send) && select_command(send.command)->selection.group == Group::v)
+                judge_move(rule, send, state);
             apply(state, send);
         }
     }
@@ -120,8 +131,17 @@ class SelectionWalk {
         return index >= 0 && index < 4;
     }
 
-    void judge_move(const Send& send, const SelectionState& state) {
+    /// `VELOCITY(Fast, Soft)` selects one after the other.
+    static bool names_itself(const Rule& rule, const Send& send, Group group) {
+        return std::any_of(rule.action.sends.begin(), rule.action.sends.end(), [&](const Send& other) {
+            const auto select = other.reg == nullptr ? select_command(other.command) : std::nullopt;
+            return select && select->selection.group == group && other.span.offset == send.span.offset;
+        });
+    }
+
+    void judge_move(const Rule& rule, const Send& send, const SelectionState& state) {
         for (std::size_t i = 0; i < kGroups.size(); ++i) {
+            if (names_itself(rule, send, kGroups[i])) continue;
             const std::vector<Selected>& ways = state.selected[i];
             const auto of_move =
                 std::find_if(ways.begin(), ways.end(), [](const Selected& way) { return way.for_move; });
