@@ -123,6 +123,20 @@ void add_doors(arguments::App& app, RunOptions& options) {
         ->type_name("ADDRESS:PORT");
 }
 
+/// What happens around the gateway.
+void add_world(arguments::App& app, RunOptions& options) {
+    app.add_option("--scenario", options.scenario,
+                   "inputs, line faults and expectations, see host-sim/scenario")
+        ->type_name("S.scn");
+    app.add_option("--inputs", options.inputs,
+                   "inputs that are on from the beginning, by name or as IN0..IN5: Well,Guard")
+        ->delimiter(',')
+        ->type_name("NAMES");
+    app.add_option("--plant", options.plant,
+                   "inertia, friction and load of a real axis, as `macreg fit` writes them")
+        ->type_name("axis.toml");
+}
+
 void add_run(arguments::App& parent, RunOptions& options) {
     arguments::App& app = *parent.add_subcommand(
         "run", "Run a sequence on the simulated gateway with a virtual motor; prints a timeline");
@@ -132,12 +146,7 @@ void add_run(arguments::App& parent, RunOptions& options) {
     app.add_option("--symbols", options.symbols,
                    "names for a table (F.sym beside F.bin, as `seqc build` writes it, if it fits)")
         ->type_name("F.sym");
-    app.add_option("--scenario", options.scenario,
-                   "inputs, line faults and expectations, see host-sim/scenario")
-        ->type_name("S.scn");
-    app.add_option("--plant", options.plant,
-                   "inertia, friction and load of a real axis, as `macreg fit` writes them")
-        ->type_name("axis.toml");
+    add_world(app, options);
     add_read(app, "--for", "TIME", "end after this time (10s without a scenario; no end with --realtime)",
              "a time, such as 500ms, 5s or 2min", into(options.length, [](const std::string& text) {
                  const auto time = parse_duration(text);

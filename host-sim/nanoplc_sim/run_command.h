@@ -3,6 +3,7 @@
 #include <csignal>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "registers/family.h"
 #include "sim/serial_line.h"
@@ -15,6 +16,7 @@ struct RunOptions {
     std::string program;                 ///< empty: the table that the flash holds, or none
     std::optional<std::string> symbols;  ///< without it, F.sym beside a table if it fits
     std::optional<std::string> scenario;
+    std::vector<std::string> inputs;   ///< names of those that are on from the beginning
     std::optional<std::string> plant;  ///< file
     std::optional<std::string> csv;
     std::optional<std::string> vcd;

@@ -84,6 +84,18 @@ std::string identity(const Program& program) {
                        program.name.empty() ? "" : fmt::format("program {}, ", program.name), program.crc32);
 }
 
+/// Of --inputs.
+unsigned input_named(std::string_view name, const Program& program) {
+    std::string known;
+    for (unsigned i = 0; i < kInputs; ++i) {
+        const std::string own = program.names.input(i);
+        if (same_name(own, name) || same_name(fmt::format("IN{}", i), name)) return i;
+        known += (known.empty() ? "" : ", ") + own;
+    }
+    throw InputError(
+        fmt::format("--inputs: {} has no input '{}'; its inputs are {}", program.file, name, known));
+}
+
 std::string in_words(std::string_view direction, const LineCounters& c) {
     return fmt::format(
         "{}: {} characters, {} lost, {} damaged, {} with framing error, {} delayed, {} while cut", direction,
@@ -120,6 +132,7 @@ Session::Session(const RunOptions& options, const Program& program, const Scenar
                                      loaded.fault.term, sequencer::describe(loaded.fault.error),
                                      registers::name_of(program.names.motor)));
     }
+    for (const std::string& name : options.inputs) world_.set_input(input_named(name, program), true);
     if (options.csv) csv_.emplace(*options.csv);
     if (options.vcd) vcd_.emplace(*options.vcd, program.names, identity(program));
     if (options.junit) junit_.emplace(*options.junit);

@@ -197,6 +197,15 @@ class Run(Case):
         done = self.run_with("end at 2 s\n", "--new")  # it waits for somebody
         self.assertNotIn(waits, done.stdout)
 
+    def test_inputs_that_are_on_from_the_beginning(self):
+        # IN0 and the 500 ms of the table's step 1 lead to step 2.
+        done = self.run_with("expect IN0 and IN3 at 0 s\nexpect step = 2 at 1 s\nend at 2 s\n", "--inputs", "in0,IN3")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        done = self.run_with("IN0 := 0\nexpect step = 1 at 1 s\nend at 2 s\n", "--inputs", "IN0")
+        self.assertEqual(done.returncode, 0, "a scenario has the last word")
+        self.refused("run", self.table, "--for", "1s", "--inputs", "IN6", says="has no input 'IN6'; its inputs are IN0, ")
+        self.refused("run", self.table, "--for", "1s", "--inputs", "", says="--inputs")
+
     def test_the_earlier_end_counts(self):
         self.assertIn("ended at 300.000 ms", self.run_with("end at 2 s", "--for", "300ms").stdout.decode())
         self.assertIn("ended at 300.000 ms", self.run_with("end at 300 ms", "--for", "1s").stdout.decode())
