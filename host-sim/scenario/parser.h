@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -38,7 +39,8 @@ struct Window {
 /// Reads tokens one after the other; words are compared without regard to case.
 class Reader {
   public:
-    explicit Reader(std::string_view line) : line_(line), tokens_(tokens_of(line)) {}
+    Reader(std::string_view line, const Names& names)
+        : line_(line), tokens_(tokens_of(line)), names_(names) {}
 
     const Token& peek(std::size_t ahead = 0) const;
     const Token& next();
@@ -72,8 +74,11 @@ class Reader {
     Window window(Time from = Time{0});
 
   private:
+    std::optional<Time> named_time() const;
+
     std::string_view line_;
     std::vector<Token> tokens_;
+    const Names& names_;
     std::size_t position_ = 0;
     std::size_t time_at_ = 0;  ///< the token with which the time read last began
 };

@@ -14,7 +14,7 @@ constexpr std::size_t kLongestLine = 1'000'000;
 class LineParser {
   public:
     LineParser(std::string_view text, int line, const Names& names, Scenario& scenario)
-        : reader_(text),
+        : reader_(text, names),
           conditions_(reader_, names),
           actions_(reader_, conditions_, scenario.recipes),
           line_(line),
@@ -256,7 +256,7 @@ ParsedScenario parse_scenario(std::string_view text, const std::string& file, co
 
 ParsedActions parse_actions(std::string_view line, const Names& names) try {
     std::vector<std::string> recipes;
-    Reader reader(line);
+    Reader reader(line, names);
     ConditionParser conditions(reader, names);
     ParsedActions parsed{.actions = ActionParser(reader, conditions, recipes).actions()};
     if (!reader.at_end()) reader.fail("actions separated by commas");

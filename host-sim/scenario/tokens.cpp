@@ -180,9 +180,19 @@ double Reader::number(std::string_view what_to_write) {
     return negative ? -value : value;
 }
 
+/// A constant of the program.
+std::optional<Time> Reader::named_time() const {
+    if (peek().kind != Token::Kind::word) return std::nullopt;
+    for (const auto& [name, milliseconds] : names_.times) {
+        if (same_name(name, peek().text)) return std::chrono::milliseconds{milliseconds};
+    }
+    return std::nullopt;
+}
+
 bool Reader::starts_duration() const {
-    return peek().kind == Token::Kind::number && peek(1).kind == Token::Kind::word &&
-           to_duration(peek().number, peek(1).text).has_value();
+    const bool is_written = peek().kind == Token::Kind::number && peek(1).kind == Token::Kind::word &&
+                            to_duration(peek().number, peek(1).text).has_value();
+    return is_written || named_time().has_value();
 }
 
 Time Reader::lasting() {
@@ -205,6 +215,10 @@ Window Reader::window(Time from) {
 
 Time Reader::duration(std::string_view what_to_write) {
     time_at_ = position_;
+    if (const auto named = named_time()) {
+        next();
+        return *named;
+    }
     if (peek().kind != Token::Kind::number) fail(what_to_write);
     const double value = peek().number;
     const Token& unit = peek(1);

@@ -50,7 +50,7 @@ class Document:
                 self.files[name[1]] = block + "\n"
             elif re.match(r"PROGRAM\b", block):
                 self.examples.append(Example(block, block + "\n", 1))
-            elif re.match(r"(STEP|POWER_UP|ON|VAR_\w+|TERM)\b", block):
+            elif re.match(r"(STEP|POWER_UP|ON|GROUP|VAR_\w+|TERM)\b", block):
                 before = self.frame[:self.frame.index(MARK)].count("\n")
                 self.examples.append(Example(block, self.frame.replace(MARK, block) + "\n", before + 1))
             elif "|" in block.split("\n")[0]:

@@ -233,6 +233,14 @@ class Program(Judge):
         """ON conditions: the first branches of each choice, and a choice of their own."""
         for group in self.items("group"):
             self.groups[group.words()[1]] = self.steps_in(group.node("names"))
+        for out in self.items("group_out"):
+            lists, bits = out.nodes("names"), self.bits(out.node("outputs"))
+            named = self.steps_in(lists[0]) - (self.steps_in(lists[1]) if len(lists) > 1 else set())
+            for step in self.steps:
+                if step.name in named:
+                    step.outputs |= bits
+                    step.named_outputs |= bits
+                    self.faults |= {"E065"} if step.memory.blinking & bits else set()
         for on in reversed(self.items("on_condition")):
             words, lists = on.words(), on.nodes("names")
             only = self.steps_in(lists[0]) if "IN" in words else {s.name for s in self.steps} - {self.on_error}

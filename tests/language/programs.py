@@ -214,6 +214,11 @@ class Writer:
         self.is_timed = self.chance(0.1)
         return f"{declared}ON {self.condition(False, 1)}{only}{left_out} NEXT := {target};\n"
 
+    def group_out(self):
+        rng = self.rng
+        left_out = f" EXCEPT {rng.choice(self.names)}" if self.chance(0.3) else ""
+        return f"OUT {rng.choice(OUTPUTS)} IN {', '.join(rng.sample(self.names, 2))}{left_out};\n"
+
     def program(self):
         self.outputs = {}
         self.entries = {name: self.statements() for name in self.names if self.chance(0.25)}
@@ -229,6 +234,7 @@ class Writer:
         text += f"ON ERROR NEXT := {self.names[-1]};\n" if self.has_on_error else ""
         text += self.sequence_text() if self.sequence else ""
         text += "".join(self.on_condition() for _ in range(self.rng.choice([0, 0, 1, 2])))
+        text += self.group_out() if not self.latched and self.chance(0.3) else ""
         if not self.at_zero and self.chance(0.6):
             first = f"NEXT := {self.rng.choice(self.names)};"
             kept = f"OUT {self.rng.choice(OUTPUTS)}; " if not self.latched and self.chance(0.2) else ""

@@ -49,6 +49,14 @@ constexpr auto kClaims = std::to_array<std::string_view>({
     "PROPERTY A: WHENEVER Go THEN Air WITHIN T#1_000ms;",
     "PROPERTY A: WHENEVER Go THEN Air WITHIN 1_000 ms;",
     "PROPERTY A: WHENEVER Go THEN Air WITHIN 16#20;",
+    "PROPERTY A: WHENEVER Go THEN Air WITHIN Short;",
+    "PROPERTY A: WHENEVER Go THEN Air WITHIN Nothing;",
+    "PROPERTY A: WHENEVER Go FOR long THEN Air;",
+    "PROPERTY A: WHENEVER Go THEN Air WITHIN Many;",
+    "PROPERTY A: WHENEVER Go THEN Air WITHIN Part;",
+    "PROPERTY A: WHENEVER Go FOR None THEN Air;",
+    "PROPERTY A: WHENEVER Go THEN Air WITHIN Go;",
+    "ASSUME Go STABLE FOR Short;",
     "PROPERTY A: NEVER Heat WHILE Go FOR 0 ms;",
     "PROPERTY A: NEVER Heat WHILE Go FOR 1 ms;",
     "PROPERTY A: WHENEVER Go FOR 0 s THEN Air;",
@@ -68,6 +76,9 @@ std::string program_with(std::string_view claim) {
     return "PROGRAM P\n"
            "VAR_INPUT Go AT IN0 : BOOL; END_VAR\n"
            "VAR_OUTPUT Heat AT OUT0 : BOOL; Air AT OUT1 : BOOL; END_VAR\n"
+           "CONST Short := T#50ms; CONST Long := 2 * Short + 1 s; CONST Many := 5; CONST Part := 0.5 ms; "
+           "CONST "
+           "None := 0 ms;\n"
            "GROUP Both: Idle, Work;\n"
            "STEP Idle: OWN ERROR; OUT Heat; IF R_TRIG(Go) THEN NEXT := Work; END_IF END_STEP\n"
            "STEP Work: OWN ERROR; OUT Air; IF NOT Go THEN NEXT := Idle; END_IF END_STEP\n" +

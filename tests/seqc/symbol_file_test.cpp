@@ -117,7 +117,8 @@ TEST(SymbolFileReading, GivesBackTheExamples) {
 
 TEST(SymbolFileReading, GivesBackGroups) {
     const std::string source =
-        "PROGRAM P MOTOR MAC140; GROUP Both: S, T; GROUP Last: T; ON IN5 IN Both NEXT := U; ON IN4 IN Last "
+        "PROGRAM P MOTOR MAC140; CONST Pause := T#1s500ms; CONST Far := 3 rev; GROUP Both: S, T; GROUP Last: "
+        "T; ON IN5 IN Both NEXT := U; ON IN4 IN Last "
         "NEXT := U;\n"
         "STEP S: OWN ERROR; IF IN0 THEN NEXT := T; END_IF END_STEP STEP T: OWN ERROR; IF IN1 THEN NEXT := S; "
         "END_IF END_STEP\n"
@@ -127,6 +128,7 @@ TEST(SymbolFileReading, GivesBackGroups) {
     EXPECT_EQ(compilation.symbols.groups, groups);
     Json file = Json::parse(write_symbols(compilation, source, "p.seq"));
     EXPECT_EQ(read_symbols(file.dump()).file.symbols.groups, groups);
+    EXPECT_EQ(read_symbols(file.dump()).file.symbols.times, (std::vector<NamedTime>{{"Pause", 1500}}));
     file["groups"][1]["steps"][0] = 63;
     EXPECT_EQ(read_symbols(file.dump()).error.find("groups[1].steps[0]: this must be a whole number"), 0U);
 }

@@ -14,6 +14,7 @@ Names program_names() {
     names.machine = {"mm", 5};
     names.steps = {{0, "POWER_UP"}, {1, "Idle"}, {2, "Travel"}};
     names.groups = {{"Working", {1, 2}}};
+    names.times = {{"Pause", 250}};
     return names;
 }
 
@@ -45,6 +46,8 @@ TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
         when OUT0 rises after 300 ms IN2 := 1
         when step = Travel and not (Guard or IN4) IN2 := 1
         expect not step in working or step in Idle at 2 s
+        expect step = Idle for pause at Pause
+        once IN1 rises after Pause IN2 := 1 for pause
         once P_IST > 4096 IN2 := 1
         when P_IST = -1.5 rev +- 2 counts IN2 := 1
         when step changes log "step"
@@ -114,8 +117,8 @@ TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
     )scn",
                                         "MAC800");
     for (const Mistake& found : parsed.mistakes) ADD_FAILURE() << found.line << ": " << found.message;
-    EXPECT_EQ(parsed.scenario.expectations.size(), 27U);
-    EXPECT_EQ(parsed.scenario.when.size(), 14U);
+    EXPECT_EQ(parsed.scenario.expectations.size(), 28U);
+    EXPECT_EQ(parsed.scenario.when.size(), 15U);
     EXPECT_EQ(parsed.scenario.every.size(), 3U);
     EXPECT_EQ(parsed.scenario.follow.size(), 2U);
     EXPECT_EQ(parsed.scenario.end, Time(10s));

@@ -13,6 +13,7 @@ Names names() {
     result.inputs = {"Start", "Door", "IN2", "IN3", "IN4", "IN5"};
     result.outputs = {"Clamp", "OUT1", "OUT2", "OUT3"};
     result.groups = {{"Both", 0b110}, {"Nobody", 0}};
+    result.times = {{"Pause", 250}};
     return result;
 }
 
@@ -89,6 +90,14 @@ TEST(Property, EveryFormIsRead) {
     EXPECT_EQ(only("PROPERTY P: WHENEVER IN0 THEN IN1 WITHIN 1_500 ms;").within_ms, 1500U);
     EXPECT_EQ(only("PROPERTY P: WHENEVER IN0 THEN IN1 WITHIN TIME#1m30s;").within_ms, 90'000U);
     EXPECT_EQ(only("PROPERTY P: WHENEVER IN0 THEN IN1 WITHIN t#1h;").within_ms, 3'600'000U);
+}
+
+TEST(Property, ATimeCanHaveItsName) {
+    const Property property = only("PROPERTY P: WHENEVER IN0 THEN IN1 WITHIN pause;");
+    EXPECT_EQ(property.within_ms, 250U);
+    EXPECT_EQ(property.text, "WHENEVER IN0 THEN IN1 WITHIN 250 ms");
+    EXPECT_EQ(only("PROPERTY P: NEVER IN0 WHILE IN1 FOR Pause;").within_ms, 250U);
+    EXPECT_NE(read_properties("PROPERTY P: NEVER IN0 WHILE IN1 FOR Start;", names()).error, "");
 }
 
 TEST(Property, AssumptionsAreOfInputs) {

@@ -9,6 +9,7 @@
 #include "semantics/checker.h"
 #include "semantics/claims.h"
 #include "semantics/copies.h"
+#include "semantics/group_outputs.h"
 #include "semantics/helper_steps.h"
 #include "semantics/oversights.h"
 #include "semantics/scope.h"
@@ -221,6 +222,7 @@ Compilation compile(const Sources& sources) {
     Report checks;
     expand_sequences(program, checks);
     Scope scope(program, sources.text(), checks, result);
+    spread_outputs(program, scope);
     Plan plan = check(program, scope, checks);
     if (!plan.steps.empty() && plan.steps.front().number == 0)
         result.symbols.steps[0] = plan.steps.front().name;
@@ -231,7 +233,7 @@ Compilation compile(const Sources& sources) {
     add_copies_to_groups(result.symbols);
     const bool is_whole = syntax_sound && !checks.has_errors();
     Report claims;
-    check_claims(program, result.symbols, is_whole, claims);
+    check_claims(program, scope, is_whole, claims);
     for (const StepPlan& step : plan.steps) result.steps.push_back({step.number, step.span, step.outputs});
     result.written = written_of(program, plan, scope.initial_values());
     collect_allowances(program, plan, result);

@@ -353,9 +353,22 @@ bool PropertyParser::parse_only(Property& property) {
     return expect("BY", "behind FOLLOWED") && parse_condition(property.third);
 }
 
+const NamedTime* PropertyParser::time_named(const Token& token) const {
+    const auto found = std::find_if(names_.times.begin(), names_.times.end(), [&](const NamedTime& time) {
+        return token.kind == Token::Kind::word && same_word(time.name, token.text);
+    });
+    return found == names_.times.end() ? nullptr : &*found;
+}
+
 bool PropertyParser::parse_time(std::uint32_t& milliseconds) {
     constexpr double kLongest = 3'600'000;
     std::string_view text = token().text;
+    if (const NamedTime* named = time_named(token())) {
+        milliseconds = named->milliseconds;
+        tokens_[at_].text = spelled_.emplace_back(fmt::format("{} ms", milliseconds));
+        ++at_;
+        return true;
+    }
     if (token().kind != Token::Kind::number) return fail(fmt::format("a time is expected, not {}", shown()));
     double total = 0;
     const std::size_t prefix = time_prefix(text);

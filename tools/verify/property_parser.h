@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,7 @@ class PropertyParser {
     bool parse_only(Property& property);
     bool parse_condition_first(Property& property);
     bool parse_form(Property& property);
+    const NamedTime* time_named(const Token& token) const;
     bool parse_time(std::uint32_t& milliseconds);
     bool parse_condition(Condition& result) { return parse_operators(result, 0); }
     bool parse_operators(Condition& result, std::size_t level);
@@ -53,6 +55,7 @@ class PropertyParser {
 
     const Names& names_;
     std::vector<Token> tokens_;
+    std::deque<std::string> spelled_;  ///< what stands for names of times
     std::size_t at_ = 0;
     int depth_ = 0;
     PropertyReading reading_;

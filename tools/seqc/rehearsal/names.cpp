@@ -12,6 +12,7 @@ sim::Names names_of(const seqc::Symbols& symbols) {
     names.set_points = symbols.set_points;
     std::copy(symbols.inputs.begin(), symbols.inputs.end(), names.inputs.begin());
     std::copy(symbols.outputs.begin(), symbols.outputs.end(), names.outputs.begin());
+    for (const seqc::NamedTime& time : symbols.times) names.times[time.name] = time.milliseconds;
     for (std::size_t step = 0; step < symbols.steps.size(); ++step) {
         const auto number = static_cast<std::uint8_t>(step);
         if (!symbols.steps[step].empty()) names.steps[number] = symbols.steps[step];

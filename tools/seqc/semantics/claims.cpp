@@ -42,14 +42,16 @@ bool declares(const List& list, std::string_view text) {
 
 class ClaimCheck {
   public:
-    ClaimCheck(const ast::Program& program, const Symbols& symbols, bool is_whole, Report& report)
-        : program_(program), symbols_(symbols), is_whole_(is_whole), report_(report) {}
+    ClaimCheck(const ast::Program& program, Scope& scope, bool is_whole, Report& report)
+        : program_(program), scope_(scope), symbols_(scope.symbols()), is_whole_(is_whole), report_(report) {}
 
     void run() {
         for (const Claim& claim : program_.claims) {
             if (claim.kind == Claim::Kind::property) check_name(claim.name);
             for (const Expression& condition : claim.conditions) check_names(condition);
-            for (const ast::Value& time : claim.times) check_time(time, claim);
+            for (const ast::Value& time : claim.times) {
+                if (const auto value = scope_.worked_out(time)) check_time(*value, claim);
+            }
             check_assumed(claim);
         }
     }
@@ -188,6 +190,7 @@ class ClaimCheck {
     }
 
     const ast::Program& program_;
+    Scope& scope_;
     const Symbols& symbols_;
     bool is_whole_;
     Report& report_;
@@ -196,8 +199,8 @@ class ClaimCheck {
 
 }  // namespace
 
-void check_claims(const ast::Program& program, const Symbols& symbols, bool is_whole, Report& report) {
-    ClaimCheck(program, symbols, is_whole, report).run();
+void check_claims(const ast::Program& program, Scope& scope, bool is_whole, Report& report) {
+    ClaimCheck(program, scope, is_whole, report).run();
 }
 
 }  // namespace nplc::seqc

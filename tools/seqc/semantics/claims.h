@@ -1,13 +1,13 @@
 #pragma once
 
 #include "diagnostics/report.h"
-#include "seqc/seqc.h"
+#include "semantics/scope.h"
 #include "syntax/ast.h"
 
 namespace nplc::seqc {
 
 /// What properties and assumptions name, as `tools/verify` will look it up. `is_whole`: all steps that the
 /// compiler makes have their names.
-void check_claims(const ast::Program& program, const Symbols& symbols, bool is_whole, Report& report);
+void check_claims(const ast::Program& program, Scope& scope, bool is_whole, Report& report);
 
 }  // namespace nplc::seqc

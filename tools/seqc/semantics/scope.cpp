@@ -210,10 +210,23 @@ void Scope::declare_constants(const ast::Program& program) {
             report_.add("E011", constant.name.span, fmt::format("'{}' is a unit", constant.name.text),
                         "choose another name");
         } else if (constants_.declare(constant)) {
+            note_time(*constants_.find(constant.name.text));
             continue;
         }
         faulty_.insert(upper(constant.name.text));
     }
+}
+
+/// For properties and scenarios.
+void Scope::note_time(const ast::Constant& constant) {
+    const ast::Value& value = constant.value;
+    const bool is_seconds = same_name(value.unit.text, "s");
+    if (!value.is_time && !is_seconds && !same_name(value.unit.text, "ms")) return;
+    const double milliseconds = value.number * (is_seconds ? 1000 : 1);
+    constexpr double kLongest = 3'600'000;
+    if (milliseconds >= 0 && milliseconds <= kLongest && milliseconds == std::floor(milliseconds))
+        result_.symbols.times.push_back(
+            {std::string(constant.name.text), static_cast<std::uint32_t>(milliseconds)});
 }
 
 void Scope::declare_motor_variables(const ast::Program& program) {

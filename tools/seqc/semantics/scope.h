@@ -119,6 +119,7 @@ class Scope {
     void declare_io(const std::vector<ast::Variable>& declared, std::vector<Variable>& variables,
                     char direction, std::size_t count);
     void declare_constants(const ast::Program& program);
+    void note_time(const ast::Constant& constant);
     void declare_value_of(const ast::Variable& variable, const registers::Register& reg, std::uint32_t bits);
     void declare_motor_variables(const ast::Program& program);
     void declare_set_points(const ast::Program& program);

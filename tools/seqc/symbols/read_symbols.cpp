@@ -149,6 +149,16 @@ void read_groups(const Node& node, SymbolFile& file) {
     }
 }
 
+void read_times(const Node& node, SymbolFile& file) {
+    constexpr std::int64_t kLongest = 3'600'000;
+    Different different;
+    for (const Node& entry : node.list()) {
+        NamedTime time{entry["name"].name(), static_cast<std::uint32_t>(entry["ms"].whole(0, kLongest))};
+        different.add(entry["name"], time.name);
+        file.symbols.times.push_back(std::move(time));
+    }
+}
+
 void read_registers(const Node& node, Symbols& symbols, Different& different) {
     for (const Node& entry : node.list()) {
         MotorName named{entry["name"].name(),
@@ -247,6 +257,7 @@ SymbolFile read(const Node& root) {
     }
     read_steps(root["steps"], file);
     if (root.has("groups")) read_groups(root["groups"], file);
+    if (root.has("times")) read_times(root["times"], file);
     Different different;
     read_signals(root["inputs"], file.symbols.inputs, different);
     read_signals(root["outputs"], file.symbols.outputs, different);

@@ -122,6 +122,8 @@ std::string write_symbols(const Compilation& compilation, const Sources& sources
                      {"crc32", fmt::format("{:08X}", base::crc32(compilation.table))}};
     file["steps"] = steps_of(compilation, places, sources);
     if (!symbols.groups.empty()) file["groups"] = groups_of(symbols);
+    for (const NamedTime& time : symbols.times)
+        file["times"].push_back({{"name", time.name}, {"ms", time.milliseconds}});
     file["inputs"] = symbols.inputs;
     file["outputs"] = symbols.outputs;
     file["registers"] = registers_of(symbols);

@@ -255,6 +255,13 @@ struct Group {
     std::vector<Name> steps;  ///< and groups that stand before
 };
 
+/// OUT outputs IN steps EXCEPT steps;
+struct GroupOutput {
+    std::vector<Name> outputs;
+    std::vector<Name> only;  ///< steps and groups
+    std::vector<Name> except;
+};
+
 struct Parameter {
     enum class Kind : std::uint8_t { input, output, motor_variable, constant, step };
     Kind kind = Kind::input;
@@ -298,6 +305,7 @@ struct Program {
     std::optional<Name> on_error;
     std::vector<OnCondition> on_conditions;
     std::vector<Group> groups;
+    std::vector<GroupOutput> group_outputs;
     std::vector<Sequence> sequences;
     bool has_calls = false;  ///< CALL or RETURN
     std::optional<Step> power_up;

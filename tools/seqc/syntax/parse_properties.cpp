@@ -44,7 +44,14 @@ bool Parser::parse_before_fact() {
 
 bool Parser::parse_claimed_time() {
     ast::Value time;
-    if (!parse_literal(time)) return false;
+    const bool is_name = token().kind == TokenKind::identifier;
+    if (is_name) {
+        time.kind = ast::Value::Kind::name;
+        time.span = token().span;
+        if (!expect_name(time.name, "a time or the name of one", ast::Role::constant)) return false;
+    } else if (!parse_literal(time)) {
+        return false;
+    }
     claim_.times.push_back(std::move(time));
     return true;
 }

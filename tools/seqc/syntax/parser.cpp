@@ -74,7 +74,7 @@ void Parser::parse_item(ast::Program& program) {
     }
     if (at("SCALE")) return parse_scale(program);
     if (at("ON")) return parse_on(program);
-    if (at("GROUP")) return parse_group(program);
+    if (at("GROUP") || at_group_output()) return parse_many_steps(program);
     if (at("CONST")) return parse_constant(program);
     if (at("SET_POINT")) return parse_set_point(program);
     if (take("VAR_INPUT")) return parse_variables(program.inputs, ast::Role::input);
@@ -182,6 +182,10 @@ bool Parser::parse_names(std::vector<ast::Name>& names) {
     } while (take_symbol(",") || refuse_semicolon_between_names());
     if (in_brackets) take_symbol(")");
     return true;
+}
+
+void Parser::parse_many_steps(ast::Program& program) {
+    at("GROUP") ? parse_group(program) : parse_group_output(program);
 }
 
 void Parser::parse_group(ast::Program& program) {
@@ -452,6 +456,26 @@ bool Parser::parse_outputs(std::vector<ast::Name>& outputs) {
     return true;
 }
 
+/// OUT Lamp IN Moving; outside of the steps: what OUT of a step has no IN.
+bool Parser::at_group_output() const {
+    if (!at("OUT")) return false;
+    std::size_t ahead = 1;
+    while (token(ahead).kind == TokenKind::direct || token(ahead).text == "," ||
+           (token(ahead).kind == TokenKind::identifier && !is_reserved(token(ahead).text)))
+        ++ahead;
+    return same_name(token(ahead).text, "IN");
+}
+
+void Parser::parse_group_output(ast::Program& program) {
+    ++at_;
+    ast::GroupOutput spread;
+    if (!parse_outputs(spread.outputs) || !expect("IN", "and the steps behind the outputs") ||
+        !parse_names(spread.only) || (take("EXCEPT") && !parse_names(spread.except)))
+        return recover();
+    program.group_outputs.push_back(std::move(spread));
+    end_statement();
+}
+
 void Parser::parse_out(ast::Step& step) {
     const Token first = token();
     ++at_;
@@ -462,6 +486,11 @@ void Parser::parse_out(ast::Step& step) {
         return recover();
     }
     if (!parse_outputs(outputs)) return recover();
+    if (at("IN")) {
+        report_.add("E010", token().span, "OUT with IN stands outside of the steps",
+                    "in a step OUT Name; is what is on in it");
+        return recover();
+    }
     if (at_symbol(":=") || at_symbol("=") || at("ON") || at("TRUE") || at("FALSE")) {
         report_.add("E010", token().span, "OUT takes no value: it names what is on in the step",
                     "write OUT Name; an output that it does not name is off");

@@ -107,6 +107,9 @@ class Parser {
     void parse_power_up(ast::Program& program);
     void parse_step_body(ast::Step& step, std::string_view end_word);
     void parse_out(ast::Step& step);
+    bool at_group_output() const;
+    void parse_many_steps(ast::Program& program);
+    void parse_group_output(ast::Program& program);
     void parse_allowance(ast::Step& step);
     bool parse_outputs(std::vector<ast::Name>& outputs);
     bool parse_out_tail(const Token& first, std::vector<ast::Name> outputs, ast::Step& step);

@@ -33,6 +33,7 @@ verify::Delay order_time(std::span<const sequencer::MotorOrder> orders, bool tra
 verify::Names verify_names(const Symbols& symbols) {
     verify::Names names{symbols.steps, symbols.inputs, symbols.outputs, symbols.copy_of};
     for (const StepGroup& group : symbols.groups) names.groups.push_back({group.name, group.steps});
+    for (const NamedTime& time : symbols.times) names.times.push_back({time.name, time.milliseconds});
     return names;
 }
 

@@ -60,6 +60,7 @@ struct Names {
     std::map<std::uint8_t, std::string> steps;
     std::map<std::uint8_t, std::uint8_t> copy_of;  ///< steps that are copies: `step = Name` means them too
     std::map<std::string, std::vector<std::uint8_t>> groups;  ///< what `step in Name` means
+    std::map<std::string, std::uint32_t> times;               ///< in milliseconds
     registers::Model motor = registers::Model::mac140;
     const registers::DriveModel* drive = nullptr;  ///< of another family, in the motor's place
     std::optional<MachineUnit> machine;

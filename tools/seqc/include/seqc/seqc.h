@@ -34,6 +34,13 @@ struct StepGroup {
     bool operator==(const StepGroup&) const = default;
 };
 
+/// A constant that is a time.
+struct NamedTime {
+    std::string name;
+    std::uint32_t milliseconds = 0;
+    bool operator==(const NamedTime&) const = default;
+};
+
 /// SCALE 1 rev = 5 mm
 struct Scale {
     double revolutions = 1;
@@ -54,6 +61,7 @@ struct Symbols {
     /// Of which step it is a copy; a step's name means its copies too.
     std::array<std::optional<std::uint8_t>, 63> copy_of;
     std::vector<StepGroup> groups;
+    std::vector<NamedTime> times;
     std::array<std::string, 6> inputs;   ///< as declared, else IN0..IN5
     std::array<std::string, 4> outputs;  ///< as declared, else OUT0..OUT3
     std::vector<MotorName> motor_names;  ///< in source order

@@ -17,6 +17,11 @@ struct StepGroup {
     std::uint64_t steps = 0;  ///< a bit for each
 };
 
+struct NamedTime {
+    std::string name;
+    std::uint32_t milliseconds = 0;
+};
+
 /// What the numbers of a table are called. Steps without a name have an empty one.
 struct Names {
     std::array<std::string, 63> steps;
@@ -25,6 +30,7 @@ struct Names {
     /// Of which step it is a copy: `step = Name` means its copies too.
     std::array<std::optional<std::uint8_t>, 63> copy_of = {};
     std::vector<StepGroup> groups = {};
+    std::vector<NamedTime> times = {};
 };
 
 /// A set of images of HW_INP, one bit for each of the 256.

@@ -1,0 +1,45 @@
+#include "semantics/group_outputs.h"
+
+#include <bitset>
+
+#include "syntax/names.h"
+
+namespace nplc::seqc {
+namespace {
+
+using Steps = std::bitset<64>;
+
+/// Of groups those that stand before `limit` count; what they repeat or miss is told elsewhere.
+Steps steps_of(const std::vector<ast::Name>& names, std::size_t limit, const ast::Program& program,
+               Scope& scope) {
+    Steps steps;
+    for (const ast::Name& name : names) {
+        std::size_t group = 0;
+        while (group < limit && !same_name(program.groups[group].name.text, name.text)) ++group;
+        if (group < limit) {
+            steps |= steps_of(program.groups[group].steps, group, program, scope);
+        } else if (const auto number = scope.step(name)) {
+            steps.set(*number);
+        }
+    }
+    return steps;
+}
+
+}  // namespace
+
+void spread_outputs(ast::Program& program, Scope& scope) {
+    for (const ast::GroupOutput& spread : program.group_outputs) {
+        const std::size_t groups = program.groups.size();
+        const Steps steps =
+            steps_of(spread.only, groups, program, scope) & ~steps_of(spread.except, groups, program, scope);
+        for (std::size_t i = 0; i < scope.steps().size(); ++i) {
+            if (!steps.test(scope.number_of(i))) continue;
+            for (ast::Step& step : program.steps) {
+                if (&step == scope.steps()[i])
+                    step.outputs.insert(step.outputs.end(), spread.outputs.begin(), spread.outputs.end());
+            }
+        }
+    }
+}
+
+}  // namespace nplc::seqc
