@@ -8,6 +8,7 @@
 #include <ctime>
 
 #include "descriptor_client.h"
+#include "host/clock.h"
 #include "host/endpoint.h"
 
 namespace nplc::hal_linux {
@@ -47,8 +48,7 @@ std::optional<std::size_t> DescriptorClient::read(std::span<std::uint8_t> out, b
 }
 
 base::Instant DescriptorClient::now() const {
-    const auto since = std::chrono::steady_clock::now().time_since_epoch();
-    return base::Instant(std::chrono::duration_cast<base::Microseconds>(since));
+    return host::steady_now();
 }
 
 }  // namespace nplc::hal_linux

@@ -3,10 +3,10 @@
 #include <poll.h>
 
 #include <cerrno>
-#include <chrono>
 #include <ctime>
 
 #include "hal_linux/socket_can.h"
+#include "host/clock.h"
 #include "host/endpoint.h"
 
 namespace nplc::hal_linux {
@@ -42,10 +42,7 @@ class SocketCanClient final : public host::CanClient {
     ports::CanState state() override { return can_->state(); }
     bool gone() const override { return can_->gone(); }
 
-    base::Instant now() const override {
-        const auto since = std::chrono::steady_clock::now().time_since_epoch();
-        return base::Instant(std::chrono::duration_cast<base::Microseconds>(since));
-    }
+    base::Instant now() const override { return host::steady_now(); }
 
   private:
     void wait_readable(base::Microseconds wait) const {

@@ -2,11 +2,21 @@
 
 #include <chrono>
 
+#include "host/clock.h"
+
+namespace nplc::host {
+
+base::Instant steady_now() {
+    const auto since = std::chrono::steady_clock::now().time_since_epoch();
+    return base::Instant(std::chrono::duration_cast<base::Microseconds>(since));
+}
+
+}  // namespace nplc::host
+
 namespace nplc::hal_linux {
 
 base::Instant SteadyClock::now() {
-    const auto since = std::chrono::steady_clock::now().time_since_epoch();
-    return base::Instant(std::chrono::duration_cast<base::Microseconds>(since));
+    return host::steady_now();
 }
 
 std::uint64_t calendar_milliseconds() {

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "clients.h"
+#include "host/clock.h"
 #include "host/endpoint.h"
 
 namespace nplc::hal_windows {
@@ -22,15 +23,14 @@ std::string com_port(std::string text) {
 }
 
 }  // namespace
+}  // namespace nplc::hal_windows
+
+namespace nplc::host {
 
 base::Instant steady_now() {
     const auto since = std::chrono::steady_clock::now().time_since_epoch();
     return base::Instant(std::chrono::duration_cast<base::Microseconds>(since));
 }
-
-}  // namespace nplc::hal_windows
-
-namespace nplc::host {
 
 ByteClient::Opened ByteClient::open(const std::string& endpoint, std::uint32_t baud, Holding /*holding*/) {
     if (const std::string port = hal_windows::com_port(endpoint); !port.empty())

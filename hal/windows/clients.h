@@ -11,7 +11,4 @@ host::ByteClient::Opened open_com_client(const std::string& port, std::uint32_t 
 /// `where`: 127.0.0.1:PORT; what is not of this machine is refused.
 host::ByteClient::Opened open_tcp_client(const std::string& where);
 
-/// Of the machine, monotonic.
-base::Instant steady_now();
-
 }  // namespace nplc::hal_windows

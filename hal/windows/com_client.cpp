@@ -5,6 +5,7 @@
 
 #include "clients.h"
 #include "handle.h"
+#include "host/clock.h"
 #include "text.h"
 
 namespace nplc::hal_windows {
@@ -41,7 +42,7 @@ class ComClient final : public host::ByteClient {
         return got;
     }
 
-    base::Instant now() const override { return steady_now(); }
+    base::Instant now() const override { return host::steady_now(); }
 
   private:
     /// A read ends with the first byte, or after `wait`, in whole milliseconds.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "clients.h"
+#include "host/clock.h"
 #include "host/endpoint.h"
 #include "host/loopback.h"
 #include "text.h"
@@ -98,7 +99,7 @@ class SocketClient final : public host::ByteClient {
         return std::nullopt;
     }
 
-    base::Instant now() const override { return steady_now(); }
+    base::Instant now() const override { return host::steady_now(); }
 
   private:
     Socket socket_;

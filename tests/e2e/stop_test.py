@@ -483,6 +483,24 @@ class Door:
         self.assertEqual(len(client.socket.recv(19, socket.MSG_WAITALL)), 19)
 
 
+class Nobody(ServiceCase):
+    def test_a_port_that_takes_no_connection_is_given_up_and_said(self):
+        with socket.socket() as listener:
+            listener.bind(("127.0.0.1", 0))
+            listener.listen(0)
+            waiting = [socket.socket() for _ in range(4)]  # more than its backlog: who comes later gets no answer
+            for client in waiting:
+                client.setblocking(False)
+                client.connect_ex(listener.getsockname())
+            port = "tcp:127.0.0.1:%d" % listener.getsockname()[1]
+            done = subprocess.run([service_case.NANOCTL, "--port", port, "stop"], capture_output=True, text=True, timeout=LONG,
+                                  check=False)
+            for client in waiting:
+                client.close()
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("THE MACHINE MAY STILL BE RUNNING", done.stderr)
+
+
 class OnTcp(Door, Service):
     pass
 

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "command_line/files.h"
+#include "host/clock.h"
 #include "host/endpoint.h"
 #include "nanoctl/reconnecting.h"
 #include "nanoctl/stopping.h"
@@ -30,8 +31,9 @@ std::unique_ptr<ByteClient> open_for_stop(const Common& common) {
     const auto sleep = [](base::Microseconds time) {
         std::this_thread::sleep_for(std::chrono::microseconds(time.count()));
     };
-    base::Microseconds left = kLongestStop;
-    for (;; left -= kBetweenTries) {
+    const base::Instant end = host::steady_now() + kLongestStop;
+    for (;;) {
+        const base::Microseconds left = end - host::steady_now();
         try {
             const auto again = [&common] { return ByteClient::open(common.port, common.baud, kHolding); };
             return std::make_unique<Reconnecting>(command_line::open_port(common, kHolding), again, sleep,
