@@ -34,6 +34,8 @@ void check_relative_moves(const Plan& plan, const std::vector<Rounding>& roundin
 /// Moves that a later order of the same scan makes void.
 void check_replaced_moves(const Plan& plan, Report& report);
 
+/// It holds with INPOS only.
+bool needs_in_position(const Rule& rule);
 /// Whether the step ends by a time or a count, whatever the motor does.
 bool has_time_limit(const StepPlan& step);
 

@@ -106,6 +106,14 @@ std::optional<Selection> selection_of(std::uint8_t register_number) {
     return std::nullopt;
 }
 
+char letter_of(Group group) {
+    return kGroups[static_cast<std::size_t>(group)].letter;
+}
+
+std::string register_name(Selection selection) {
+    return fmt::format("{}{}", letter_of(selection.group), selection.index);
+}
+
 std::optional<SelectCommand> select_command(std::uint8_t command) {
     const auto decoded = protocol::fastmac::decode_command(command);
     if (decoded.mode == Mode::command) return std::nullopt;
@@ -120,9 +128,8 @@ std::uint8_t command_byte(Mode mode, Selection selection) {
 std::string describe_command(std::uint8_t command) {
     const std::optional<SelectCommand> select = select_command(command);
     if (!select) return describe_number(command & 0x1F);
-    const auto letter = kGroups[static_cast<std::size_t>(select->selection.group)].letter;
-    return fmt::format("{}({}{})", kModeNames[static_cast<std::size_t>(select->mode)].first, letter,
-                       select->selection.index);
+    return fmt::format("{}({})", kModeNames[static_cast<std::size_t>(select->mode)].first,
+                       register_name(select->selection));
 }
 
 std::string statement_text(std::string_view source, Span statement) {

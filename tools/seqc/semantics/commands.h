@@ -31,6 +31,10 @@ struct Selection {
 };
 
 std::optional<Selection> selection_of(std::uint8_t register_number);
+/// P, V, A, T, L or Z.
+char letter_of(protocol::fastmac::Group group);
+/// "V1".
+std::string register_name(Selection selection);
 
 /// A selecting command taken apart; nothing for a command-mode byte.
 struct SelectCommand {

@@ -167,15 +167,9 @@ class SelectionWalk {
         d.notes.push_back({other.span, "selected here on another way"});
     }
 
-    static char letter_of(Group group) {
-        constexpr std::string_view kLetters = "PVATLZ";
-        return kLetters.at(static_cast<std::size_t>(group));
-    }
-
     std::string name_of(Group group, const Selected& selected) const {
-        const char letter = letter_of(group);
         if (selected.index == 0) return fmt::format("'{}'", statement_text(source_, selected.span));
-        const std::string reg = fmt::format("{}{}", letter, selected.index);
+        const std::string reg = register_name({group, selected.index});
         const auto named = std::find_if(symbols_.motor_names.begin(), symbols_.motor_names.end(),
                                         [&](const MotorName& variable) { return variable.reg == reg; });
         return named == symbols_.motor_names.end() ? reg : named->name;
@@ -212,8 +206,9 @@ class InPosWalk {
 
     void enter(InPosState& state, const StepPlan& step, const Rule& rule) {
         leaves_ = leaves(step, rule);
+        waits_ = rule.condition.length != 0 && needs_in_position(rule);
         before_ = state;
-        if (!needs_in_position(rule)) return;
+        if (!waits_) return;
         state.may_move = false;
         state.seen = rule.condition;
     }
@@ -221,7 +216,7 @@ class InPosWalk {
     static void apply(InPosState& state, const Send&) { state.may_move = true; }
 
     void judge(const Rule& rule, const InPosState&) {
-        const bool waits_for_it_alone = needs_in_position(rule) && !depends_on(rule.when, kTimerZero) &&
+        const bool waits_for_it_alone = waits_ && !depends_on(rule.when, kTimerZero) &&
                                         !depends_on(rule.when, kCounterZero) && !tests_inputs(rule);
         if (before_.may_move || !leaves_ || !waits_for_it_alone || before_.seen == rule.condition) return;
         report_
@@ -231,9 +226,6 @@ class InPosWalk {
     }
 
   private:
-    static bool needs_in_position(const Rule& rule) {
-        return rule.condition.length != 0 && (rule.when & ~truth_of_bit(kInPosBit)).none();
-    }
     static bool tests_inputs(const Rule& rule) {
         for (std::size_t bit = 0; bit < 6; ++bit) {
             if (depends_on(rule.when, bit)) return true;
@@ -244,6 +236,7 @@ class InPosWalk {
     Report& report_;
     InPosState before_;
     bool leaves_ = false;
+    bool waits_ = false;
 };
 
 }  // namespace

@@ -32,11 +32,11 @@ const Send* first_limit(const Plan& plan, registers::Model model) {
     return nullptr;
 }
 
+}  // namespace
+
 bool needs_in_position(const Rule& rule) {
     return (rule.when & ~truth_of_bit(kInPosBit)).none();
 }
-
-}  // namespace
 
 bool has_time_limit(const StepPlan& step) {
     return std::any_of(step.rules.begin(), step.rules.end(), [&](const Rule& rule) {

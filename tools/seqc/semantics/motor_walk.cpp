@@ -230,9 +230,8 @@ class MotorWalk {
         std::string names;
         std::string writes;
         for (const Selection& selection : others) {
-            constexpr std::string_view kLetters = "PVATLZ";
             names += fmt::format("{}{}", names.empty() ? "" : ", ", name_of(selection));
-            writes += fmt::format("{}_SOLL := ..; ", kLetters.at(static_cast<std::size_t>(selection.group)));
+            writes += fmt::format("{}_SOLL := ..; ", letter_of(selection.group));
         }
         const std::string first = fmt::format("INIT({}); POSITION({});", names, place);
         if (state.modes == kInit || !writable) return fmt::format("select it first: {}", first);
@@ -254,9 +253,7 @@ class MotorWalk {
 
     /// As the program calls the register.
     std::string name_of(const Selection& selection) const {
-        constexpr std::string_view kLetters = "PVATLZ";
-        const std::string reg =
-            fmt::format("{}{}", kLetters.at(static_cast<std::size_t>(selection.group)), selection.index);
+        const std::string reg = register_name(selection);
         const auto named = std::find_if(symbols_.motor_names.begin(), symbols_.motor_names.end(),
                                         [&](const MotorName& variable) { return variable.reg == reg; });
         return named == symbols_.motor_names.end() ? reg : named->name;

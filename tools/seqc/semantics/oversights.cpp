@@ -101,9 +101,7 @@ class Oversights {
         for_each_send(plan_, [&](const Send& send) {
             const auto selection = selected_by(send);
             if (!selection || !set.emplace(selection->group, selection->index).second) return;
-            constexpr std::string_view kLetters = "PVATLZ";
-            const std::string reg = fmt::format(
-                "{}{}", kLetters.at(static_cast<std::size_t>(selection->group)), selection->index);
+            const std::string reg = register_name(*selection);
             report_.add("W023", send.span,
                         fmt::format("{} is selected here, and nothing gives it a value", reg),
                         fmt::format("write Name AT {0} := value; in VAR_MOTOR, or Name AT {0}; if the motor "
