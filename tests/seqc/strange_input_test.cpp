@@ -64,12 +64,12 @@ TEST(StrangeInput, TheCaretStandsUnderItsPlaceWhateverComesBefore) {
     EXPECT_NE(text.find(" 1 | (*??\xC3\xA4\t*) Q\n   |      \t   ^\n"), std::string::npos) << text;
 }
 
-TEST(StrangeInput, TenMegabytesOnOneLine) {
+TEST(StrangeInput, AMegabyteOnOneLine) {
     for (const std::string& part :
          {std::string("x"), std::string("("), std::string("STEP S: "), std::string("\xFF"),
           std::string("IF A THEN "), std::string(";"), std::string("9")}) {
         std::string source = "PROGRAM P ";
-        while (source.size() < 10'000'000) source += part;
+        while (source.size() < 1'000'000) source += part;
         EXPECT_LT(shown(source).size(), 200'000U) << part;
     }
 }

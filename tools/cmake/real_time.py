@@ -14,7 +14,7 @@ import sys
 PYTHON = {"asyncio", "pty", "select", "selectors", "socket", "socketserver", "threading", "time"}
 IMPORT = re.compile(r"^(?:import|from) (\w+)", re.MULTILINE)
 CPP = re.compile(r"<(?:thread|sys/socket\.h|poll\.h|sys/epoll\.h|pty\.h|pthread\.h|sys/un\.h)>|\bopenpty\b|\bposix_openpt\b|\bsleep_for\b"
-                 r"|\bnanosleep\b|\busleep\b|\b(?:steady|system|high_resolution)_clock::now\b|\"(?:hal_)?linux/")
+                 r"|\bnanosleep\b|\busleep\b|\b(?:steady|system|high_resolution)_clock::now\b|\bstd::clock\(|\"(?:hal_)?linux/")
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 
 
