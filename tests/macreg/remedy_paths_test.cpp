@@ -14,7 +14,7 @@
 namespace nplc::macreg {
 namespace {
 
-constexpr std::size_t kEachPair = NPLC_EACH_PAIR;  // more than one where programs are slow
+constexpr std::size_t kEachPair = NPLC_EACH_PAIR;
 
 void free_shaft(Bench& bench) {
     bench.sim.plant().load() = sim::Load{};
