@@ -39,6 +39,17 @@ bool only_reads(Kind kind) {
     transmit(now);
 }
 
+void UserPort::submit(const Request& request, std::span<const std::uint8_t> data, base::Instant now) {
+    decoder_.place(request, data);
+    begin(request, now);
+}
+
+std::span<const std::uint8_t> UserPort::take_reply() {
+    const auto reply = out_.view().subspan(sent_);
+    sent_ = out_.size;
+    return reply;
+}
+
 base::Instant UserPort::next_poll(base::Instant now) {
     base::Instant next = base::kNever;
     if (sent_ < out_.size) next = std::min(next, now + kLook);

@@ -213,6 +213,14 @@ EncodedReply encode_samples(std::span<const std::uint8_t> data) {
     return out;
 }
 
+void RequestDecoder::place(const Request& request, std::span<const std::uint8_t> data) {
+    const EncodedRequest bare = request.reg == 0 ? encode(request) : EncodedRequest{};
+    const std::span<const std::uint8_t> bytes = request.reg == 0 ? bare.view() : data;
+    std::copy(bytes.begin(), bytes.end(), bytes_.begin());
+    data_size_ = request.length;
+    count_ = 0;
+}
+
 [[gnu::noinline]] std::optional<Request> RequestDecoder::receive(std::uint8_t byte) {
     data_size_ = 0;
     const auto judge = [this](std::span<const std::uint8_t> bytes) {

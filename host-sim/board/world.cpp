@@ -80,7 +80,7 @@ void World::start_gateway(gateway::StartCause cause) {
         .watchdog = board_,
         .motor = *motor_,
         .storage = storage,
-        .user_line = &user_line_.port(),
+        .user_line = options_.user_submits ? nullptr : &user_line_.port(),
         .motor_mactalk_line = options_.motor_mactalk_wired ? &mactalk_line_.port() : nullptr,
         .set_points = &kSetPointArea};
     controller_.emplace(ports, kTableArea, table_memory_, *settings_, cause);

@@ -13,15 +13,15 @@
 #include <utility>
 #include <vector>
 
-#include "hal_linux/byte_server.h"
+#include "hal_linux/connections.h"
 #include "hal_linux/file_storage.h"
 #include "hal_linux/key_reader.h"
 #include "host/terminal.h"
 #include "input_file.h"
+#include "listener/exchange.h"
 #include "panel_door.h"
 #include "program.h"
 #include "session.h"
-#include "shared_line/shared_line.h"
 #include "sim/output_file.h"
 #include "sim_faces.h"
 
@@ -84,7 +84,6 @@ constexpr auto kRefresh = std::chrono::milliseconds{100};
 constexpr std::chrono::milliseconds kKeyWait{5};
 /// A program at the port waits for each answer.
 constexpr std::chrono::milliseconds kPortWait{1};
-constexpr std::size_t kMostClients = 32;
 
 Scenario load_scenario(const RunOptions& options, const Names& names) {
     if (!options.scenario) return {};
@@ -143,29 +142,37 @@ class Door {
   public:
     Door(const RunOptions& options, faces::Seat& operators) {
         if (!options.mactalk) return;
-        auto opened = hal_linux::ByteServer::open(*options.mactalk, {.seats = kMostClients});
-        if (!opened.server) throw InputError("--mactalk " + opened.error);
-        server_ = std::move(opened.server);
-        line_.emplace(*server_, &operators);
+        auto opened = hal_linux::Connections::open(*options.mactalk, {});
+        if (!opened.connections) throw InputError("--mactalk " + opened.error);
+        connections_ = std::move(opened.connections);
+        listener_.emplace(boards::Listener::Options{.name = connections_->name(), .operators = &operators});
+        exchange_.emplace(*connections_, *listener_);
     }
-    bool is_open() const { return line_.has_value(); }
+    bool is_open() const { return exchange_.has_value(); }
     void announce() const {
-        if (is_open()) fmt::print("mactalk: {}\n", server_->name());
+        if (is_open()) fmt::print("mactalk: {}\n", connections_->name());
     }
     /// By the wall clock: virtual time stands while this process is halted.
     void take_in(Session& session) {
         if (!is_open()) return;
-        session.user_sends(line_->to_line(now(), {session.gateway_address(), session.motor_address()}));
+        World& world = session.world();
+        if (std::exchange(starts_, world.starts()) != world.starts()) listener_->restarted();
+        listener_->set_addresses({world.gateway_address(), world.motor_address()});
+        exchange_->bring(world.controller(), now(), world.instant());
     }
     void hand_out(Session& session) {
-        if (is_open()) line_->from_line(session.user_received(), now());
+        if (is_open()) exchange_->take_back(session.world().controller(), now(), session.world().instant());
     }
 
   private:
-    static boards::SharedLine::Time now() { return Clock::now().time_since_epoch(); }
+    static base::Instant now() {
+        return base::Instant(std::chrono::duration_cast<base::Microseconds>(Clock::now().time_since_epoch()));
+    }
 
-    std::unique_ptr<hal_linux::ByteServer> server_;
-    std::optional<boards::SharedLine> line_;
+    std::unique_ptr<hal_linux::Connections> connections_;
+    std::optional<boards::Listener> listener_;
+    std::optional<boards::Exchange> exchange_;
+    std::uint64_t starts_ = 0;
 };
 
 void handle_key(Session& session, char key) {

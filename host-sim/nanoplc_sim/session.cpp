@@ -38,6 +38,7 @@ WorldOptions world_options(const RunOptions& options, const Names& names, const 
     world.old_register_codes = options.old_register_codes;
     world.gateway.debounce = std::chrono::duration_cast<base::Microseconds>(options.debounce);
     world.is_new = options.is_new;
+    world.user_submits = options.mactalk.has_value();
     if (options.keep_motor) world.gateway.on_start = gateway::OnStart::keep;
     return world;
 }

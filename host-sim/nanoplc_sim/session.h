@@ -32,15 +32,9 @@ class Session {
     Time now() const { return world_.now(); }
     std::optional<Time> length() const { return length_; }
 
-    /// The user's port, as a program that is wired to it.
-    void user_sends(std::span<const std::uint8_t> bytes) { world_.user_sends(bytes); }
-    std::vector<std::uint8_t> user_received() { return world_.user_received(); }
-    std::uint8_t gateway_address() const { return world_.gateway_address(); }
-    std::uint8_t motor_address() const { return world_.motor_address(); }
-
     /// For who counts what advance() does.
     void after_each_step(std::function<void()> look) { after_step_ = std::move(look); }
-    /// For faces, between two advance().
+    /// For faces and the user's port, between two advance().
     World& world() { return world_; }
 
     void press(unsigned input);  ///< toggles it

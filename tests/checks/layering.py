@@ -59,7 +59,7 @@ MODULES = [
         ("base", "ports", "hal_mcu", "motor", "store", "gateway", "update"),
         core=True,
     ),
-    Module("firmware/boards/shared_line", "shared_line", ("base", "protocol", "registers", "hal_linux", "seat")),
+    Module("firmware/boards/listener", "listener", ("base", "gateway", "protocol", "registers", "hal_linux", "seat")),
     Module("firmware/faces/seat", "seat", ("base",)),
     Module(
         "firmware/faces/model",

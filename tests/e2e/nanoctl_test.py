@@ -266,8 +266,11 @@ class Running(Case):
         self.ctl("verify", tables[1], "--bytes")
 
     def test_a_terminal_has_one_operator(self):
-        self.start(endpoint="pty:" + self.path("tty"))
-        upload = subprocess.Popen([NANOCTL, "--port", self.endpoint, "upload", self.big_table()], stdout=subprocess.DEVNULL)
+        gateway = self.start(endpoint="pty:" + self.path("tty"))
+        gateway.send_signal(signal.SIGSTOP)
+        self.addCleanup(gateway.send_signal, signal.SIGCONT)
+        upload = subprocess.Popen([NANOCTL, "--port", self.endpoint, "--patience", "20000", "upload", self.table],
+                                  stdout=subprocess.DEVNULL)
         self.running.append(upload)
         time.sleep(0.5)
         error = self.ctl("status", exit_code=3)["error"]

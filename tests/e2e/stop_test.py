@@ -12,6 +12,7 @@ import socket
 import stat
 import subprocess
 import sys
+import threading
 import time
 import tty
 import unittest
@@ -188,6 +189,42 @@ class Watching:
         return watcher
 
 
+class Flood:
+    """Connections that send all they can, read nothing, and come again when they were closed."""
+
+    MESSAGES = [os.urandom(4096), 40 * read_request(GATEWAY, STATUS), 40 * refused_write()]
+
+    def __init__(self, endpoint, count):
+        self.endpoint = endpoint
+        self.sockets = [None] * count
+        self.goes_on = True
+        self.thread = threading.Thread(target=self.run)
+        self.thread.start()
+
+    def run(self):
+        while self.goes_on:
+            for number, one in enumerate(self.sockets):
+                try:
+                    if one is None:
+                        one = self.sockets[number] = Client(self.endpoint).socket
+                        one.setblocking(False)
+                    one.send(self.MESSAGES[number % len(self.MESSAGES)])
+                except BlockingIOError:
+                    pass
+                except OSError:
+                    if one is not None:
+                        one.close()
+                    self.sockets[number] = None
+            time.sleep(0.001)
+
+    def end(self):
+        self.goes_on = False
+        self.thread.join()
+        for one in self.sockets:
+            if one is not None:
+                one.close()
+
+
 class Others(Watching):
     """Whatever other clients do, a stop takes effect within a second."""
 
@@ -211,6 +248,19 @@ class Others(Watching):
         for _ in range(100):
             self.client()
         self.stops()
+
+    def test_two_hundred_that_flood(self):
+        flood = Flood(self.endpoint, 200)
+        self.addCleanup(flood.end)
+        time.sleep(1)
+        for _ in range(3):
+            stopper = self.client()
+            begun = time.monotonic()
+            stopper.send(order(STOP))
+            self.assertTrue(stopper.accepted())
+            self.assertLess(time.monotonic() - begun, WITHIN)
+            stopper.close()
+        self.assertEqual(self.nanoctl("stop").returncode, 0)
 
     def test_clients_that_read_without_a_pause(self):
         watchers = [self.watch("--interval", "0") for _ in range(3)]

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "registers/mac.h"
-#include "sequencer/term.h"
 #include "sim/world.h"
+#include "tables.h"
 
 namespace nplc::sim {
 namespace {
@@ -15,40 +15,6 @@ using namespace std::chrono_literals;
 using gateway::Event;
 using gateway::RunState;
 using registers::MODE_REG;
-using sequencer::Term;
-
-constexpr std::uint8_t kVelocityV1 = 0x28;  // 001 §5.2.1.4: velocity mode, V1
-
-/// Turns for ever: writes V1 and A1, INIT(A1), then velocity mode; OUT0.
-std::vector<std::uint8_t> turning_table() {
-    const auto term = [](std::uint8_t step, std::uint8_t next) {
-        Term result;
-        result.condition = {.step = step};
-        result.fast.next_step = next;
-        result.fast.outputs = 1;
-        return result;
-    };
-    const auto write = [&](std::uint8_t reg, std::uint16_t value) {
-        Term result = term(0, 0);
-        result.is_flex = true;
-        result.flex = {.reg = reg, .longword = false, .low_word = value, .high_word = 0};
-        return result;
-    };
-    const auto sends = [](Term base, std::uint8_t command) {
-        base.fast.sends = true;
-        base.fast.command = command;
-        return base;
-    };
-    const Term terms[]{write(registers::V1, 1000), write(registers::A1, 80), sends(term(0, 1), 0x10),
-                       sends(term(1, 2), kVelocityV1)};
-    std::vector<std::uint8_t> bytes;
-    for (const Term& one : terms) {
-        const auto encoded = encode(one);
-        bytes.insert(bytes.end(), encoded.begin(), encoded.end());
-    }
-    bytes.insert(bytes.end(), {0x3F, 0, 0, 0, 0, 0, 0, 0});
-    return bytes;
-}
 
 struct StopConfirmation : testing::TestWithParam<bool> {
     StopConfirmation() : world(turning_table(), options()) {}

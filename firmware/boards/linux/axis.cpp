@@ -231,7 +231,7 @@ bool Axis::is_edge_alone(base::Instant now) const {
 
 void Axis::look_at_user(base::Instant now) {
     const auto address = [this](Setting which) { return static_cast<std::uint8_t>(setting(which)); };
-    user_.look(now, {address(Setting::gateway_address), address(Setting::motor_address)});
+    user_.look(*controller_, {address(Setting::gateway_address), address(Setting::motor_address)}, now);
 }
 
 /// After an edge the scan comes first, and its orders leave before the motor's status is read.
@@ -242,6 +242,7 @@ void Axis::poll_controller(base::Instant now) {
     look_at_user(now);
     motor_.open_line(now);
     hurries ? controller_->poll_after_edge(now) : controller_->poll(now);
+    user_.answer(*controller_, now);
 }
 
 void Axis::serve(base::Instant now) {

@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "shared_line/purpose.h"
+#include "listener/purpose.h"
 
 namespace nplc::boards {
 

@@ -61,7 +61,8 @@ std::string UserConnection::open_serial_port(const AxisConfig& config, std::uint
 ports::SerialPort* UserConnection::start() {
     readable_ = true;
     if (uart_) return &line_.emplace(uart_->uart());
-    return server_ ? &*server_ : nullptr;
+    if (server_) server_->restarted();
+    return nullptr;
 }
 
 void UserConnection::watch_server(hal_linux::EventLoop& loop, std::uint32_t mark) {
@@ -74,19 +75,31 @@ void UserConnection::watch_serial_port(hal_linux::EventLoop& loop, std::uint32_t
     if (uart_) loop.watch(uart_->uart().descriptor(), mark);
 }
 
-void UserConnection::look(base::Instant now, const SharedLine::Addresses& addresses) {
-    if (server_ && (std::exchange(readable_, false) || server_->next_turn(now) <= now))
-        server_->look(now, addresses);
+void UserConnection::look(gateway::Controller& controller, const Listener::Addresses& addresses,
+                          base::Instant now) {
+    if (server_ && (std::exchange(readable_, false) || server_->next(now) <= now))
+        server_->bring(controller, addresses, now);
     if (line_) line_->look(now, addresses.gateway);
-    tell_wrong_passwords(now);
 }
 
-void UserConnection::tell_wrong_passwords(base::Instant now) {
-    if (!server_ || server_->wrong_passwords() == told_wrong_passwords_ || now < tell_again_) return;
-    journal_.write(LogLevel::warning, fmt::format("{}: a wrong password was given, {} times since the start",
-                                                  server_->name(), server_->wrong_passwords()));
-    told_wrong_passwords_ = server_->wrong_passwords();
-    tell_again_ = now + kBetweenWarnings;
+void UserConnection::answer(gateway::Controller& controller, base::Instant now) {
+    if (!server_) return;
+    server_->take_back(controller, now);
+    tell_unwanted(now);
+}
+
+void UserConnection::tell_unwanted(base::Instant now) {
+    if (now < tell_again_) return;
+    const auto tell = [&](unsigned count, unsigned& told, const char* what) {
+        if (count == told) return;
+        journal_.write(LogLevel::warning,
+                       fmt::format("{}: {}, {} times since the start", server_->name(), what, count));
+        told = count;
+        tell_again_ = now + kBetweenWarnings;
+    };
+    tell(server_->wrong_passwords(), told_wrong_passwords_, "a wrong password was given");
+    tell(server_->turned_away(), told_turned_away_,
+         "a client that began as a browser does (HTTP or TLS) was turned away");
 }
 
 bool UserConnection::look_for_serial_port(base::Instant now) {
@@ -94,7 +107,7 @@ bool UserConnection::look_for_serial_port(base::Instant now) {
 }
 
 base::Instant UserConnection::next_look(base::Instant now) const {
-    if (server_) return server_->next_turn(now);
+    if (server_) return server_->next(now);
     return uart_ ? std::min(uart_->next_look(), line_->next_look()) : base::kNever;
 }
 

@@ -21,14 +21,16 @@ class UserConnection {
     /// `operators`: who may operate, of all clients.
     std::string open(const AxisConfig& config, std::uint32_t stored_baud, bool at_once,
                      faces::Seat& operators);
-    /// For a new controller; none where there is no port.
+    /// For a new controller: the line, or none where there is a server or no port.
     ports::SerialPort* start();
 
     void watch_server(hal_linux::EventLoop& loop, std::uint32_t mark);
     void watch_serial_port(hal_linux::EventLoop& loop, std::uint32_t mark);
     void note_readable() { readable_ = true; }
     /// Before the controller's poll.
-    void look(base::Instant now, const SharedLine::Addresses& addresses);
+    void look(gateway::Controller& controller, const Listener::Addresses& addresses, base::Instant now);
+    /// After it.
+    void answer(gateway::Controller& controller, base::Instant now);
     /// After it. True if the serial port has come back with another descriptor.
     bool look_for_serial_port(base::Instant now);
     /// When look() is wanted at the latest.
@@ -36,7 +38,7 @@ class UserConnection {
 
   private:
     std::string open_server(const AxisConfig& config, bool at_once, faces::Seat& operators);
-    void tell_wrong_passwords(base::Instant now);
+    void tell_unwanted(base::Instant now);
     std::string open_serial_port(const AxisConfig& config, std::uint32_t stored_baud);
 
     AxisJournal& journal_;
@@ -44,6 +46,7 @@ class UserConnection {
     std::optional<TimelyPort> line_;  ///< on uart_
     std::optional<UserServer> server_;
     unsigned told_wrong_passwords_ = 0;
+    unsigned told_turned_away_ = 0;
     base::Instant tell_again_{};
     bool is_terminal_ = false;
     bool readable_ = true;

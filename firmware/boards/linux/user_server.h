@@ -1,48 +1,43 @@
 #pragma once
 
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "base/time.h"
-#include "hal_linux/byte_server.h"
-#include "ports/serial.h"
-#include "shared_line/shared_line.h"
+#include "gateway/controller.h"
+#include "hal_linux/connections.h"
+#include "listener/exchange.h"
+#include "listener/listener.h"
 
 namespace nplc::boards {
 
-/// The user's port as a socket or a pseudo-terminal: for the gateway a serial line, for many clients a line
-/// of their own.
-class UserServer final : public ports::SerialPort {
+/// The user's port as a socket or a pseudo-terminal, for many clients.
+class UserServer {
   public:
-    /// With seats of its own number. Empty, or one line. `operators`: who may operate, of all clients.
-    /// `password`: empty, none is asked for.
-    std::string open(const std::string& endpoint, hal_linux::ByteServer::Settings settings,
+    /// Empty, or one line. `operators`: who may operate, of all clients. `password`: empty, none is asked
+    /// for.
+    std::string open(const std::string& endpoint, const hal_linux::ByteServer::Settings& settings,
                      faces::Seat* operators, const std::string& password);
-    const std::string& name() const { return server_->name(); }
-    int descriptor() const { return server_->descriptor(); }
-    unsigned wrong_passwords() const { return line_->wrong_passwords(); }
+    const std::string& name() const { return connections_->name(); }
+    int descriptor() const { return connections_->descriptor(); }
+    unsigned wrong_passwords() const { return listener_->wrong_passwords(); }
+    unsigned turned_away() const { return connections_->turned_away(); }
 
-    /// What has come by `now` is taken in by the next read().
-    void look(base::Instant now, const SharedLine::Addresses& addresses) {
-        now_ = now.time_since_epoch();
-        look_for_ = addresses;
+    void restarted() { listener_->restarted(); }
+    /// Before the controller's poll, where something has come or it is time.
+    void bring(gateway::Controller& controller, const Listener::Addresses& addresses, base::Instant now);
+    /// After it.
+    void take_back(gateway::Controller& controller, base::Instant now) {
+        exchange_->take_back(controller, now, now);
     }
-    base::Instant next_turn(base::Instant now) const;
-
-    std::size_t write(std::span<const std::uint8_t> bytes) override;
-    std::size_t read(std::span<ports::ReceivedByte> out) override;
-    bool transmitter_idle() override { return true; }
+    /// When bring() is wanted at the latest.
+    base::Instant next(base::Instant now) const { return exchange_->next(now); }
 
   private:
-    void take_in(const SharedLine::Addresses& addresses);
-
-    std::unique_ptr<hal_linux::ByteServer> server_;
-    std::unique_ptr<SharedLine> line_;
-    std::deque<std::uint8_t> waiting_;
-    SharedLine::Time now_{0};
-    std::optional<SharedLine::Addresses> look_for_;
+    std::unique_ptr<hal_linux::Connections> connections_;
+    std::unique_ptr<Listener> listener_;
+    std::optional<Exchange> exchange_;
 };
 
 }  // namespace nplc::boards

@@ -16,8 +16,8 @@ namespace nplc::gateway {
 /// answer to the one before. Refused messages get no answer.
 class UserPort {
   public:
-    /// `line`: null where nobody is served. `motor_line`: the motor's own MacTalk port if it is wired, for
-    /// what FlexMAC cannot carry; or null.
+    /// `line`: null where messages come decoded, by submit(), or nobody is served. `motor_line`: the motor's
+    /// own MacTalk port if it is wired, for what FlexMAC cannot carry; or null.
     UserPort(ports::SerialPort* line, ports::SerialPort* motor_line, Gateway& gateway, motor::Motor& motor,
              OwnRegisters& own, SettingsManager& settings)
         : line_(line),
@@ -32,6 +32,17 @@ class UserPort {
     void poll(base::Instant now);
     /// When it must be polled at the latest if nothing arrives on either line.
     base::Instant next_poll(base::Instant now);
+
+    /// Instead of a line's message: ends the wait for the answer to the one before. `data`: of
+    /// a write. Whether it may be is its listener's to judge, but for what a message on a line is asked too.
+    void submit(const protocol::mactalk::Request& request, std::span<const std::uint8_t> data,
+                base::Instant now);
+    /// In the place of poll(), which does nothing without a line.
+    void serve(base::Instant now) { go_on(now); }
+    /// After that: what is answered to it since the last call, encoded. One that is not served any more and
+    /// has not been answered was refused.
+    std::span<const std::uint8_t> take_reply();
+    bool is_serving() const { return serving_ != Serving::nothing; }
 
     /// For who else asks the gateway and the motor: what a client waits for here, and whether the gateway
     /// would carry a message to the motor now.

@@ -89,6 +89,9 @@ class RequestDecoder {
     std::span<const std::uint8_t, kBareRequestBytes> bare() const {
         return std::span(bytes_).first<kBareRequestBytes>();
     }
+    /// As if receive() had reported this one, which another decoder has: with its data, at most
+    /// kMaxLongWrite.
+    void place(const Request& request, std::span<const std::uint8_t> data);
     /// To be called at a framing error or an overrun. A pause is no fault: the manuals bound none.
     void abandon() { count_ = 0; }
     bool in_message() const { return count_ != 0; }

@@ -45,6 +45,7 @@ struct WorldOptions {
     std::uint32_t user_baud =
         19'200;  ///< where nothing is stored; whoever talks there has the gateway's rate
     std::vector<StoredRegister> registers{};  ///< in the drive's flash, beside what comes from the box
+    bool user_submits = false;          ///< a listener's messages (UserPort::submit) in the user line's place
     bool motor_mactalk_wired = false;   ///< the motor's own MacTalk port, to the gateway's second user port
     ports::Storage* storage = nullptr;  ///< for tables and settings; the board's own without it
     Polling polling = Polling::steadily;

@@ -1,4 +1,4 @@
-#include "shared_line/purpose.h"
+#include "listener/purpose.h"
 
 #include "registers/gateway.h"
 
