@@ -56,7 +56,11 @@ std::string set_secrets(mosquitto* session, const Options& options, const std::s
 }
 
 std::string reason_of(int code) {
-    return code == MOSQ_ERR_ERRNO ? std::strerror(errno) : ::mosquitto_strerror(code);
+    const int cause = errno;
+    if (code == MOSQ_ERR_ERRNO) return std::strerror(cause);
+    const std::string text = ::mosquitto_strerror(code);
+    const bool is_known = text != ::mosquitto_strerror(MOSQ_ERR_UNKNOWN);
+    return is_known ? text : fmt::format("{} ({}, errno {})", text, code, cause);
 }
 
 }  // namespace nplc::broker
