@@ -2,6 +2,7 @@
 // no order and executes none twice.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <cstdlib>
 
 #include "order_audit.h"
@@ -58,6 +59,10 @@ Course minute(const sim::action::SpoilLine& spoiled, sim::Polling polling) {
     return course;
 }
 
+int whole_ms(std::optional<Time> time) {
+    return static_cast<int>(time.value_or(Time{}) / 1ms);
+}
+
 void expect_no_loss(const sim::action::SpoilLine& spoiled) {
     for (const auto polling : {sim::Polling::steadily, sim::Polling::at_need}) {
         const Course course = minute(spoiled, polling);
@@ -65,6 +70,11 @@ void expect_no_loss(const sim::action::SpoilLine& spoiled) {
         EXPECT_EQ(course.counters.discarded, 0U);
         EXPECT_GT(course.arrivals, 100U);
         EXPECT_FALSE(course.was_in_position_away);
+        std::printf(
+            "%2d ms late, held back up to %2d ms: %u losses, %u moves in a minute, echo time %.1f ms\n",
+            whole_ms(spoiled.late), whole_ms(spoiled.together),
+            static_cast<unsigned>(course.counters.link_losses), static_cast<unsigned>(course.arrivals),
+            static_cast<double>(course.echo / 1us) / 1000);
     }
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <deque>
 #include <map>
 #include <random>
@@ -210,7 +211,7 @@ TEST(ListenerFlood, AStopTakesEffectWithinASecondBeside200Clients) {
         EXPECT_LT(time, 1s) << "seed " << seed;
         worst = std::max(worst, time);
     }
-    RecordProperty("worst_microseconds", static_cast<int>(worst.count()));
+    std::printf("the slowest of all stops took %.1f ms\n", static_cast<double>(worst.count()) / 1000);
 }
 
 /// 300 of them kept a stopped gateway busy for 18 s.
