@@ -46,6 +46,50 @@ TEST(Seat, IsFreeAfterSilence) {
     EXPECT_EQ(seat.take(kPlc, later + base::Milliseconds(10'000)), Verdict::granted);
 }
 
+Sitter of_user(std::uint64_t number, const char* user) {
+    return {.number = number, .name = user, .way = Way::unix_socket, .user = user};
+}
+
+TEST(Seat, IsOfAllClientsOfAUserUntilTheLastOfThemThatOperatedLeaves) {
+    Seat seat;
+    EXPECT_EQ(seat.take(of_user(1, "uid 1000"), kStart), Verdict::granted);
+    EXPECT_EQ(seat.take(of_user(2, "uid 1000"), kStart), Verdict::granted);
+    EXPECT_EQ(seat.take(of_user(3, "uid 1001"), kStart), Verdict::taken);
+    seat.leave(1);
+    EXPECT_EQ(seat.take(of_user(3, "uid 1001"), kStart), Verdict::taken);
+    seat.leave(2);
+    EXPECT_EQ(seat.take(of_user(3, "uid 1001"), kStart), Verdict::granted);
+    EXPECT_TRUE(seat.is_holder(of_user(4, "uid 1001")));
+}
+
+TEST(Seat, IsTakenOverAndBothAreTold) {
+    Seat seat;
+    EXPECT_EQ(seat.take(kPerson, kStart), Verdict::granted);
+    EXPECT_EQ(seat.take_over(kOther, kStart), Verdict::granted);
+    const auto news = seat.take_news();
+    ASSERT_TRUE(news);
+    EXPECT_EQ(news->from.name, "nanoctl");
+    EXPECT_EQ(news->by.name, "panel");
+    EXPECT_FALSE(seat.take_news());
+    EXPECT_EQ(seat.take(kPerson, kStart), Verdict::taken_over);
+    EXPECT_EQ(detail_of(Verdict::taken_over), 3);
+    EXPECT_EQ(seat.take(kPlc, kStart), Verdict::taken);
+    seat.leave(kPerson.number);
+    EXPECT_EQ(seat.holder()->name, "panel") << "who lost it does not free it";
+    EXPECT_EQ(seat.take_over(kOther, kStart), Verdict::granted) << "it has it already";
+    EXPECT_FALSE(seat.take_news());
+    seat.set_control(Control::remote);
+    EXPECT_EQ(seat.take_over(kPerson, kStart), Verdict::remote);
+}
+
+TEST(Seat, IsGivenBackByWhoHasIt) {
+    Seat seat;
+    EXPECT_EQ(seat.take(of_user(1, "uid 1000"), kStart), Verdict::granted);
+    EXPECT_FALSE(seat.give_back(of_user(2, "uid 1001")));
+    EXPECT_TRUE(seat.give_back(of_user(3, "uid 1000")));
+    EXPECT_EQ(seat.holder(), nullptr);
+}
+
 TEST(Seat, GoesByTheSideThatMayOperate) {
     Seat seat;
     seat.set_control(Control::local);

@@ -257,6 +257,9 @@ void Axis::serve(base::Instant now) {
     watch_or_wait(now);
     watch_pins(now);
     keep_permission();
+    if (const auto news = faces_.seat().take_news())
+        journal_.write(LogLevel::notice,
+                       fmt::format("operator: {} took over from {}", news->by.name, news->from.name));
     reporter_.report(*controller_, motor_, faces_.seat().holder(), now);
     if (controller_->reset_asked() && !store_.is_busy()) reset(now);
 }

@@ -164,6 +164,8 @@ void AxisLoop::look_at_control(const gateway::Controller& controller) {
         control = is_on ? Control::remote : Control::local;
     }
     seat_.set_control(control);
+    const std::uint32_t force_time = controller.registers().settings().get(store::Setting::force_timeout);
+    seat_.set_silence(settings_.seat_silence.value_or(base::Milliseconds(force_time)));
     seat_.look(wall_);
 }
 

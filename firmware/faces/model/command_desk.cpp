@@ -30,7 +30,10 @@ std::unique_ptr<CommandDesk::Client> CommandDesk::join(Side side, std::string na
         Place& place = *places_[i];
         if (place.number != 0) continue;
         const std::uint64_t number = Seat::new_number();
-        place.sitter = {number, side, std::move(name)};
+        place.sitter = {.number = number,
+                        .side = side,
+                        .name = std::move(name),
+                        .way = side == Side::person ? Way::panel : Way::plant};
         place.bell = &bell;
         place.has_left = false;
         place.open = 0;

@@ -14,7 +14,7 @@ namespace nplc::faces {
 struct LoopSettings {
     /// Between two reads of the motor for faces, one register each; 0: it is never read.
     base::Microseconds motor_period{100'000};
-    base::Microseconds seat_silence = Seat::kSilence;
+    std::optional<base::Microseconds> seat_silence{};  ///< not given: the force time
     Control control = Control::any;
     /// Or: input 0..5, on is remote, off is local.
     std::optional<std::uint8_t> remote_input{};
@@ -25,7 +25,7 @@ struct LoopSettings {
 class AxisLoop {
   public:
     AxisLoop(AxisModel& model, const LoopSettings& settings)
-        : model_(model), settings_(settings), seat_(settings.seat_silence), reader_(settings.motor_period) {}
+        : model_(model), settings_(settings), reader_(settings.motor_period) {}
 
     /// After every poll of the controller. `now` is its time, `wall` that of the clock that faces read; on a
     /// board they are the same. `driver`: the controller's motor, where there are drives that tell more of

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "base/time.h"
 
@@ -18,23 +20,44 @@ enum class Side : std::uint8_t {
 /// From which side the axis may be operated.
 enum class Control : std::uint8_t { any, local, remote };
 
-/// Who sits: `number` is another one for every client of every face and port of an axis.
+/// By which way a client comes; as register OPERATOR reads.
+enum class Way : std::uint8_t {
+    unknown = 0,
+    unix_socket = 1,  ///< its `peer` is the user's number
+    tcp = 2,          ///< its `peer` is the IPv4 address, its first number in bits 31..24
+    terminal = 3,
+    serial_line = 4,
+    panel = 5,
+    plant = 6,
+};
+
+/// Who sits: `number` is another one for every client of every face and port of an axis. All clients of one
+/// `user` are one operator; empty: it is one by itself.
 struct Sitter {
     std::uint64_t number = 0;
     Side side = Side::person;
     std::string name{};
+    Way way = Way::unknown;
+    std::uint32_t peer = 0;
+    std::string user{};
 };
 
 /// Only one client at a time operates an axis; all may watch, and stop, safe and hold ask nobody. The seat
-/// is taken by the first operating command, or by taking it, and is free again when its client leaves or has
-/// not operated for `silence`. Belongs to the axis's loop; what others see of it is in AxisImage.
+/// is taken by the first operating command, or by taking it, and is free again when its client leaves (of a
+/// user's clients the last one that has operated), gives it back, or has not operated for `silence`; another
+/// client may take it over. Belongs to the axis's loop; what others see of it is in AxisImage.
 class Seat {
   public:
     enum class Verdict : std::uint8_t {
         granted,
-        taken,   ///< another client has it
-        local,   ///< only persons may operate now
-        remote,  ///< only the plant may
+        taken,       ///< another client has it
+        local,       ///< only persons may operate now
+        remote,      ///< only the plant may
+        taken_over,  ///< another client has it, which took it over from this one
+    };
+    struct TakeOver {
+        Sitter from;
+        Sitter by;
     };
 
     explicit Seat(base::Microseconds silence = kSilence) : silence_(silence) {}
@@ -42,15 +65,24 @@ class Seat {
 
     /// May this client operate now? Granted, it has the seat, for `silence` anew.
     Verdict take(const Sitter& client, base::Instant now);
-    /// The client has left, or gives the seat up.
+    /// The same, whoever has it.
+    Verdict take_over(const Sitter& client, base::Instant now);
+    /// The client has left.
     void leave(std::uint64_t client);
+    /// The client gives the seat up, for all clients of its user. False: it has not got it.
+    bool give_back(const Sitter& client);
+    /// For who reports it, since the last call.
+    std::optional<TakeOver> take_news() { return std::exchange(news_, std::nullopt); }
     /// Frees the seat of who has been silent for too long, or is on the wrong side by now.
     void look(base::Instant now);
 
+    void set_silence(base::Microseconds silence) { silence_ = silence; }
     void set_control(Control control) { control_ = control; }
     Control control() const { return control_; }
     /// Null: the seat is free.
     const Sitter* holder() const { return holder_ ? &*holder_ : nullptr; }
+    bool is_holder(const Sitter& client) const { return holder_ && is_same(*holder_, client); }
+    bool was_ousted(const Sitter& client) const { return ousted_ && is_same(*ousted_, client); }
     /// When look() has something to do.
     base::Instant ends() const { return holder_ ? since_ + silence_ : base::kNever; }
 
@@ -58,11 +90,17 @@ class Seat {
     static std::uint64_t new_number();
 
   private:
+    static bool is_same(const Sitter& a, const Sitter& b);
+    void sit(const Sitter& client, base::Instant now);
+    void free();
     std::optional<Verdict> wrong_side(Side side) const;
 
     base::Microseconds silence_;
     Control control_ = Control::any;
     std::optional<Sitter> holder_;
+    std::vector<std::uint64_t> sitting_;  ///< numbers of its user's clients that have operated
+    std::optional<Sitter> ousted_;        ///< by holder_
+    std::optional<TakeOver> news_;
     base::Instant since_{};
 };
 
