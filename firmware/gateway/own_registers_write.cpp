@@ -102,8 +102,7 @@ Progress OwnRegisters::write(std::uint8_t reg, std::span<const std::uint8_t> byt
 
 Progress OwnRegisters::write_value(std::uint8_t reg, std::uint32_t value, base::Instant now) {
     const auto is_known = [](std::uint8_t number) {
-        return (number >= IDENTITY && number <= PASSWORD_STATE) ||
-               (number >= STATUS && number <= STOP_SINCE) ||
+        return (number >= IDENTITY && number <= STOP_SINCE) ||
                (number >= UPLOAD_STATE && number < PROOF + kProofWords) ||
                (number >= FIRED_SCAN && number <= (kHasSetPoints ? SET_POINT_DATA : FIRED_KEY)) ||
                (number >= FIRED && number < LOG + 2 * kLogEntries) ||

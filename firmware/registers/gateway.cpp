@@ -27,6 +27,16 @@ constexpr std::array kMap{
     Row{PASSWORD_STATE, 1, "PASSWORD_STATE", kRead,
         "0: this port asks for no password; 1: it does, and this client has not given it; 2: it has"},
     Row{PASSWORD, 1, "PASSWORD", Access::write, "the port's password, 8 to 128 bytes, see Password below"},
+    Row{OPERATOR, 1, "OPERATOR", kRead,
+        "who operates, see Operator below: bits 7..0 by which way it came, 0 nobody; bit 8: it is you; bit "
+        "9: "
+        "it took over from you"},
+    Row{OPERATOR_PEER, 1, "OPERATOR_PEER", kRead,
+        "the number of its user on a Unix socket, its IPv4 address on TCP, else 0"},
+    Row{OPERATOR_LEFT, 1, "OPERATOR_LEFT", kRead,
+        "s until it operates no more unless it does something; 0: nobody does"},
+    Row{OPERATE, 1, "OPERATE", Access::write,
+        "1 operate if nobody else does, 2 take it over, 3 give it back"},
     Row{STATUS, 1, "STATUS", kRead, "see Status below"},
     Row{SAFE_REASON, 1, "SAFE_REASON", kRead, "why the outputs are safe, see Reasons below; 0: they are not"},
     Row{SAFE_SINCE, 1, "SAFE_SINCE", kRead, "UPTIME at which the reason came"},

@@ -1,5 +1,7 @@
 #include "hal_linux/connections.h"
 
+#include <arpa/inet.h>
+#include <netinet/in.h>
 #include <poll.h>
 #include <sys/epoll.h>
 #include <sys/socket.h>
@@ -40,6 +42,10 @@ class SocketConnections final : public Connections {
     }
 
     bool lacks_room() const override { return lacks_room_; }
+    Peer peer(Id id) const override {
+        const auto client = clients_.find(id);
+        return client == clients_.end() ? Peer{} : peer_of(client->second.socket.get());
+    }
 
     std::vector<Id> with_news() override {
         std::array<epoll_event, 512> events;
@@ -98,6 +104,18 @@ class SocketConnections final : public Connections {
         std::uint32_t watched = EPOLLIN | EPOLLRDHUP;
     };
 
+    Peer peer_of(int socket) const {
+        if (!is_tcp_) {
+            ucred user{};
+            socklen_t size = sizeof user;
+            if (::getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &user, &size) != 0) return {};
+            return {Peer::Kind::user, user.uid, 0};
+        }
+        sockaddr_in address{};
+        socklen_t size = sizeof address;
+        if (::getpeername(socket, reinterpret_cast<sockaddr*>(&address), &size) != 0) return {};
+        return {Peer::Kind::address, ntohl(address.sin_addr.s_addr), ntohs(address.sin_port)};
+    }
     static short hang_up(const FileDescriptor& socket) {
         pollfd state{.fd = socket.get(), .events = POLLRDHUP, .revents = 0};
         return ::poll(&state, 1, 0) == 1 ? state.revents : short{0};
@@ -145,6 +163,7 @@ class TerminalConnections final : public Connections {
         is_there_ = true;
         return ++last_;
     }
+    Peer peer(Id) const override { return {}; }
     std::vector<Id> with_news() override { return is_there_ ? std::vector{last_} : std::vector<Id>{}; }
     Got read(Id client, std::span<std::uint8_t> out) override {
         if (!is_there_ || client != last_) return {0, State::gone};

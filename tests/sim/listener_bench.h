@@ -64,8 +64,8 @@ inline Bytes bytes_of(const Frame& frame) {
 struct ListenerTest : testing::Test {
     explicit ListenerTest(Listener::Options options = {.name = "clients"}) : listener(std::move(options)) {
         listener.set_addresses({kGateway, kMotor});
-        listener.connected(client(0), now);
-        listener.connected(client(1), now);
+        listener.connected(client(0), {}, now);
+        listener.connected(client(1), {}, now);
         listener.looked(now);
     }
 

@@ -52,6 +52,7 @@ class VirtualSockets final : public Connections {
         accepted_.push_back(id);
         return id;
     }
+    Peer peer(Id) const override { return {}; }
     std::vector<Id> with_news() override {
         std::vector<Id> news;
         for (const Id id : accepted_) {

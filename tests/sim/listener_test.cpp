@@ -142,7 +142,7 @@ TEST_F(ListenerTest, AStopIsTakenHoweverMuchItsClientSentBefore) {
 TEST_F(ListenerTest, HoldsOfClientsThatComeAndGoAreCarriedOutOnce) {
     constexpr Listener::Id kFirst = 1000;
     for (Listener::Id i = 0; i < 300; ++i) {
-        listener.connected(kFirst + i, now);
+        listener.connected(kFirst + i, {}, now);
         give(kFirst + i, order(kHold));
         listener.gone(kFirst + i, now);
     }
@@ -386,6 +386,92 @@ TEST_F(SeatedListenerTest, TheSeatIsFreeWhenItsClientHasLeft) {
     EXPECT_EQ(seat.holder(), nullptr);
 }
 
+/// OPERATOR is 12, _PEER 13, _LEFT 14, OPERATE 15 (REGISTERS.md): 1 takes, 2 takes over, 3 gives back.
+struct OperatingListenerTest : SeatedListenerTest {
+    static constexpr Listener::Id kMine = 11;
+    static constexpr Listener::Id kAlsoMine = 12;
+    static constexpr Listener::Id kOthers = 13;
+
+    OperatingListenerTest() {
+        for (const auto& [id, uid] : {std::pair{kMine, 1000U}, {kAlsoMine, 1000U}, {kOthers, 1001U}}) {
+            const std::string user = "uid " + std::to_string(uid);
+            listener.connected(
+                id, {.name = user + " at clients", .way = faces::Way::unix_socket, .peer = uid, .user = user},
+                now);
+        }
+    }
+    static Bytes operate_write(std::uint32_t what) {
+        return bytes(mactalk::encode(
+            {.kind = Kind::write, .address = kGateway, .reg = 15, .length = 4, .value = what}));
+    }
+    /// What a client hears to a message that is not for the gateway.
+    Bytes told(Listener::Id who, const Bytes& message) {
+        send(who, message);
+        EXPECT_EQ(handed(), Bytes());
+        return heard(who);
+    }
+    /// The same of one that is.
+    void is_carried_out(Listener::Id who, const Bytes& message) {
+        send(who, message);
+        EXPECT_EQ(handed(), message);
+        answer(kAccept);
+        EXPECT_EQ(heard(who), kAccept);
+    }
+};
+
+TEST_F(OperatingListenerTest, AUsersClientsAreOneOperatorAndOthersAreToldWho) {
+    EXPECT_EQ(told(kOthers, read_of(12)), reply_of(12)) << "nobody";
+    is_carried_out(kMine, order(kRun));
+    is_carried_out(kAlsoMine, write_of(50));
+    EXPECT_EQ(told(kOthers, write_of(50)), Bytes()) << "a foreign client just gets no accept";
+    EXPECT_EQ(told(kOthers, read_of(31)), seat_taken(50));
+    EXPECT_EQ(told(kOthers, read_of(12)), reply_of(12, {1, 0, 0, 0}));
+    EXPECT_EQ(told(kOthers, read_of(13)), reply_of(13, {0xE8, 0x03, 0, 0})) << "1000";
+    EXPECT_EQ(told(kAlsoMine, read_of(12)), reply_of(12, {1, 1, 0, 0})) << "it is you";
+    now += 3s;
+    EXPECT_EQ(told(kOthers, read_of(14)), reply_of(14, {7, 0, 0, 0})) << "of 10";
+    now += 7s;
+    EXPECT_EQ(told(kOthers, read_of(12)), reply_of(12)) << "it was silent for too long";
+}
+
+TEST_F(OperatingListenerTest, TheLeaseEndsWithItsLastConnection) {
+    is_carried_out(kMine, order(kRun));
+    is_carried_out(kAlsoMine, order(kRun));
+    listener.gone(kMine, now);
+    EXPECT_EQ(told(kOthers, order(kRun)), Bytes());
+    listener.gone(kAlsoMine, now);
+    is_carried_out(kOthers, order(kRun));
+}
+
+TEST_F(OperatingListenerTest, ItIsGivenBackAndTakenOver) {
+    EXPECT_EQ(told(kMine, operate_write(1)), kAccept);
+    EXPECT_EQ(told(kOthers, operate_write(1)), Bytes());
+    EXPECT_EQ(told(kOthers, operate_write(3)), Bytes()) << "it is not its own";
+    EXPECT_EQ(told(kOthers, operate_write(2)), kAccept);
+    EXPECT_EQ(told(kMine, order(kRun)), Bytes());
+    EXPECT_EQ(told(kMine, read_of(31)), seat_taken(48, 3)) << "taken over";
+    EXPECT_EQ(told(kMine, read_of(12)), reply_of(12, {1, 2, 0, 0}));
+    EXPECT_EQ(told(kOthers, operate_write(3)), kAccept);
+    is_carried_out(kMine, order(kRun));
+    EXPECT_EQ(told(kMine, operate_write(9)), Bytes());
+    EXPECT_EQ(told(kMine, read_of(31)), reply_of(31, {4, 15, 0, 0})) << "bad_value";
+}
+
+/// FORCE_IN is 49, FORCE_OUT 50.
+TEST_F(OperatingListenerTest, EverybodyWatchesStopsAndEndsForces) {
+    is_carried_out(kMine, order(kRun));
+    is_carried_out(kOthers, read_of(16));
+    for (const std::uint8_t reg : {std::uint8_t{49}, std::uint8_t{50}}) {
+        const auto force = [reg](std::uint32_t value) {
+            return bytes(mactalk::encode(
+                {.kind = Kind::write, .address = kGateway, .reg = reg, .length = 4, .value = value}));
+        };
+        is_carried_out(kOthers, force(0));
+        EXPECT_EQ(told(kOthers, force(0x0101)), Bytes());
+    }
+    for (const std::uint32_t stop : {kStop, kSafe, kHold}) is_carried_out(kOthers, order(stop));
+}
+
 TEST_F(SeatedListenerTest, PersonsWaitWhileThePlantOperates) {
     const faces::Sitter plc{faces::Seat::new_number(), faces::Side::plant, "PLC"};
     EXPECT_EQ(seat.take(plc, now), faces::Seat::Verdict::granted);
@@ -473,7 +559,7 @@ struct CrowdedListenerTest : ListenerTest {
     }
     /// Who goes for a newcomer; 0: nobody.
     Listener::Id come(Listener::Id who) {
-        listener.connected(who, now);
+        listener.connected(who, {}, now);
         const auto dropped = listener.take_dropped();
         EXPECT_LE(dropped.size(), 1U);
         return dropped.empty() ? 0 : dropped.front();

@@ -1,6 +1,7 @@
 // Who comes to a listener, who goes for that, and what they send.
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "listener/listener.h"
 #include "listener/results.h"
@@ -20,11 +21,12 @@ constexpr base::Microseconds kLongestUntaken{1'000'000};
 
 }  // namespace
 
-void Listener::connected(Id client, base::Instant now) {
+void Listener::connected(Id client, faces::Sitter who, base::Instant now) {
     if (clients_.size() >= options_.places) make_room(now);
     Client& newcomer = clients_[client];
     newcomer.id = client;
-    newcomer.sitter = faces::Seat::new_number();
+    newcomer.sitter = std::move(who);
+    newcomer.sitter.number = faces::Seat::new_number();
     newcomer.came = now;
 }
 

@@ -1,5 +1,7 @@
 #include "listener/exchange.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -18,6 +20,29 @@ constexpr base::Microseconds kSilenceAfterSamples{20'000};
 constexpr std::size_t kMostNewcomers = 64;  ///< at once
 constexpr int kMostAtOnce = 64;             ///< messages that are answered at once
 
+/// All of a user's clients are one operator; what comes over TCP or a terminal is one by itself.
+faces::Sitter sitter_of(const Connections::Peer& peer, const std::string& port) {
+    faces::Sitter who;
+    who.peer = peer.number;
+    switch (peer.kind) {
+        case Connections::Peer::Kind::user:
+            who.way = faces::Way::unix_socket;
+            who.user = fmt::format("uid {}", peer.number);
+            who.name = fmt::format("{} at {}", who.user, port);
+            return who;
+        case Connections::Peer::Kind::address:
+            who.way = faces::Way::tcp;
+            who.name = fmt::format("{}.{}.{}.{}:{} at {}", peer.number >> 24, peer.number >> 16 & 0xFF,
+                                   peer.number >> 8 & 0xFF, peer.number & 0xFF, peer.port, port);
+            return who;
+        case Connections::Peer::Kind::terminal:
+            break;
+    }
+    who.way = faces::Way::terminal;
+    who.name = "client of " + port;
+    return who;
+}
+
 }  // namespace
 
 /// A newcomer's first message is heard before the next one comes, who may take its place.
@@ -30,7 +55,7 @@ void Exchange::look(base::Instant now) {
             newcomer = connections_.accept();
         }
         if (!newcomer) break;
-        listener_.connected(*newcomer, now);
+        listener_.connected(*newcomer, sitter_of(connections_.peer(*newcomer), connections_.name()), now);
         hear(*newcomer, now);
         close_dropped();
     }

@@ -46,7 +46,7 @@ void Listener::gone(Id client, base::Instant now) {
 }
 
 void Listener::forget(Clients::iterator client) {
-    if (options_.operators != nullptr) options_.operators->leave(client->second.sitter);
+    if (options_.operators != nullptr) options_.operators->leave(client->second.sitter.number);
     clients_.erase(client);
 }
 
@@ -59,7 +59,7 @@ void Listener::left(Id client) {
     const auto found = clients_.find(client);
     if (found == clients_.end()) return;
     found->second.has_left = true;
-    if (options_.operators != nullptr) options_.operators->leave(found->second.sitter);
+    if (options_.operators != nullptr) options_.operators->leave(found->second.sitter.number);
 }
 
 void Listener::looked(base::Instant now) {
@@ -209,33 +209,43 @@ void Listener::restarted() {
     for (auto& [id, client] : clients_) client.result.reset();
 }
 
-/// Why it is not carried out, as RESULT reads then.
-std::optional<std::uint32_t> Listener::refusal(const Client& client, const Frame& frame, base::Instant now) {
+/// Why it is not carried out, whoever operates, as RESULT reads then.
+std::optional<std::uint32_t> Listener::refusal_for_anybody(const Client& client, const Frame& frame,
+                                                           base::Instant now) const {
     const std::uint8_t reg = frame.message.reg;
     if (frame.needs_seat && !options_.password.empty() && !client.has_password)
         return result_word(gw::Result::no_password, reg);
     if (now - frame.since > kLongestUnread || client.has_left) return result_word(gw::Result::too_late, reg);
+    return std::nullopt;
+}
+
+std::optional<std::uint32_t> Listener::refusal(const Client& client, const Frame& frame, base::Instant now) {
+    if (const auto refused = refusal_for_anybody(client, frame, now)) return refused;
     if (!frame.needs_seat || options_.operators == nullptr) return std::nullopt;
-    const auto verdict =
-        options_.operators->take({client.sitter, faces::Side::person, "client of " + options_.name}, now);
+    const auto verdict = options_.operators->take(client.sitter, now);
     if (verdict == faces::Seat::Verdict::granted) return std::nullopt;
-    return result_word(gw::Result::seat_taken, reg, faces::detail_of(verdict));
+    return result_word(gw::Result::seat_taken, frame.message.reg, faces::detail_of(verdict));
 }
 
 /// True: the gateway has nothing to do with it.
 bool Listener::is_dealt_with(Client& client, const Frame& frame, base::Instant now) {
     const mactalk::Request& message = frame.message;
+    if (is_about_operating(client, frame, now)) return true;
     if (frame.purpose == Purpose::operates) {
         client.result = refusal(client, frame, now);
         if (client.result) return true;
     } else if (client.result && message.kind == mactalk::Kind::read && message.reg == gw::RESULT &&
                message.address == addresses_.gateway) {
-        std::array<std::uint8_t, mactalk::kReadBytes> result{};
-        base::store_u32(result.data(), *client.result);
-        owe(client.id, mactalk::encode_registers(gw::RESULT, result).view(), now);
+        tell(client, gw::RESULT, *client.result, now);
         return true;
     }
     return !is_for_somebody(message.address);
+}
+
+void Listener::tell(Client& client, std::uint8_t reg, std::uint32_t value, base::Instant now) {
+    std::array<std::uint8_t, mactalk::kReadBytes> bytes{};
+    base::store_u32(bytes.data(), value);
+    owe(client.id, mactalk::encode_registers(reg, bytes).view(), now);
 }
 
 bool Listener::is_for_somebody(std::uint8_t address) const {

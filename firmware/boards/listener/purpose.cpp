@@ -24,9 +24,9 @@ Purpose purpose_of(const protocol::mactalk::Request& request, std::uint8_t gatew
 }
 
 bool needs_seat(const protocol::mactalk::Request& request, std::uint8_t gateway_address) {
-    const bool prepares =
-        request.kind == Kind::write && request.address == gateway_address && gw::only_prepares(request.reg);
-    return !prepares && purpose_of(request, gateway_address) == Purpose::operates;
+    const bool is_free = request.kind == Kind::write && request.address == gateway_address &&
+                         gw::is_for_everybody(request.reg, request.value);
+    return !is_free && purpose_of(request, gateway_address) == Purpose::operates;
 }
 
 }  // namespace nplc::boards

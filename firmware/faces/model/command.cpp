@@ -64,7 +64,7 @@ bool Command::is_stop() const {
 bool Command::operates() const {
     switch (kind) {
         case Kind::write_own:
-            return !is_stop() && !gw::only_prepares(reg);
+            return !is_stop() && !(size == 0 && gw::is_for_everybody(reg, value));
         case Kind::write_motor:
         case Kind::reset_error:
         case Kind::take_seat:

@@ -34,6 +34,10 @@ enum Number : std::uint8_t {
     STORE_FLAGS = 9,
     PASSWORD_STATE = 10,
     PASSWORD = 11,
+    OPERATOR = 12,
+    OPERATOR_PEER = 13,
+    OPERATOR_LEFT = 14,
+    OPERATE = 15,
 
     STATUS = 16,
     SAFE_REASON = 17,
@@ -130,6 +134,11 @@ inline constexpr std::size_t kMostPassword = 128;
 /// Where a write changes nothing but what a later command or read goes by: it needs no operator's seat.
 constexpr bool only_prepares(std::uint8_t reg) {
     return reg == UPLOAD_BYTES || reg == TABLE_POINTER || reg == SET_POINT_POINTER;
+}
+
+/// What everybody may write, whoever operates: what only prepares, and the end of forces.
+constexpr bool is_for_everybody(std::uint8_t reg, std::uint32_t value) {
+    return only_prepares(reg) || ((reg == FORCE_IN || reg == FORCE_OUT) && value == 0);
 }
 
 /// What follows the end term of a table that is uploaded with a certificate: this, then its SHA-256.

@@ -441,6 +441,26 @@ enum class PasswordState : std::uint8_t {
     given = 2,
 };
 
+/// Bits of OPERATOR.
+enum OperatorBit : std::uint32_t {
+    kOperatorWay = 0xFFU,          ///< an OperatorWay
+    kOperatorIsYou = 1U << 8,      ///< this client, or another one of its user
+    kOperatorOustedYou = 1U << 9,  ///< it took the seat over from this client
+};
+/// By which way the operator came; what OPERATOR_PEER is then.
+enum class OperatorWay : std::uint8_t {
+    nobody = 0,
+    unix_socket = 1,  ///< the user's number
+    tcp = 2,          ///< the IPv4 address, its first number in bits 31..24
+    terminal = 3,
+    serial_line = 4,
+    panel = 5,
+    plant = 6,
+    other = 7,
+};
+/// What OPERATE is written.
+enum class Operating : std::uint8_t { take = 1, take_over = 2, give_back = 3 };
+
 /// Bits of STATUS.
 enum StatusBit : std::uint32_t {
     kRunState = 7U << 0,  ///< a RunState

@@ -33,6 +33,13 @@ class Connections {
         hears,  ///< it has closed its sending end
         gone,   ///< its connection is closed: its Id is nobody's
     };
+    /// As far as the system tells.
+    struct Peer {
+        enum class Kind : std::uint8_t { user, address, terminal };
+        Kind kind = Kind::terminal;
+        std::uint32_t number = 0;  ///< the user's; an IPv4 address, its first number in bits 31..24
+        std::uint16_t port = 0;    ///< of an address
+    };
     struct Got {
         std::size_t count = 0;
         State state = State::open;
@@ -47,6 +54,7 @@ class Connections {
     /// descriptor left for.
     virtual std::optional<Id> accept() = 0;
     virtual bool lacks_room() const { return false; }
+    virtual Peer peer(Id client) const = 0;
     /// Those of whom something is to be read, or who have gone, or who can be written to again. Those who are
     /// not listened to, too: each time.
     virtual std::vector<Id> with_news() = 0;

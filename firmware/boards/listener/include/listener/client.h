@@ -11,6 +11,7 @@
 #include "base/time.h"
 #include "listener/purpose.h"
 #include "protocol/mactalk.h"
+#include "seat/seat.h"
 
 namespace nplc::boards {
 
@@ -54,8 +55,7 @@ struct Client {
     static constexpr std::size_t kMostOwed = 4096;
 
     std::uint64_t id = 0;
-    std::string name{};        ///< for whom it keeps from operating
-    std::uint64_t sitter = 0;  ///< its number among the axis's clients
+    faces::Sitter sitter{};  ///< among the axis's clients
     base::Instant came{};
     protocol::mactalk::RequestDecoder decoder{};
     Allowance allowance{};

@@ -40,7 +40,7 @@ class Listener {
     static constexpr base::Microseconds kAllowed{10'000};
 
     struct Options {
-        std::string name;                   ///< of the port, for those who are kept from operating
+        std::string name;                   ///< of the port
         faces::Seat* operators = nullptr;   ///< who may operate, of all clients of the axis; null: everybody
         std::string password = {};          ///< empty: none is asked for
         std::size_t places = kMostClients;  ///< for so many clients at once
@@ -58,7 +58,8 @@ class Listener {
     // What happens at the sockets, whose clients are given in any order; looked() comes after all of them.
 
     void set_addresses(const Addresses& addresses) { addresses_ = addresses; }
-    void connected(Id client, base::Instant now);
+    /// `who`: all but its number.
+    void connected(Id client, faces::Sitter who, base::Instant now);
     /// How much of what a client sent may be read now.
     std::size_t readable(Id client, base::Instant now) const;
     /// `is_all`: nothing more is there to be read.
@@ -124,6 +125,12 @@ class Listener {
     const Frame* begin_stop();
     bool take_too_late(Client& client, const Frame& frame);
     std::optional<std::uint32_t> refusal(const Client& client, const Frame& frame, base::Instant now);
+    std::optional<std::uint32_t> refusal_for_anybody(const Client& client, const Frame& frame,
+                                                     base::Instant now) const;
+    bool is_about_operating(Client& client, const Frame& frame, base::Instant now);
+    std::uint32_t operate(Client& client, const Frame& frame, base::Instant now);
+    std::uint32_t shown_operator(const Client& client, std::uint8_t reg, base::Instant now) const;
+    void tell(Client& client, std::uint8_t reg, std::uint32_t value, base::Instant now);
     bool is_dealt_with(Client& client, const Frame& frame, base::Instant now);
     bool is_for_somebody(std::uint8_t address) const;
 
