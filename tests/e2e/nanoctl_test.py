@@ -8,6 +8,7 @@ import json
 import os
 import shutil
 import signal
+import socket
 import stat
 import subprocess
 import sys
@@ -22,6 +23,12 @@ from program_case import ProgramCase
 
 NANOCTL = SIM = SEQC = SHUTTLE = MACREG = ""
 LONG = 60  # timeout in seconds of what must come
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
 
 
 class Case(ProgramCase):
@@ -275,6 +282,45 @@ class Running(Case):
         time.sleep(0.5)
         error = self.ctl("status", exit_code=3)["error"]
         self.assertIn(f"nanoctl (process {upload.pid}) holds this port", error)
+
+
+class Operating(Case):
+    """One operates; over TCP each connection is one by itself."""
+
+    def test_others_are_told_who_operates_and_may_take_it_over(self):
+        self.start(endpoint=f"tcp:127.0.0.1:{free_port()}")
+        self.ctl("upload", self.table)
+        holder = subprocess.Popen([NANOCTL, "--port", self.endpoint, "operate", "--take"], stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, text=True)
+        self.running.append(holder)
+        self.assertIn("you operate", holder.stdout.readline())
+        error = self.ctl("run", exit_code=1)["error"]
+        self.assertIn("127.0.0.1 over TCP operates", error)
+        self.assertIn("nanoctl operate --take", error)
+        self.assertIn("127.0.0.1 over TCP", self.ctl("operate")["operator"])
+        self.ctl("operate", "--release", exit_code=1)
+        self.ctl("stop")
+        self.ctl("force")
+        taker = subprocess.Popen([NANOCTL, "--port", self.endpoint, "operate", "--take"], stdout=subprocess.PIPE, text=True)
+        self.running.append(taker)
+        self.assertIn("taken over from 127.0.0.1 over TCP", taker.stdout.readline())
+        self.assertEqual(holder.wait(LONG), 1)
+        self.assertIn("127.0.0.1 over TCP has taken over", holder.stderr.read())
+        taker.send_signal(signal.SIGTERM)
+        self.assertEqual(taker.wait(LONG), 0)
+        self.ctl("run")
+
+    def test_a_users_clients_on_a_socket_are_one_operator(self):
+        self.start()
+        self.ctl("upload", self.table)
+        holder = subprocess.Popen([NANOCTL, "--port", self.endpoint, "operate", "--take"], stdout=subprocess.PIPE, text=True)
+        self.running.append(holder)
+        holder.stdout.readline()
+        self.ctl("run")
+        self.assertIn(f"uid {os.getuid()}", self.ctl("operate")["operator"])
+        holder.send_signal(signal.SIGTERM)
+        self.assertEqual(holder.wait(LONG), 0)
+        self.assertEqual(self.ctl("operate")["operator"], "nobody")
 
 
 class Talking(Case):

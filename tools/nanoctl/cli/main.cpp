@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
     add_transfers(app, common);
     add_controls(app, common);
     add_stepping(app, common);
+    add_operating(app, common);
     add_status(app, common);
     add_break(app, common);
     add_force(app, common);

@@ -68,8 +68,8 @@ void stop_work(Common& common, const std::function<void(Session&)>& what);
 
 /// `add_transfers`: upload, verify, download. `add_controls`: run, stop, safe, hold, activate, reset.
 /// `add_set_points`: set-points, recipe. `add_stepping`: step, scan. `add_status`: status, watch.
-/// `add_firmware`: firmware.
-command_line::Subcommand<Common> add_break, add_controls, add_firmware, add_force, add_log, add_set_points,
-    add_settings, add_status, add_stepping, add_transfers;
+/// `add_firmware`: firmware. `add_operating`: operate.
+command_line::Subcommand<Common> add_break, add_controls, add_firmware, add_force, add_log, add_operating,
+    add_set_points, add_settings, add_status, add_stepping, add_transfers;
 
 }  // namespace nplc::nanoctl::cli

@@ -85,7 +85,7 @@ class GatewayClient {
 
   private:
     std::optional<LastResult> try_last_result();
-    [[noreturn]] static void refuse(const LastResult& last, const std::string& what, const std::string& why);
+    [[noreturn]] void refuse(const LastResult& last, const std::string& what, const std::string& why);
     [[noreturn]] void lost(const std::string& what) const;
     void command_once(gw::Command command, base::Microseconds more_patience);
 
