@@ -15,7 +15,7 @@ ByteServer::Opened ByteServer::open(const std::string& endpoint, const Settings&
             case host::Endpoint::Kind::unix_socket:
                 return open_unix_server(line.place, settings);
             case host::Endpoint::Kind::tcp:
-                return open_tcp_server(line.place, settings.seats);
+                return open_tcp_server(line.place);
             case host::Endpoint::Kind::device:
             case host::Endpoint::Kind::can:
                 break;

@@ -42,14 +42,12 @@ class PtyServer final : public ByteServer {
         return poll(&state, 1, 0) == 0 || (state.revents & POLLHUP) == 0;
     }
 
-    bool has_left(std::size_t /*seat*/) override { return !has_client(); }
-
-    std::size_t read_seat(std::size_t /*seat*/, std::span<std::uint8_t> out) override {
+    std::size_t read(std::span<std::uint8_t> out) override {
         const ssize_t count = ::read(master_.get(), out.data(), out.size());
         return count > 0 ? static_cast<std::size_t>(count) : 0;
     }
 
-    void write_seat(std::size_t /*seat*/, std::span<const std::uint8_t> bytes) override {
+    void write(std::span<const std::uint8_t> bytes) override {
         if (!has_client()) return;
         [[maybe_unused]] const ssize_t taken = ::write(master_.get(), bytes.data(), bytes.size());
     }

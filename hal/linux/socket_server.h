@@ -8,6 +8,6 @@ namespace nplc::hal_linux {
 
 ByteServer::Opened open_unix_server(const std::string& path, const ByteServer::Settings& settings);
 /// `where`: ADDRESS:PORT
-ByteServer::Opened open_tcp_server(const std::string& where, std::size_t seats);
+ByteServer::Opened open_tcp_server(const std::string& where);
 
 }  // namespace nplc::hal_linux

@@ -1,13 +1,10 @@
 #include "hal_linux/byte_server.h"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/un.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -17,6 +14,8 @@
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "clients.h"
 
 namespace nplc::hal_linux {
 namespace {
@@ -42,23 +41,6 @@ class ByteServerTest : public ::testing::Test {
     fs::path folder_;
 };
 
-/// Waits for what is on its way inside the kernel.
-bool readable(int descriptor) {
-    pollfd state{.fd = descriptor, .events = POLLIN, .revents = 0};
-    return ::poll(&state, 1, 5000) == 1;
-}
-
-std::string read_from(int descriptor) {
-    std::array<char, 100> buffer{};
-    if (!readable(descriptor)) return "nothing came";
-    const ssize_t count = ::read(descriptor, buffer.data(), buffer.size());
-    return count > 0 ? std::string(buffer.data(), static_cast<std::size_t>(count)) : std::string();
-}
-
-void write_to(int descriptor, const std::string& text) {
-    ASSERT_EQ(::write(descriptor, text.data(), text.size()), static_cast<ssize_t>(text.size()));
-}
-
 void send_to(ByteServer& server, const std::string& text) {
     server.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
@@ -68,25 +50,6 @@ std::string received(ByteServer& server) {
     if (!readable(server.descriptor())) return "nothing came";
     const std::size_t count = server.read(buffer);
     return {buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(count)};
-}
-
-int connect_unix(const std::string& path) {
-    const int client = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    path.copy(address.sun_path, sizeof address.sun_path - 1);
-    EXPECT_EQ(::connect(client, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-    return client;
-}
-
-int connect_tcp(const std::string& name) {
-    const int client = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(std::stoi(name.substr(name.rfind(':') + 1))));
-    ::inet_pton(AF_INET, "127.0.0.1", &address.sin_addr);
-    EXPECT_EQ(::connect(client, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-    return client;
 }
 
 // 0Ah, 0Dh, 11h, 13h, 03h and 04h are what a terminal that is not raw would change or swallow.
@@ -324,75 +287,6 @@ TEST_F(ByteServerTest, WhatIsNoEndpointIsNamed) {
     EXPECT_NE(ByteServer::open("unix:" + std::string(200, 'x')).error, "");
 }
 
-TEST_F(ByteServerTest, SeveralSeatsHaveAClientEach) {
-    auto opened = ByteServer::open("unix:" + path("socket"), {.seats = 2});
-    ASSERT_EQ(opened.error, "");
-    ByteServer& server = *opened.server;
-    EXPECT_EQ(server.seats(), 2U);
-    const int first = connect_unix(path("socket"));
-    EXPECT_TRUE(server.has_client());
-    const int second = connect_unix(path("socket"));
-    EXPECT_TRUE(server.has_client());
-    write_to(second, "two");
-    std::array<std::uint8_t, 10> buffer{};
-    EXPECT_EQ(server.read_seat(0, buffer), 0U);
-    EXPECT_EQ(server.read_seat(1, buffer), 3U);
-    constexpr std::array<std::uint8_t, 1> kAnswer{'x'};
-    server.write_seat(1, kAnswer);
-    EXPECT_EQ(read_from(second), "x");
-    EXPECT_FALSE(server.has_left(0));
-    ::close(first);
-    EXPECT_TRUE(server.has_left(0));
-    const int next = connect_unix(path("socket"));
-    EXPECT_TRUE(server.has_client());
-    server.write_seat(0, kAnswer);
-    EXPECT_EQ(read_from(next), "x") << "in the seat that became free";
-    for (const int client : {second, next}) ::close(client);
-}
-
-TEST_F(ByteServerTest, ANewcomerTakesTheSeatOfWhomNobodyHeardForTheLongestTime) {
-    auto opened = ByteServer::open("unix:" + path("socket"), {.seats = 3});
-    ASSERT_EQ(opened.error, "");
-    ByteServer& server = *opened.server;
-    std::vector<int> clients;
-    const auto come = [&] {
-        clients.push_back(connect_unix(path("socket")));
-        EXPECT_TRUE(server.has_client());
-    };
-    for (int i = 0; i < 3; ++i) come();
-    server.note_message(0);
-    server.note_message(2);
-    come();
-    EXPECT_EQ(read_from(clients[1]), "") << "it never sent a message";
-    EXPECT_EQ(server.visit(1), 4U);
-    server.note_message(1);
-    come();
-    EXPECT_EQ(read_from(clients[0]), "") << "its message is the longest ago";
-    EXPECT_EQ(server.visit(0), 5U);
-    for (const int client : clients) ::close(client);
-}
-
-TEST_F(ByteServerTest, WhatAClientSentIsReadBeforeItLosesItsSeat) {
-    auto opened = ByteServer::open("unix:" + path("socket"), {.seats = 2});
-    ASSERT_EQ(opened.error, "");
-    ByteServer& server = *opened.server;
-    const int first = connect_unix(path("socket"));
-    const int second = connect_unix(path("socket"));
-    EXPECT_TRUE(server.has_client());
-    write_to(first, "one");
-    write_to(second, "two");
-    const int third = connect_unix(path("socket"));
-    EXPECT_TRUE(server.has_client());
-    EXPECT_EQ(server.visit(0), 1U) << "the newcomer waits";
-    std::array<std::uint8_t, 10> buffer{};
-    EXPECT_EQ(server.read_seat(0, buffer), 3U);
-    EXPECT_EQ(server.visit(0), 1U);
-    EXPECT_TRUE(server.has_client());
-    EXPECT_EQ(server.visit(0), 3U);
-    EXPECT_EQ(server.read_seat(1, buffer), 3U);
-    for (const int client : {first, second, third}) ::close(client);
-}
-
 TEST_F(ByteServerTest, ASocketIsItsOwnersAndItsGroupsUnlessItsSettingsSayElse) {
     const ::mode_t before = ::umask(0);
     const auto mode_of = [&] { return fs::status(path("socket")).permissions(); };
@@ -440,23 +334,6 @@ TEST_F(ByteServerTest, WhatADeviceIsSentFirstIsReadFromTcp) {
         ::close(client);
         EXPECT_EQ(received(*server), "");
     }
-}
-
-TEST_F(ByteServerTest, EachClientOfASocketHasAVisitOfItsOwn) {
-    const auto server = open("unix:" + path("line"));
-    EXPECT_EQ(server->visit(0), 0U);
-    const int first = connect_unix(path("line"));
-    const auto visit = server->visit(0);
-    EXPECT_NE(visit, 0U);
-    EXPECT_EQ(server->visit(0), visit);
-    ::close(first);
-    std::array<std::uint8_t, 1> none{};
-    EXPECT_EQ(server->read(none), 0U);
-    EXPECT_EQ(server->visit(0), 0U);
-    const int second = connect_unix(path("line"));
-    EXPECT_NE(server->visit(0), 0U);
-    EXPECT_NE(server->visit(0), visit);
-    ::close(second);
 }
 
 }  // namespace
