@@ -28,9 +28,8 @@ constexpr std::array kMap{
         "0: this port asks for no password; 1: it does, and this client has not given it; 2: it has"},
     Row{PASSWORD, 1, "PASSWORD", Access::write, "the port's password, 8 to 128 bytes, see Password below"},
     Row{OPERATOR, 1, "OPERATOR", kRead,
-        "who operates, see Operator below: bits 7..0 by which way it came, 0 nobody; bit 8: it is you; bit "
-        "9: "
-        "it took over from you"},
+        "who operates, see Operator below: bits 7..0 by which way it came, 0 nobody; bit 8: it is "
+        "you; bit 9: it took over from you"},
     Row{OPERATOR_PEER, 1, "OPERATOR_PEER", kRead,
         "the number of its user on a Unix socket, its IPv4 address on TCP, else 0"},
     Row{OPERATOR_LEFT, 1, "OPERATOR_LEFT", kRead,

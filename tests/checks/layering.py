@@ -60,7 +60,7 @@ MODULES = [
         core=True,
     ),
     Module("firmware/boards/listener", "listener", ("base", "gateway", "protocol", "registers", "hal_linux", "seat")),
-    Module("firmware/faces/seat", "seat", ("base",)),
+    Module("firmware/faces/seat", "seat", ("base", "registers")),
     Module(
         "firmware/faces/model",
         "faces",

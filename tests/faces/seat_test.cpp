@@ -47,7 +47,8 @@ TEST(Seat, IsFreeAfterSilence) {
 }
 
 Sitter of_user(std::uint64_t number, const char* user) {
-    return {.number = number, .name = user, .way = Way::unix_socket, .user = user};
+    return {
+        .number = number, .name = user, .way = registers::gateway::OperatorWay::unix_socket, .user = user};
 }
 
 TEST(Seat, IsOfAllClientsOfAUserUntilTheLastOfThemThatOperatedLeaves) {

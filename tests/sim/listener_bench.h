@@ -89,9 +89,9 @@ struct ListenerTest : testing::Test {
     }
     void refuse(std::uint32_t why, std::uint32_t reg) { listener.ended(why | reg << 8); }
     Bytes heard(std::size_t which) {
-        const auto owed = listener.owed(client(which));
-        const Bytes all(owed.begin(), owed.end());
-        listener.took(client(which), all.size(), now);
+        const auto unsent = listener.unsent(client(which));
+        const Bytes all(unsent.begin(), unsent.end());
+        listener.sent(client(which), all.size(), now);
         return all;
     }
 

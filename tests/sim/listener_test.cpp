@@ -107,7 +107,7 @@ TEST_F(ListenerTest, AReadThatItsClientHasNotWaitedForIsDropped) {
 }
 
 TEST_F(ListenerTest, WhoDoesNotReadIsNotAnsweredMore) {
-    for (std::size_t owed = 0; owed < Client::kMuchOwed; owed += reply_of(16).size()) {
+    for (std::size_t unsent = 0; unsent < Client::kMuchUnsent; unsent += reply_of(16).size()) {
         send(0, read_of(16));
         EXPECT_EQ(handed(), read_of(16));
         answer(reply_of(16));
@@ -395,9 +395,12 @@ struct OperatingListenerTest : SeatedListenerTest {
     OperatingListenerTest() {
         for (const auto& [id, uid] : {std::pair{kMine, 1000U}, {kAlsoMine, 1000U}, {kOthers, 1001U}}) {
             const std::string user = "uid " + std::to_string(uid);
-            listener.connected(
-                id, {.name = user + " at clients", .way = faces::Way::unix_socket, .peer = uid, .user = user},
-                now);
+            listener.connected(id,
+                               {.name = user + " at clients",
+                                .way = registers::gateway::OperatorWay::unix_socket,
+                                .peer = uid,
+                                .user = user},
+                               now);
         }
     }
     static Bytes operate_write(std::uint32_t what) {
@@ -616,8 +619,8 @@ TEST_F(CrowdedListenerTest, WhoWaitsForTheAnswerOfAStopStays) {
     EXPECT_EQ(come(16), 14U);
     EXPECT_EQ(handed(), order(kStop));
     answer(kAccept);
-    const auto owed = listener.owed(12);
-    EXPECT_EQ(Bytes(owed.begin(), owed.end()), kAccept);
+    const auto unsent = listener.unsent(12);
+    EXPECT_EQ(Bytes(unsent.begin(), unsent.end()), kAccept);
 }
 
 }  // namespace

@@ -18,7 +18,6 @@ constexpr base::Milliseconds kBusyPause{50};
 constexpr unsigned kBusyTries = 100;
 constexpr base::Milliseconds kStartPause{200};
 constexpr unsigned kStartLooks = 5;
-constexpr std::uint16_t kTakenOver = 3;  ///< detail of seat_taken
 
 /// What to do where it depends on the command.
 std::string reason(gw::Command command, gw::Result result) {
@@ -67,8 +66,8 @@ GatewayClient::LastResult GatewayClient::last_result() {
 }
 
 void GatewayClient::refuse(const LastResult& last, const std::string& what, const std::string& why) {
-    const bool is_others =
-        last.result == gw::Result::seat_taken && (last.detail == 0 || last.detail == kTakenOver);
+    const bool is_others = last.result == gw::Result::seat_taken &&
+                           (last.detail == gw::kSeatOfAnother || last.detail == gw::kSeatTakenOver);
     throw Refused(last.result, last.reg, last.detail,
                   fmt::format("{}: {}", what, is_others ? why_seat_is_taken(*this) : why));
 }

@@ -8,7 +8,7 @@ Operator read_operator(GatewayClient& gateway) {
     const std::uint32_t word = gateway.read(gw::OPERATOR);
     return {.way = static_cast<gw::OperatorWay>(word & gw::kOperatorWay),
             .is_you = (word & gw::kOperatorIsYou) != 0,
-            .ousted_you = (word & gw::kOperatorOustedYou) != 0,
+            .took_from_you = (word & gw::kOperatorTookFromYou) != 0,
             .peer = gateway.read(gw::OPERATOR_PEER),
             .seconds_left = gateway.read(gw::OPERATOR_LEFT)};
 }
@@ -41,7 +41,7 @@ std::string why_seat_is_taken(GatewayClient& gateway) {
     const Operator who = read_operator(gateway);
     if (who.way == gw::OperatorWay::nobody) return std::string(gw::describe(gw::Result::seat_taken));
     return fmt::format("{} {}, for {} s more unless it goes on; `nanoctl operate --take` takes it over",
-                       in_words(who), who.ousted_you ? "has taken over" : "operates", who.seconds_left);
+                       in_words(who), who.took_from_you ? "has taken over" : "operates", who.seconds_left);
 }
 
 }  // namespace nplc::nanoctl

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMostWaiting = 16;        ///< messages of one client
 constexpr std::size_t kMostBeforeFirst = 1024;  ///< bytes that are no message
-constexpr base::Microseconds kLongestUntaken{1'000'000};
+constexpr base::Microseconds kLongestUnsent{1'000'000};
 
 }  // namespace
 
@@ -42,7 +42,7 @@ void Listener::make_room(base::Instant now) {
 /// The lower, the sooner it goes.
 int Listener::rank(const Client& client, base::Instant now) const {
     if (waits_for_stop(client.id)) return 4;
-    const bool is_deaf = client.owed_since && now - *client.owed_since >= kLongestUntaken;
+    const bool is_deaf = client.unsent_since && now - *client.unsent_since >= kLongestUnsent;
     if (client.allowance.floods(now) || is_deaf) return 0;
     const bool is_new = now - client.came < kFirstMessage && client.before_first < kMostBeforeFirst;
     if (client.heard == 0) return is_new ? 3 : 1;
@@ -127,7 +127,7 @@ bool Listener::is_about_password(Client& client, const mactalk::Request& message
     if (message.address != addresses_.gateway) return false;
     if (message.kind == mactalk::Kind::read && message.reg == gw::PASSWORD_STATE) {
         const std::uint8_t state[4]{static_cast<std::uint8_t>(client.has_password ? given : wanted)};
-        owe(client.id, mactalk::encode_registers(gw::PASSWORD_STATE, state).view(), now);
+        queue(client.id, mactalk::encode_registers(gw::PASSWORD_STATE, state).view(), now);
         return true;
     }
     if (message.kind != mactalk::Kind::write || message.reg != gw::PASSWORD) return false;
@@ -141,7 +141,7 @@ void Listener::take_password(Client& client, base::Instant now) {
     text.erase(std::min(text.find_last_not_of('\0') + 1, text.size()));
     client.has_password = faces::same_secret(text, options_.password);
     client.result.reset();
-    if (client.has_password) return owe(client.id, mactalk::encode_accept().view(), now);
+    if (client.has_password) return queue(client.id, mactalk::encode_accept().view(), now);
     client.result = result_word(gw::Result::no_password, gw::PASSWORD);
     ++wrong_passwords_;
 }

@@ -12,6 +12,7 @@ namespace nplc::boards {
 
 namespace mactalk = protocol::mactalk;
 using hal_linux::Connections;
+using registers::gateway::OperatorWay;
 
 namespace {
 
@@ -26,19 +27,19 @@ faces::Sitter sitter_of(const Connections::Peer& peer, const std::string& port) 
     who.peer = peer.number;
     switch (peer.kind) {
         case Connections::Peer::Kind::user:
-            who.way = faces::Way::unix_socket;
+            who.way = OperatorWay::unix_socket;
             who.user = fmt::format("uid {}", peer.number);
             who.name = fmt::format("{} at {}", who.user, port);
             return who;
         case Connections::Peer::Kind::address:
-            who.way = faces::Way::tcp;
+            who.way = OperatorWay::tcp;
             who.name = fmt::format("{}.{}.{}.{}:{} at {}", peer.number >> 24, peer.number >> 16 & 0xFF,
                                    peer.number >> 8 & 0xFF, peer.number & 0xFF, peer.port, port);
             return who;
         case Connections::Peer::Kind::terminal:
             break;
     }
-    who.way = faces::Way::terminal;
+    who.way = OperatorWay::terminal;
     who.name = "client of " + port;
     return who;
 }
@@ -99,7 +100,7 @@ void Exchange::expect(const mactalk::Request& message) {
 void Exchange::take_back(gateway::Controller& controller, base::Instant now, base::Instant controllers_now) {
     controller.user_port().serve(controllers_now);
     if (listener_.awaits_answer()) collect(controller, now, controllers_now);
-    pay(now);
+    send_unsent(now);
 }
 
 void Exchange::collect(gateway::Controller& controller, base::Instant now, base::Instant controllers_now) {
@@ -120,14 +121,14 @@ bool Exchange::has_ended(const gateway::UserPort& port, base::Instant now) {
     return is_whole_ || !port.is_serving() || (last_sample_ && now - *last_sample_ >= kSilenceAfterSamples);
 }
 
-void Exchange::pay(base::Instant now) {
-    for (const Listener::Id client : listener_.creditors()) {
-        const auto taken = connections_.write(client, listener_.owed(client));
+void Exchange::send_unsent(base::Instant now) {
+    for (const Listener::Id client : listener_.with_unsent()) {
+        const auto taken = connections_.write(client, listener_.unsent(client));
         if (taken)
-            listener_.took(client, *taken, now);
+            listener_.sent(client, *taken, now);
         else
             listener_.gone(client, now);
-        connections_.wait_to_write(client, !listener_.owed(client).empty());
+        connections_.wait_to_write(client, !listener_.unsent(client).empty());
     }
     close_dropped();
 }

@@ -25,7 +25,7 @@ bool is_hold(const Frame& frame) {
 }
 
 bool can_ask(const Client& client) {
-    return !client.frames.empty() && client.owed.size() < Client::kMuchOwed;
+    return !client.frames.empty() && client.unsent.size() < Client::kMuchUnsent;
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ void Listener::looked(base::Instant now) {
 }
 
 bool Listener::is_done_with(const Client& client) const {
-    if (!client.has_left || client.has_more || !client.frames.empty() || !client.owed.empty() ||
+    if (!client.has_left || client.has_more || !client.frames.empty() || !client.unsent.empty() ||
         waits_for_stop(client.id))
         return false;
     return !asked_ ||
@@ -89,37 +89,37 @@ base::Instant Listener::next_look(base::Instant now) const {
     return next;
 }
 
-std::span<const std::uint8_t> Listener::owed(Id client) const {
+std::span<const std::uint8_t> Listener::unsent(Id client) const {
     const auto found = clients_.find(client);
-    return found == clients_.end() ? std::span<const std::uint8_t>() : std::span(found->second.owed);
+    return found == clients_.end() ? std::span<const std::uint8_t>() : std::span(found->second.unsent);
 }
 
-void Listener::took(Id client, std::size_t bytes, base::Instant now) {
+void Listener::sent(Id client, std::size_t bytes, base::Instant now) {
     const auto found = clients_.find(client);
     if (found == clients_.end()) return;
-    std::vector<std::uint8_t>& owed = found->second.owed;
-    owed.erase(owed.begin(), owed.begin() + static_cast<std::ptrdiff_t>(bytes));
-    if (owed.empty())
-        found->second.owed_since.reset();
+    std::vector<std::uint8_t>& unsent = found->second.unsent;
+    unsent.erase(unsent.begin(), unsent.begin() + static_cast<std::ptrdiff_t>(bytes));
+    if (unsent.empty())
+        found->second.unsent_since.reset();
     else if (bytes != 0)
-        found->second.owed_since = now;
+        found->second.unsent_since = now;
 }
 
-std::vector<Listener::Id> Listener::creditors() const {
+std::vector<Listener::Id> Listener::with_unsent() const {
     std::vector<Id> all;
     for (const auto& [id, client] : clients_) {
-        if (!client.owed.empty()) all.push_back(id);
+        if (!client.unsent.empty()) all.push_back(id);
     }
     return all;
 }
 
-void Listener::owe(Id client, std::span<const std::uint8_t> bytes, base::Instant now) {
+void Listener::queue(Id client, std::span<const std::uint8_t> bytes, base::Instant now) {
     const auto found = clients_.find(client);
     if (found == clients_.end() || bytes.empty()) return;
     Client& who = found->second;
-    if (who.owed.size() + bytes.size() > Client::kMostOwed) return;
-    who.owed.insert(who.owed.end(), bytes.begin(), bytes.end());
-    if (!who.owed_since) who.owed_since = now;
+    if (who.unsent.size() + bytes.size() > Client::kMostUnsent) return;
+    who.unsent.insert(who.unsent.end(), bytes.begin(), bytes.end());
+    if (!who.unsent_since) who.unsent_since = now;
 }
 
 /// While an answer is to come only the same client may go on, and only once; others wait for so long. Who has
@@ -190,7 +190,7 @@ bool Listener::take_too_late(Client& client, const Frame& frame) {
 
 void Listener::answer(std::span<const std::uint8_t> bytes, base::Instant now) {
     if (!asked_) return;
-    for (const Id asker : asked_->askers) owe(asker, bytes, now);
+    for (const Id asker : asked_->askers) queue(asker, bytes, now);
 }
 
 void Listener::ended(std::uint32_t result) {
@@ -245,7 +245,7 @@ bool Listener::is_dealt_with(Client& client, const Frame& frame, base::Instant n
 void Listener::tell(Client& client, std::uint8_t reg, std::uint32_t value, base::Instant now) {
     std::array<std::uint8_t, mactalk::kReadBytes> bytes{};
     base::store_u32(bytes.data(), value);
-    owe(client.id, mactalk::encode_registers(reg, bytes).view(), now);
+    queue(client.id, mactalk::encode_registers(reg, bytes).view(), now);
 }
 
 bool Listener::is_for_somebody(std::uint8_t address) const {

@@ -23,7 +23,7 @@ bool Listener::is_about_operating(Client& client, const Frame& frame, base::Inst
     if (message.kind != mactalk::Kind::write || message.reg != gw::OPERATE) return false;
     client.result = operate(client, frame, now);
     if (*client.result == result_word(gw::Result::done, gw::OPERATE))
-        owe(client.id, mactalk::encode_accept().view(), now);
+        queue(client.id, mactalk::encode_accept().view(), now);
     return true;
 }
 
@@ -59,7 +59,7 @@ std::uint32_t Listener::shown_operator(const Client& client, std::uint8_t reg, b
         return static_cast<std::uint32_t>(std::chrono::ceil<std::chrono::seconds>(seat.ends() - now).count());
     return static_cast<std::uint32_t>(holder->way) |
            (seat.is_holder(client.sitter) ? std::uint32_t{gw::kOperatorIsYou} : 0U) |
-           (seat.was_ousted(client.sitter) ? std::uint32_t{gw::kOperatorOustedYou} : 0U);
+           (seat.was_taken_from(client.sitter) ? std::uint32_t{gw::kOperatorTookFromYou} : 0U);
 }
 
 }  // namespace nplc::boards

@@ -33,7 +33,8 @@ std::unique_ptr<CommandDesk::Client> CommandDesk::join(Side side, std::string na
         place.sitter = {.number = number,
                         .side = side,
                         .name = std::move(name),
-                        .way = side == Side::person ? Way::panel : Way::plant};
+                        .way = side == Side::person ? registers::gateway::OperatorWay::panel
+                                                    : registers::gateway::OperatorWay::plant};
         place.bell = &bell;
         place.has_left = false;
         place.open = 0;

@@ -14,7 +14,7 @@ std::optional<Seat::Verdict> Seat::wrong_side(Side side) const {
 Seat::Verdict Seat::take(const Sitter& client, base::Instant now) {
     look(now);
     if (const auto verdict = wrong_side(client.side)) return *verdict;
-    if (holder_ && !is_holder(client)) return was_ousted(client) ? Verdict::taken_over : Verdict::taken;
+    if (holder_ && !is_holder(client)) return was_taken_from(client) ? Verdict::taken_over : Verdict::taken;
     sit(client, now);
     return Verdict::granted;
 }
@@ -23,7 +23,7 @@ Seat::Verdict Seat::take_over(const Sitter& client, base::Instant now) {
     const Verdict verdict = take(client, now);
     if (verdict != Verdict::taken && verdict != Verdict::taken_over) return verdict;
     news_ = TakeOver{*holder_, client};
-    ousted_ = std::exchange(holder_, std::nullopt);
+    taken_from_ = std::exchange(holder_, std::nullopt);
     sit(client, now);
     return Verdict::granted;
 }
@@ -51,7 +51,7 @@ bool Seat::give_back(const Sitter& client) {
 
 void Seat::free() {
     holder_.reset();
-    ousted_.reset();
+    taken_from_.reset();
     sitting_.clear();
 }
 

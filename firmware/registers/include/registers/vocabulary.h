@@ -443,9 +443,9 @@ enum class PasswordState : std::uint8_t {
 
 /// Bits of OPERATOR.
 enum OperatorBit : std::uint32_t {
-    kOperatorWay = 0xFFU,          ///< an OperatorWay
-    kOperatorIsYou = 1U << 8,      ///< this client, or another one of its user
-    kOperatorOustedYou = 1U << 9,  ///< it took the seat over from this client
+    kOperatorWay = 0xFFU,            ///< an OperatorWay
+    kOperatorIsYou = 1U << 8,        ///< this client, or another one of its user
+    kOperatorTookFromYou = 1U << 9,  ///< it took over from this client
 };
 /// By which way the operator came; what OPERATOR_PEER is then.
 enum class OperatorWay : std::uint8_t {
@@ -458,6 +458,9 @@ enum class OperatorWay : std::uint8_t {
     plant = 6,
     other = 7,
 };
+/// Details of seat_taken where it is a client's.
+constexpr std::uint16_t kSeatOfAnother = 0;
+constexpr std::uint16_t kSeatTakenOver = 3;  ///< from this client
 /// What OPERATE is written.
 enum class Operating : std::uint8_t { take = 1, take_over = 2, give_back = 3 };
 

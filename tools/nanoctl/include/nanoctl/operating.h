@@ -11,7 +11,7 @@ namespace nplc::nanoctl {
 struct Operator {
     gw::OperatorWay way = gw::OperatorWay::nobody;
     bool is_you = false;
-    bool ousted_you = false;  ///< it took over from this client
+    bool took_from_you = false;  ///< it took over from this client
     std::uint32_t peer = 0;
     std::uint32_t seconds_left = 0;
 };

@@ -51,25 +51,25 @@ class Allowance {
 
 /// Who is connected, as a listener knows him.
 struct Client {
-    static constexpr std::size_t kMuchOwed = 1024;  ///< bytes that it has left unread: it asks no more
-    static constexpr std::size_t kMostOwed = 4096;
+    static constexpr std::size_t kMuchUnsent = 1024;  ///< bytes that it has left unread: it asks no more
+    static constexpr std::size_t kMostUnsent = 4096;
 
     std::uint64_t id = 0;
     faces::Sitter sitter{};  ///< among the axis's clients
     base::Instant came{};
     protocol::mactalk::RequestDecoder decoder{};
     Allowance allowance{};
-    std::deque<Frame> frames{};                 ///< that wait
-    base::Instant drained{};                    ///< nothing was left to be read then
-    bool has_more = false;                      ///< something was left the last time
-    std::uint64_t heard = 0;                    ///< rises with every message of any client; 0: none yet
-    std::size_t before_first = 0;               ///< bytes before its first message
-    bool has_password = false;                  ///< it has given it
-    bool has_left = false;                      ///< it sends no more
-    std::optional<base::Instant> stopped{};     ///< its last stop was taken then
-    std::optional<std::uint32_t> result{};      ///< what RESULT reads for it
-    std::vector<std::uint8_t> owed{};           ///< answers that its socket has not taken
-    std::optional<base::Instant> owed_since{};  ///< it takes nothing
+    std::deque<Frame> frames{};                   ///< that wait
+    base::Instant drained{};                      ///< nothing was left to be read then
+    bool has_more = false;                        ///< something was left the last time
+    std::uint64_t heard = 0;                      ///< rises with every message of any client; 0: none yet
+    std::size_t before_first = 0;                 ///< bytes before its first message
+    bool has_password = false;                    ///< it has given it
+    bool has_left = false;                        ///< it sends no more
+    std::optional<base::Instant> stopped{};       ///< its last stop was taken then
+    std::optional<std::uint32_t> result{};        ///< what RESULT reads for it
+    std::vector<std::uint8_t> unsent{};           ///< answers that its socket has not taken
+    std::optional<base::Instant> unsent_since{};  ///< it takes nothing
 };
 
 }  // namespace nplc::boards

@@ -30,7 +30,7 @@ class Exchange {
     void expect(const protocol::mactalk::Request& message);
     void collect(gateway::Controller& controller, base::Instant now, base::Instant controllers_now);
     bool has_ended(const gateway::UserPort& port, base::Instant now);
-    void pay(base::Instant now);
+    void send_unsent(base::Instant now);
     void close_dropped();
 
     hal_linux::Connections& connections_;

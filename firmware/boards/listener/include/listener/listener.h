@@ -76,11 +76,11 @@ class Listener {
     /// When that is wanted at the latest if nothing happens there.
     base::Instant next_look(base::Instant now) const;
 
-    /// What a client is owed, until took() says what its socket has taken.
-    std::span<const std::uint8_t> owed(Id client) const;
-    void took(Id client, std::size_t bytes, base::Instant now);
-    /// Those who are owed something.
-    std::vector<Id> creditors() const;
+    /// Answers that a client's socket has not taken, until sent() says how much of them it has.
+    std::span<const std::uint8_t> unsent(Id client) const;
+    void sent(Id client, std::size_t bytes, base::Instant now);
+    /// Those who have some.
+    std::vector<Id> with_unsent() const;
     /// Whose connections are to be closed. They are clients no more.
     std::vector<Id> take_dropped() { return std::exchange(dropped_, {}); }
 
@@ -119,7 +119,7 @@ class Listener {
     bool is_done_with(const Client& client) const;
     void drop(Clients::iterator client);
     void forget(Clients::iterator client);
-    void owe(Id client, std::span<const std::uint8_t> bytes, base::Instant now);
+    void queue(Id client, std::span<const std::uint8_t> bytes, base::Instant now);
 
     Client* next_client(base::Instant now);
     const Frame* begin_stop();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/time.h"
+#include "registers/vocabulary.h"
 
 namespace nplc::faces {
 
@@ -20,25 +21,14 @@ enum class Side : std::uint8_t {
 /// From which side the axis may be operated.
 enum class Control : std::uint8_t { any, local, remote };
 
-/// By which way a client comes; as register OPERATOR reads.
-enum class Way : std::uint8_t {
-    unknown = 0,
-    unix_socket = 1,  ///< its `peer` is the user's number
-    tcp = 2,          ///< its `peer` is the IPv4 address, its first number in bits 31..24
-    terminal = 3,
-    serial_line = 4,
-    panel = 5,
-    plant = 6,
-};
-
 /// Who sits: `number` is another one for every client of every face and port of an axis. All clients of one
 /// `user` are one operator; empty: it is one by itself.
 struct Sitter {
     std::uint64_t number = 0;
     Side side = Side::person;
     std::string name{};
-    Way way = Way::unknown;
-    std::uint32_t peer = 0;
+    registers::gateway::OperatorWay way = registers::gateway::OperatorWay::other;
+    std::uint32_t peer = 0;  ///< by that way
     std::string user{};
 };
 
@@ -82,7 +72,7 @@ class Seat {
     /// Null: the seat is free.
     const Sitter* holder() const { return holder_ ? &*holder_ : nullptr; }
     bool is_holder(const Sitter& client) const { return holder_ && is_same(*holder_, client); }
-    bool was_ousted(const Sitter& client) const { return ousted_ && is_same(*ousted_, client); }
+    bool was_taken_from(const Sitter& client) const { return taken_from_ && is_same(*taken_from_, client); }
     /// When look() has something to do.
     base::Instant ends() const { return holder_ ? since_ + silence_ : base::kNever; }
 
@@ -99,7 +89,7 @@ class Seat {
     Control control_ = Control::any;
     std::optional<Sitter> holder_;
     std::vector<std::uint64_t> sitting_;  ///< numbers of its user's clients that have operated
-    std::optional<Sitter> ousted_;        ///< by holder_
+    std::optional<Sitter> taken_from_;    ///< by holder_
     std::optional<TakeOver> news_;
     base::Instant since_{};
 };
@@ -108,5 +98,7 @@ class Seat {
 constexpr std::uint16_t detail_of(Seat::Verdict verdict) {
     return static_cast<std::uint16_t>(static_cast<unsigned>(verdict) - 1U);
 }
+static_assert(detail_of(Seat::Verdict::taken) == registers::gateway::kSeatOfAnother);
+static_assert(detail_of(Seat::Verdict::taken_over) == registers::gateway::kSeatTakenOver);
 
 }  // namespace nplc::faces
