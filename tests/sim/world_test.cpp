@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sequencer/term.h"
+#include "tables.h"
 
 namespace nplc::sim {
 namespace {
@@ -35,12 +36,6 @@ Term write(std::uint8_t step, std::uint8_t reg, bool longword, std::uint16_t val
     return result;
 }
 
-Term with_command(Term base, std::uint8_t command) {
-    base.fast.sends = true;
-    base.fast.command = command;
-    return base;
-}
-
 /// Step 0 writes P1, V1 and A1; step 1 waits for IN0; step 2 goes to P1 with OUT0 and waits for INPOS; step 3
 /// has OUT1. An error leads to step 4, where IN1 acknowledges and leads to step 5.
 std::vector<std::uint8_t> table() {
@@ -58,13 +53,7 @@ std::vector<std::uint8_t> table() {
         term(6, 0x80, 0, 4, 8),
         with_command(term(4, 0x82, 0x02, 5, 8), kResetError),
     };
-    std::vector<std::uint8_t> bytes;
-    for (const Term& one : terms) {
-        const auto encoded = encode(one);
-        bytes.insert(bytes.end(), encoded.begin(), encoded.end());
-    }
-    bytes.insert(bytes.end(), {0x3F, 0, 0, 0, 0, 0, 0, 0});
-    return bytes;
+    return table_of(terms);
 }
 
 class WorldRun : public testing::Test {
@@ -313,13 +302,7 @@ TEST_F(WorldRun, AMotorWithoutPowerIsSilent) {
 TEST_F(WorldRun, AMotorWithoutPowerRunsOut) {
     const std::vector<Term> terms{write(0, registers::V1, false, 503),
                                   with_command(term(0, 0, 0, 1, 0), 0x28)};
-    std::vector<std::uint8_t> bytes;
-    for (const Term& one : terms) {
-        const auto encoded = encode(one);
-        bytes.insert(bytes.end(), encoded.begin(), encoded.end());
-    }
-    bytes.insert(bytes.end(), {0x3F, 0, 0, 0, 0, 0, 0, 0});
-    World world(bytes, {});
+    World world(table_of(terms), {});
     const auto run = [&](Time time) {
         const Time end = world.now() + time;
         while (world.now() < end) world.step(end);
