@@ -53,9 +53,9 @@ void ControlPort::let_in() {
     while (const auto id = connections_->accept()) {
         clients_[*id].heard = ++lines_;
         if (clients_.size() <= kClients) continue;
-        const auto oldest = std::min_element(clients_.begin(), clients_.end(), [](const auto& a, const auto& b) {
-            return a.second.heard < b.second.heard;
-        });
+        const auto oldest =
+            std::min_element(clients_.begin(), clients_.end(),
+                             [](const auto& a, const auto& b) { return a.second.heard < b.second.heard; });
         connections_->close(oldest->first);
         clients_.erase(oldest);
     }
@@ -67,7 +67,8 @@ void ControlPort::read_console(const CarryOut& carry_out) {
     std::array<char, kAtOnce> bytes{};
     const std::size_t count = host::read_input(bytes);
     console_ended_ = count == 0;
-    take(kConsole, console_ended_ ? std::string_view("\n") : std::string_view(bytes.data(), count), carry_out);
+    take(kConsole, console_ended_ ? std::string_view("\n") : std::string_view(bytes.data(), count),
+         carry_out);
 }
 
 void ControlPort::take(Id id, std::string_view bytes, const CarryOut& carry_out) {

@@ -12,8 +12,8 @@
 namespace nplc::sim {
 
 /// Where a person or a program says what happens to a device, a line each, and hears what became of it: an
-/// endpoint for several clients, one more in the place of who has said nothing for the longest time, or `-`, the
-/// program's standard input and output. Nothing blocks.
+/// endpoint for several clients, one more in the place of who has said nothing for the longest time, or `-`,
+/// the program's standard input and output. Nothing blocks.
 class ControlPort {
   public:
     /// Carries a line out; answers what went wrong, or what was asked for, or nothing.
