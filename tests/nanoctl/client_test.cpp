@@ -275,6 +275,21 @@ TEST(Client, TheMotorsConfirmationIsWaitedForAndAskedForOnce) {
     bench.gateway.command(Command::run);
 }
 
+TEST(Client, ARunWaitsASecondForTheMotorToConfirmTheStopBefore) {
+    Bench bench;
+    bench.run_a_table();
+    bench.unit.board.stop_takes = std::chrono::milliseconds{600};
+    bench.gateway.command(Command::stop);
+    EXPECT_TRUE(bench.status().has(gw::kStopUnconfirmed));
+    bench.gateway.command(Command::run);
+    EXPECT_EQ(bench.status().run_state, gw::RunState::running);
+    bench.unit.board.stop_is_confirmed = false;
+    bench.gateway.command(Command::stop);
+    const base::Instant begun = bench.wire.now();
+    EXPECT_EQ(bench.refusal([&] { bench.gateway.command(Command::run); }), gw::Result::stop_unconfirmed);
+    EXPECT_GE(bench.wire.now() - begun, GatewayClient::kConfirmationWait);
+}
+
 TEST(Client, SettingsOutliveAResetIfKept) {
     Bench bench;
     const auto reg = gw::register_of(store::Setting::safe_outputs);

@@ -112,15 +112,29 @@ void GatewayClient::command_once(gw::Command command, base::Microseconds more_pa
 
 void GatewayClient::command(gw::Command command, base::Microseconds more_patience) {
     const std::uint32_t bytes = read(gw::UPLOAD_BYTES);
+    bool has_waited = false;
     for (unsigned i = 1;; ++i) {
         write(gw::UPLOAD_BYTES, bytes);
         try {
             return command_once(command, more_patience);
         } catch (const Refused& refused) {
-            if (refused.result() != gw::Result::busy || i == kBusyTries) throw;
+            const bool is_busy = refused.result() == gw::Result::busy && i < kBusyTries;
+            const bool is_stopping = refused.result() == gw::Result::stop_unconfirmed &&
+                                     !std::exchange(has_waited, true) && is_stop_confirmed_soon();
+            if (!is_busy && !is_stopping) throw;
         }
         master_.pause(kBusyPause);
     }
+}
+
+bool GatewayClient::is_stop_confirmed_soon() {
+    const base::Instant end = master_.wire().now() + kConfirmationWait;
+    while ((read(gw::STATUS) & gw::kStopUnconfirmed) != 0) {
+        if (master_.wire().now() >= end) return false;
+        look_for_interruption();
+        master_.pause(kBusyPause);
+    }
+    return true;
 }
 
 void GatewayClient::activate() {

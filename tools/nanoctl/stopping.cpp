@@ -13,7 +13,6 @@ using mactalk_client::LineError;
 namespace {
 
 /// The motor's confirmation is waited for so long.
-constexpr base::Milliseconds kConfirmationWait{1'000};
 constexpr base::Milliseconds kBetweenLooks{20};
 
 /// Until its status shows it the command is sent again: a message may be lost, and another client may own the
@@ -68,7 +67,7 @@ class Stopping {
         if (!ordered_at_) ordered_at_ = now();
         const bool delivers = status.has(gw::kLinkDelivers) || status.has(gw::kVirtualMotor);
         if (delivers && !status.has(gw::kStopUnconfirmed)) return true;
-        if (now() - *ordered_at_ >= kConfirmationWait)
+        if (now() - *ordered_at_ >= GatewayClient::kConfirmationWait)
             throw NotConfirmed(fmt::format(
                 "{}: the sequence is {}, but {}: {}", name_of(command_), name_of(status.run_state),
                 delivers ? "the motor has not confirmed the stop"

@@ -47,6 +47,7 @@ using Block = std::array<std::uint32_t, 16>;
 class GatewayClient {
   public:
     static constexpr base::Milliseconds kStillWait{5'000};
+    static constexpr base::Milliseconds kConfirmationWait{1'000};
 
     GatewayClient(mactalk_client::Master& master, std::uint8_t address)
         : master_(master), address_(address) {}
@@ -61,7 +62,7 @@ class GatewayClient {
 
     void write(std::uint8_t reg, std::uint32_t value);
     /// Carried out exactly once. `more_patience`: how long it may take. For a `busy` gateway it waits up to 5
-    /// s.
+    /// s, and kConfirmationWait for a motor that has not confirmed its stop yet, that of a start, say.
     void command(gw::Command command, base::Microseconds more_patience = {});
     /// Restarts the gateway and waits until it answers; address() may be another one then.
     void reset();
@@ -87,6 +88,7 @@ class GatewayClient {
     std::optional<LastResult> try_last_result();
     [[noreturn]] void refuse(const LastResult& last, const std::string& what, const std::string& why);
     [[noreturn]] void lost(const std::string& what) const;
+    bool is_stop_confirmed_soon();
     void command_once(gw::Command command, base::Microseconds more_patience);
 
     mactalk_client::Master& master_;
