@@ -25,7 +25,7 @@ from pymodbus.client import ModbusSerialClient  # noqa: E402
 PROGRAM = ""
 UNIT = 128
 RUN, STOP, ACKNOWLEDGE = 1, 2, 32
-READY, RUNNING, IS_SAFE, LINK_UP = 0, 1, 4, 7
+READY, RUNNING, IS_SAFE, LINK_UP, STOP_UNCONFIRMED = 0, 1, 4, 7, 15
 NO_FUNCTION, NO_ADDRESS, NO_VALUE, REFUSED, NOT_KNOWN = 1, 2, 3, 4, 0x0B
 NOT_STOPPED, BAD_VALUE, TOO_LATE = 5, 4, 19
 P2, V_SOLL = 51, 5
@@ -118,6 +118,7 @@ class Modbus(image_case.ImageCase):
         self.assertEqual(self.order(master, RUN, 7), TOO_LATE)  # no 0 was seen: a cyclic master starts nothing
         self.assertFalse(master.write_registers(0, [STOP, 0], slave=UNIT).isError())
         self.assertTrue(self.status(master, IS_SAFE))
+        until(lambda: self.status(master, STOP_UNCONFIRMED), lambda seen: not seen)
         self.assertEqual(self.order(master, RUN, 8), 0)
         until(lambda: self.status(master, RUNNING), lambda seen: seen)
         self.assertEqual(self.order(master, RUN, 9), NOT_STOPPED)
@@ -126,6 +127,7 @@ class Modbus(image_case.ImageCase):
         self.assertEqual(self.inputs(master, 40), [0])
         self.assertFalse(master.write_coil(1, True, slave=UNIT).isError())
         self.assertTrue(self.status(master, IS_SAFE))
+        until(lambda: self.status(master, STOP_UNCONFIRMED), lambda seen: not seen)
         self.assertFalse(master.write_coil(0, False, slave=UNIT).isError())
         self.assertFalse(master.write_coil(0, True, slave=UNIT).isError())
         until(lambda: self.status(master, RUNNING), lambda seen: seen)
