@@ -1,12 +1,20 @@
-// The drawing as text for Graphviz; what Graphviz makes of it is checked by graph_test.py.
+// What a drawing shows, and its parts; the places in whole drawings are checked by graph_test.py.
 #include "views/graph.h"
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <set>
+
+#include "case_file.h"
 #include "support.h"
 #include "views/graph_columns.h"
+#include "views/graph_font.h"
+#include "views/graph_layout.h"
 #include "views/graph_model.h"
+#include "views/graph_svg.h"
 #include "views/graph_text.h"
+#include "views/graph_tracks.h"
 
 namespace nplc::seqc {
 namespace {
@@ -125,6 +133,7 @@ TEST(GraphModel, AHelperStepStandsOnTheWay) {
     EXPECT_EQ(texts_of(model.boxes[1]), (Texts{"TIMER.Q -> 2", "IN0 / HOME -> 3"}));
     EXPECT_EQ(model.boxes[1].ways[1].by, std::uint8_t{4});
     EXPECT_EQ(model.boxes[4].made_as, "helper step");
+    EXPECT_TRUE(model.boxes[4].is_of_compiler);
     EXPECT_EQ(texts_of(model.boxes[4]).front(), "always / HOME -> 3");
 }
 
@@ -140,6 +149,46 @@ TEST(GraphModel, ATimeLimitStandsBehindItsCondition) {
     EXPECT_EQ(texts_of(model.boxes[1]), (Texts{"IN0 AND NOT IN1 WITHIN T#3s -> 2", "ELSE -> 3"}));
 }
 
+/// The clamp is latched, so that Release divides: with and without Start in a copy of Wait.
+TEST(GraphModel, WaysOfOneConditionAreTold) {
+    const std::string source = test::text_of_file(std::filesystem::path(SEQC_EXAMPLES) / "glue_station.seq");
+    const Compilation glue = test::compiled(source);
+    for (const GraphModel::Box& box : model_of(glue, source).boxes) {
+        std::set<std::string> conditions;
+        for (const GraphModel::Way& way : box.ways)
+            EXPECT_TRUE(conditions.insert(way.condition).second) << box.name << ": " << way.condition;
+    }
+}
+
+/// A SEQUENCE's parameters are no names of the program.
+TEST(GraphModel, StepsOfASequenceNameWhatTheyWereCalledWith) {
+    const std::string source = test::text_of_file(std::filesystem::path(SEQC_EXAMPLES) / "dough_divider.seq");
+    const Compilation divider = test::compiled(source);
+    const GraphModel model = model_of(divider, source);
+    EXPECT_EQ(texts_of(model.boxes[3]), Texts{"always -> 9"});  // Lift: CALL Knife_To(Up)
+    EXPECT_EQ(texts_of(model.boxes[8]), (Texts{"Down WITHIN T#600ms -> 3", "ELSE -> 7"}));
+    EXPECT_EQ(texts_of(model.boxes[9]), (Texts{"Up WITHIN T#600ms -> 4", "ELSE -> 7"}));
+    EXPECT_FALSE(model.boxes[8].is_of_compiler);
+    const std::string second =
+        test::text_of_file(std::filesystem::path(SEQC_EXAMPLES) / "screwdriver_station.seq");
+    const Compilation station = test::compiled(second);
+    const GraphModel model_of_it = model_of(station, second);
+    EXPECT_EQ(model_of_it.boxes[5].entry.front(), "ENTRY POSITION(Hole_1)");
+    EXPECT_EQ(model_of_it.boxes[8].entry.front(), "ENTRY POSITION(Hole_2)");
+}
+
+TEST(GraphModel, AnOnConditionOfTwoStepsIsANote) {
+    const char* const source =
+        "PROGRAM P MOTOR MAC140; ON IN0 IN A, B NEXT := C; STEP A: OWN ERROR; IF IN1 THEN NEXT := B; END_IF "
+        "END_STEP "
+        "STEP B: OWN ERROR; IF IN1 THEN NEXT := A; END_IF END_STEP STEP C: OWN ERROR; END_STEP END_PROGRAM";
+    const Compilation two = test::compiled(source);
+    const GraphModel model = model_of(two, source);
+    ASSERT_EQ(model.notes.size(), 1U);
+    EXPECT_EQ(text_of(model.notes[0].way), "IN0 -> 3");
+    EXPECT_EQ(model.notes[0].where, "IN A, B");
+}
+
 TEST(GraphModel, FewWaysOnErrorStandInTheBoxes) {
     const Compilation two = test::compiled(
         "PROGRAM P POWER_UP NEXT := A; END_POWER_UP ON ERROR NEXT := B; STEP A: END_STEP STEP B: OWN ERROR; "
@@ -151,21 +200,61 @@ TEST(GraphModel, FewWaysOnErrorStandInTheBoxes) {
     EXPECT_TRUE(model.boxes[1].ways[0].on_error);
 }
 
-TEST(GraphColumns, FewBoxesAreLaidOutByTheirLinesAndManyInColumns) {
+std::vector<std::string> ids_of(const CardColumns& columns) {
+    std::vector<std::string> ids;
+    for (const auto& column : columns) {
+        for (const Card& card : column) ids.push_back(card.box.id);
+    }
+    return ids;
+}
+
+GraphModel::Way way_to(std::uint8_t step) {
+    return {.condition = "Go", .to = step};
+}
+
+// 0 -> 2 -> 3 -> 1 by the ways; 4 is where the note leads, and comes last with the note before it.
+TEST(GraphColumns, AreReadAlongTheWaysAndNotesStandAboveTheirSteps) {
     GraphModel model;
-    for (std::uint8_t step = 0; step < 10; ++step) model.boxes.push_back({.step = step, .name = "A"});
-    EXPECT_EQ(columns_of(model).size(), 1U);
-    for (std::uint8_t step = 10; step < 40; ++step) model.boxes.push_back({.step = step, .name = "A"});
-    model.notes.push_back({{.condition = "Stop", .to = 7}, "in every other step"});
-    const auto columns = columns_of(model);
-    EXPECT_GT(columns.size(), 2U);
-    std::vector<std::string> all;
-    for (const auto& column : columns) all.insert(all.end(), column.begin(), column.end());
-    ASSERT_EQ(all.size(), 41U);  // every box, in the order of the steps, a note before its target
-    EXPECT_EQ(all[0], "s0");
-    EXPECT_EQ(all[7], "n0");
-    EXPECT_EQ(all[8], "s7");
-    EXPECT_EQ(all[40], "s39");
+    for (std::uint8_t step = 0; step < 5; ++step) model.boxes.push_back({.step = step, .name = "A"});
+    model.boxes[0].ways = {way_to(4), way_to(2)};
+    model.boxes[2].ways = {way_to(3)};
+    model.boxes[3].ways = {way_to(1)};
+    model.notes.push_back({{.condition = "Stop", .to = 4}, "in every other step"});
+    EXPECT_EQ(reading_order(model), (std::vector<std::size_t>{0, 2, 3, 1, 4}));
+    const CardColumns one = columns_of(model, 1, 40);
+    EXPECT_EQ(one.size(), 1U);
+    EXPECT_EQ(ids_of(one), (Texts{"s0", "s2", "s3", "s1", "n4", "s4"}));
+    const CardColumns three = columns_of(model, 3, 40);
+    EXPECT_EQ(three.size(), 3U);
+    EXPECT_EQ(ids_of(three), ids_of(one));
+}
+
+TEST(GraphTracks, WhatMeetsStandsSideBySideAndWhatDoesNotSharesAPlace) {
+    Tracks tracks;
+    tracks.add(1, 7, 0, 100, Tracks::Side::left);
+    tracks.add(1, 8, 50, 90, Tracks::Side::left);
+    tracks.add(1, 9, 150, 200, Tracks::Side::left);
+    tracks.assign(3);
+    EXPECT_NE(tracks.x(1, 7), tracks.x(1, 8));
+    EXPECT_EQ(tracks.x(1, 8), tracks.x(1, 9));
+    EXPECT_EQ(tracks.width(0), 0);
+    EXPECT_GT(tracks.width(1), tracks.x(1, 7));
+}
+
+TEST(GraphFont, IsAsWideAsTheWidestUsualFont) {
+    EXPECT_DOUBLE_EQ(text_width("iii", 10), 3 * 6.02);  // a monospaced one
+    EXPECT_DOUBLE_EQ(text_width("WWW", 10), 3 * 9.89);  // a sans serif one
+    EXPECT_GT(text_width("WWW", 10, true), text_width("WWW", 10));
+}
+
+TEST(GraphLayout, HelperStepsAreMarkedAndLinesKnowTheirWays) {
+    const Compilation door = test::compiled(kSource);
+    const Picture picture = picture_of(model_of(door, kSource));
+    ASSERT_EQ(picture.boxes.size(), 6U);
+    EXPECT_EQ(picture.boxes[0].id, "s0");
+    EXPECT_EQ(picture.lines.size(), 6U);  // POWER_UP, Shut, Open, Fault, Lost and the note
+    for (const Picture::Line& line : picture.lines) EXPECT_GE(line.points.size(), 2U) << line.from;
+    EXPECT_EQ(picture.scale, 1);
 }
 
 // The CRC-32 is zlib's over C0 00 00 01 80 01 00 00, C1 01 01 00 65 00 00 00, 3F 00 00 00 00 00 00 00.
@@ -179,7 +268,7 @@ TEST(Graph, IsTheTextWrittenByHand) {
   node [fontname="Helvetica", fontsize=11, shape=box, style=filled, fillcolor="#ffffff", color="#333333", margin="0.06,0.04"];
   edge [color="#333333", arrowsize=0.7];
   subgraph cluster_table {
-    graph [peripheries=0, fontsize=16, labelloc=t, label=<<B>Tiny</B>  MAC50>];
+    graph [peripheries=0, fontsize=16, labelloc=t, label=<<B>Tiny</B><BR/><FONT POINT-SIZE="10">Motor: MAC50</FONT><BR/><FONT POINT-SIZE="10">OUT0 = Lamp</FONT>>];
     s0 [label=<<TABLE BORDER="0" CELLBORDER="0" CELLSPACING="0" CELLPADDING="2"><TR><TD COLSPAN="2"><FONT COLOR="#777777">0</FONT>  <B>POWER_UP</B></TD></TR><HR/><TR><TD ALIGN="LEFT">always<BR ALIGN="LEFT"/></TD><TD ALIGN="RIGHT" VALIGN="TOP"><FONT COLOR="#555555">  → 1 Lit</FONT></TD></TR></TABLE>>, peripheries=2];
     s1 [label=<<TABLE BORDER="0" CELLBORDER="0" CELLSPACING="0" CELLPADDING="2"><TR><TD COLSPAN="2"><FONT COLOR="#777777">1</FONT>  <B>Lit</B></TD></TR><HR/><TR><TD ALIGN="LEFT" COLSPAN="2">OUT Lamp</TD></TR><HR/><TR><TD ALIGN="LEFT">IN0<BR ALIGN="LEFT"/><FONT COLOR="#1f4e79">/ STOP</FONT><BR ALIGN="LEFT"/></TD><TD ALIGN="RIGHT" VALIGN="TOP"><FONT COLOR="#555555">  → 0 POWER_UP</FONT></TD></TR></TABLE>>];
     { rank=min; s0; }
@@ -202,6 +291,9 @@ TEST(Graph, NamesCannotBreakOut) {
     EXPECT_TRUE(text.starts_with("digraph \"P\\\"; x [label=\\\"\\\\\" {")) << text;
     EXPECT_NE(text.find("<B>&lt;b&gt;&amp;\xEF\xBF\xBD\xEF\xBF\xBD</B>"), std::string::npos) << text;
     EXPECT_NE(text.find(">Tür<"), std::string::npos) << text;
+    const std::string svg = svg_of(picture_of(graph_model_of(table, &symbols, "")), symbols.program);
+    EXPECT_NE(svg.find(">&lt;b&gt;&amp;\xEF\xBF\xBD\xEF\xBF\xBD</text>"), std::string::npos) << svg;
+    EXPECT_NE(svg.find("<title>P&quot;; x [label=&quot;\\</title>"), std::string::npos) << svg;
 }
 
 TEST(DotText, BreaksLinesBetweenConditionsOnly) {

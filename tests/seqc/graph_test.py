@@ -1,29 +1,51 @@
-"""What Graphviz makes of `seqc graph`: whole XML, every step's name in it, no text outside of its box or the page, and no line
-through a box, so none through a text.
+"""What `seqc graph` draws, by the places that its JSON gives: no text outside of its box or upon another, no line through a box, a
+text or along a line to another step, all of it on an A4 page; the SVG shows the same, and a PNG of it fits at 200 dpi.
 
-usage: graph_test.py SEQC EXAMPLES
+usage: graph_test.py SEQC EXAMPLES RECIPES
 """
 
+import json
 import random
 import re
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
+from itertools import combinations
 from pathlib import Path
 
 SEQC = ""
-EXAMPLES = Path()
+EXAMPLES = RECIPES = Path()
 SVG = "{http://www.w3.org/2000/svg}"
 SEED = 37
-LETTER = 0.45  # of the font's size: what a letter of Helvetica takes at the least, over a few of them
+MONOSPACED = 0.602  # of the font's size: the widest of usual fonts, for most texts
+RISE, FALL = 0.75, 0.22  # of the size: how far letters go above and below their line
+A4 = (595.3, 841.9)
+SLACK = 0.02  # coordinates are rounded
+
+
+def run(file, *options):
+    done = subprocess.run([SEQC, "graph", str(file), *options], capture_output=True, check=False)
+    assert done.returncode == 0, done.stderr.decode()
+    return done.stdout
 
 
 def draw(file):
-    run = subprocess.run([SEQC, "graph", str(file)], capture_output=True)
-    assert run.returncode == 0, run.stderr.decode()
-    return ElementTree.fromstring(run.stdout)
+    return ElementTree.fromstring(run(file))
+
+
+def graph(file):
+    return json.loads(run(file, "--format", "json"))
+
+
+def programs_of_recipes():
+    """Title and program of each section of the recipes."""
+    for section in re.split(r"^## ", RECIPES.read_text(), flags=re.MULTILINE)[1:]:
+        title, text = section.split("\n", 1)
+        blocks = re.findall(r"(?:^    .*\n|^\n(?=    ))+", text, flags=re.MULTILINE)
+        yield title, re.sub(r"^    ", "", blocks[0].lstrip("\n"), flags=re.MULTILINE)
 
 
 def steps_of(source):
@@ -37,16 +59,50 @@ def steps_of(source):
 
 
 def texts_of(svg):
-    return [text.strip() for text in svg.itertext() if text.strip() and "graphviz" not in text]
+    return [text.strip() for text in svg.itertext() if text.strip()]
 
 
-def points(polygon):
-    return [tuple(map(float, pair.split(","))) for pair in polygon.get("points").split()]
+def texts_in(drawing):
+    return [text for part in [drawing, *drawing["nodes"]] for text in part["texts"]]
 
 
-def extent(shape):
-    xs, ys = zip(*points(shape))
-    return min(xs), min(ys), max(xs), max(ys)
+def area_of(text):
+    """x and y from and to."""
+    left = text["x"] - {"start": 0, "middle": text["width"] / 2, "end": text["width"]}[text["anchor"]]
+    return left, text["y"] - RISE * text["size"], left + text["width"], text["y"] + FALL * text["size"]
+
+
+def box_of(node):
+    return node["x"], node["y"], node["x"] + node["width"], node["y"] + node["height"]
+
+
+def overlap(a, b):
+    return a[0] < b[2] - SLACK and b[0] < a[2] - SLACK and a[1] < b[3] - SLACK and b[1] < a[3] - SLACK
+
+
+def is_within(inner, outer):
+    return inner[0] >= outer[0] - SLACK and inner[1] >= outer[1] - SLACK and inner[2] <= outer[2] + SLACK and inner[3] <= outer[3] + SLACK
+
+
+def segments(edge):
+    for (ax, ay), (bx, by) in zip(edge["points"], edge["points"][1:]):
+        yield min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)
+
+
+def is_through(segment, area):
+    return (segment[0] < area[2] - SLACK and area[0] + SLACK < segment[2] or
+            segment[0] == segment[2] and area[0] + SLACK < segment[0] < area[2] - SLACK) and \
+           (segment[1] < area[3] - SLACK and area[1] + SLACK < segment[3] or
+            segment[1] == segment[3] and area[1] + SLACK < segment[1] < area[3] - SLACK)
+
+
+def run_together(a, b):
+    """Two straight pieces that share more than a point."""
+    for along, across in ((0, 1), (1, 0)):
+        flat = a[across] == a[across + 2] and b[across] == b[across + 2] and abs(a[across] - b[across]) < 1
+        if flat and min(a[along + 2], b[along + 2]) - max(a[along], b[along]) > 1:
+            return True
+    return False
 
 
 def random_table(chance, steps, terms):
@@ -65,17 +121,6 @@ def random_table(chance, steps, terms):
                             chance.choice([0x80, chance.randrange(128)]), chance.randrange(16),
                             chance.randrange(256), 0])
     return bytes(table + bytes([0x3F] + [0] * 7))
-
-
-def curve(path, parts=12):
-    """Points along a path of cubic Bezier curves, as Graphviz writes them."""
-    numbers = [float(n) for n in re.findall(r"-?[0-9.]+", path.get("d"))]
-    knots = list(zip(numbers[::2], numbers[1::2]))
-    for at in range(0, len(knots) - 3, 3):
-        for part in range(parts + 1):
-            t = part / parts
-            weights = ((1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t ** 3)
-            yield tuple(sum(w * knot[axis] for w, knot in zip(weights, knots[at:at + 4])) for axis in (0, 1))
 
 
 def transfer_line(steps):
@@ -100,66 +145,169 @@ def transfer_line(steps):
     return "\n".join(text)
 
 
-class Graph(unittest.TestCase):
-    def check_drawing(self, svg):
-        page = svg.find(f"{SVG}g")
-        left, top, right, bottom = extent(page.find(f"{SVG}polygon"))
-        self.check_lines(page)
-        for group in page.findall(f"{SVG}g"):
-            box = group.find(f"{SVG}polygon") if group.get("class") == "node" else None
-            for text in group.findall(f".//{SVG}text"):
-                x, y, size = (float(text.get(key)) for key in ("x", "y", "font-size"))
-                label = "".join(text.itertext())
-                width = LETTER * size * len(label)
-                if text.get("text-anchor") == "middle":
-                    x -= width / 2
-                end = x + width
-                within = extent(box) if box is not None else (left, top, right, bottom)
-                self.assertGreaterEqual(x, within[0], label)
-                self.assertLessEqual(end, within[2], label)
-                self.assertGreaterEqual(y, within[1], label)
-                self.assertLessEqual(y, within[3], label)
+def random_program(chance, steps):
+    """Ways between random steps, ON conditions, latched outputs, limits and edges, which ask for helper steps."""
+    inputs = ["Stop", "Guard", "Pedal", "Part_In_Place", "Ack", "Up"]
+    text = [f"PROGRAM Random_{steps}", "MOTOR MAC140;", "SCALE 1 rev = 5 mm;",
+            "VAR_INPUT " + " ".join(f"{name} AT IN{i};" for i, name in enumerate(inputs)) + " END_VAR",
+            "VAR_OUTPUT Clamp AT OUT0; Lamp AT OUT1; END_VAR",
+            "VAR_MOTOR Near AT P1 := 12.5 mm; Far AT P2 := 80 mm; Fast AT V1 := 900 rpm; Soft AT A1 := 20000 rpm/s; END_VAR",
+            "ON ERROR NEXT := Fault;", f"ON Stop EXCEPT Fault NEXT := {chance.choice(['Fault', 'Work_0'])};",
+            "POWER_UP INIT(Fast, Soft); NEXT := Work_0; END_POWER_UP"]
+    for n in range(steps):
+        to = [f"Work_{chance.choice([m for m in range(steps) if m != n])}" for _ in range(2)]
+        when = chance.choice(["Pedal", "Pedal AND Part_In_Place", "R_TRIG(Pedal)", "Up OR NOT Guard AND Part_In_Place", "Up FOR 300 ms"])
+        ways = chance.choice([f"IF {when} THEN NEXT := {to[0]}; END_IF", f"IF Guard THEN STOP; NEXT := {to[0]}; ELSIF INPOS THEN NEXT := {to[1]}; END_IF",
+                              f"IF INPOS WITHIN T#2s THEN NEXT := {to[0]}; ELSE NEXT := Fault; END_IF"])
+        text.append(f"STEP Work_{n}: {chance.choice(['', 'OUT Clamp;', 'OUT Lamp WHEN Up;'])} ENTRY POSITION({chance.choice(['Near', 'Far'])}); "
+                    f"{ways} END_STEP")
+    text += ["STEP Fault: OWN ERROR; OUT Lamp; ENTRY STOP; IF ANY ERROR AND Ack THEN RESET_ERROR; NEXT := POWER_UP; END_IF END_STEP",
+             "END_PROGRAM", ""]
+    return "\n".join(text)
 
-    def check_lines(self, page):
-        boxes = [extent(group.find(f"{SVG}polygon")) for group in page.findall(f"{SVG}g") if group.get("class") == "node"]
-        for group in page.findall(f"{SVG}g"):
-            if group.get("class") != "edge":
-                continue
-            self.assertEqual(group.findall(f".//{SVG}text"), [])
-            for x, y in curve(group.find(f"{SVG}path")):
-                for x0, y0, x1, y1 in boxes:
-                    inside = x0 + 1 < x < x1 - 1 and y0 + 1 < y < y1 - 1
-                    self.assertFalse(inside, f"{group.find(f'{SVG}title').text} runs through a box at {x:.0f}, {y:.0f}")
+
+class Graph(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def write(self, name, content):
+        file = self.folder / name
+        file.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return file
+
+    def check(self, file):
+        """All that holds of every drawing; answers it."""
+        drawing = graph(file)
+        self.assertEqual((drawing["format"], drawing["version"]), ("nanoplc-graph", 1))
+        self.check_texts(drawing)
+        self.check_lines(drawing)
+        self.check_page(drawing)
+        shown = [text["text"] for text in texts_in(drawing)]
+        self.assertEqual(sorted(texts_of(draw(file))), sorted([drawing["program"], *(text.strip() for text in shown)]))
+        return drawing
+
+    def check_texts(self, drawing):
+        boxes = [box_of(node) for node in drawing["nodes"]]
+        for a, b in combinations(boxes, 2):
+            self.assertFalse(overlap(a, b), (a, b))
+        for text in texts_in(drawing):
+            self.assertGreaterEqual(text["width"] + SLACK, MONOSPACED * text["size"] * len(text["text"]), text)
+        for node in drawing["nodes"]:
+            for text in node["texts"]:
+                self.assertTrue(is_within(area_of(text), box_of(node)), text)
+        for text in drawing["texts"]:
+            self.assertFalse(any(overlap(area_of(text), box) for box in boxes), text)
+        for part in [drawing, *drawing["nodes"]]:
+            for a, b in combinations(part["texts"], 2):
+                self.assertFalse(overlap(area_of(a), area_of(b)), (a, b))
+            for y in part.get("rules", []):
+                for text in part["texts"]:
+                    _, top, _, bottom = area_of(text)
+                    self.assertFalse(top + SLACK < y < bottom - SLACK, (y, text))
+
+    def check_lines(self, drawing):
+        nodes = {node["id"]: node for node in drawing["nodes"]}
+        texts = [area_of(text) for text in texts_in(drawing)]
+        pieces = []
+        for edge in drawing["edges"]:
+            for piece in segments(edge):
+                self.assertTrue(piece[0] == piece[2] or piece[1] == piece[3], edge)
+                for area in [*map(box_of, nodes.values()), *texts]:
+                    self.assertFalse(is_through(piece, area), (edge, area))
+                pieces.append((edge["to"], piece))
+            if edge["points"]:
+                for name, (x, y) in ((edge["from"], edge["points"][0]), (edge["to"], edge["points"][-1])):
+                    left, top, right, bottom = box_of(nodes[name])
+                    on_side = min(abs(x - left), abs(x - right)) <= SLACK and top < y < bottom
+                    on_end = min(abs(y - top), abs(y - bottom)) <= SLACK and left < x < right
+                    self.assertTrue(on_side or on_end, (name, edge))
+        for (to, a), (other, b) in combinations(pieces, 2):
+            self.assertFalse(to != other and run_together(a, b), (to, a, other, b))
+
+    def check_page(self, drawing):
+        page = drawing["page"]
+        for area in [*map(box_of, drawing["nodes"]), *map(area_of, texts_in(drawing)), *(p for e in drawing["edges"] for p in segments(e))]:
+            self.assertTrue(is_within(area, (0, 0, page["width"], page["height"])), area)
+        sides = sorted((page["width"] * page["points"], page["height"] * page["points"]))
+        self.assertLessEqual(sides[0], A4[0])
+        self.assertLessEqual(sides[1], A4[1])
+
+    def check_ways(self, drawing):
+        """A line for each way out of a step, and how many of them are not drawn."""
+        wanted = sorted((node["id"], number) for node in drawing["nodes"] if node["kind"] != "note"
+                        for number, way in enumerate(node["ways"]) if way["to"] != node["step"])
+        self.assertEqual(sorted((edge["from"], edge["way"]) for edge in drawing["edges"] if "way" in edge), wanted)
 
     def test_forty_and_sixty_steps_stay_readable(self):
-        """On A4 no letter is smaller than 5 points: a drawing in a cabinet's door."""
+        """On A4 no letter of a step is smaller than 5 points: a drawing in a cabinet's door."""
         for steps in (43, 59):
-            with self.subTest(steps), tempfile.TemporaryDirectory() as folder:
-                file = Path(folder) / "line.seq"
-                file.write_text(transfer_line(steps))
-                svg = draw(file)
-                self.check_drawing(svg)
-                scale = float(re.search(r"scale\(([0-9.]+)", svg.find(f"{SVG}g").get("transform"))[1])
-                self.assertGreaterEqual(11 * scale, 5)
-                texts = [text.strip() for text in svg.itertext()]
+            with self.subTest(steps):
+                drawing = self.check(self.write("line.seq", transfer_line(steps)))
+                self.check_ways(drawing)
+                self.assertGreaterEqual(10 * drawing["page"]["points"], 5)
+                texts = [text["text"] for text in texts_in(drawing)]
                 self.assertEqual(texts.count("E_Stop"), 1)
-                self.assertIn("EXCEPT Cleared", texts)
-                self.assertIn("/ TIMER := 3 s", texts)
-                self.assertIn("Soft := 20000 rpm/s", texts)
+                for text in ("EXCEPT Cleared", "/ TIMER := 3 s", "Soft := 20000 rpm/s"):
+                    self.assertIn(text, texts)
 
     def test_examples(self):
         programs = sorted(EXAMPLES.glob("*.seq"))
         self.assertGreaterEqual(len(programs), 3)
         for program in programs:
             with self.subTest(program.name):
-                svg = draw(program)
-                self.check_drawing(svg)
-                texts = {text.strip() for text in svg.itertext()}
+                drawing = self.check(program)
+                self.check_ways(drawing)
+                self.assertGreaterEqual(10 * drawing["page"]["points"], 5.8)
                 source = program.read_text()
-                for step in steps_of(source):
-                    self.assertIn(step, texts)
-                self.assertIn("POWER_UP", texts)
-                self.assertIn(re.search(r"PROGRAM\s+(\w+)", source)[1], texts)
+                names = {node["name"] for node in drawing["nodes"] if node["kind"] != "note"}
+                self.assertLessEqual({*steps_of(source), "POWER_UP"}, names)
+                self.assertEqual(drawing["program"], re.search(r"PROGRAM\s+(\w+)", source)[1])
+                self.assertTrue(all(edge["points"] for edge in drawing["edges"] if edge["kind"] == "note"))
+
+    def test_recipes(self):
+        programs = list(programs_of_recipes())
+        self.assertGreaterEqual(len(programs), 13)
+        for title, source in programs:
+            with self.subTest(title):
+                drawing = self.check(self.write("part.seq", source))
+                self.check_ways(drawing)
+                self.assertGreaterEqual(10 * drawing["page"]["points"], 5.8)
+
+    def test_random_programs(self):
+        chance = random.Random(SEED)
+        for number in range(25):
+            source = random_program(chance, chance.randrange(2, 24))
+            with self.subTest(seed=SEED, number=number):
+                self.check_ways(self.check(self.write("random.seq", source)))
+
+    def test_title_motor_and_terminals_stand_apart(self):
+        source = ("PROGRAM Bag_Sealer MOTOR MAC140; VAR_INPUT Pedal AT IN0; Shut AT IN3; END_VAR VAR_OUTPUT Jaws AT OUT1; END_VAR\n"
+                  "STEP A: OWN ERROR; OUT Jaws; IF Pedal AND Shut THEN NEXT := POWER_UP; END_IF END_STEP END_PROGRAM\n")
+        file = self.write("bag.seq", source)
+        shown = [text["text"] for text in self.check(file)["texts"]]
+        self.assertEqual(shown[:3], ["Bag_Sealer", "Motor: MAC140", "IN0 = Pedal, IN3 = Shut"])
+        drawing = graph(file)
+        self.assertEqual((drawing["motor"], drawing["terminals"][1]), ("MAC140", {"terminal": "IN3", "name": "Shut"}))
+
+    def test_helper_steps_are_told_from_the_programs_own(self):
+        svg = draw(EXAMPLES / "bag_sealer.seq")
+        kinds = {}
+        for group in svg.findall(f"{SVG}g"):
+            kinds.setdefault(group.get("class").split()[1], []).append(group.find(f"{SVG}rect"))
+        self.assertTrue(kinds["copy"])
+        self.assertTrue(all(rect.get("stroke-dasharray") for rect in kinds["copy"]))
+        self.assertFalse(any(rect.get("stroke-dasharray") for rect in kinds["step"]))
+
+    def test_a_png_is_one_and_fits_the_page(self):
+        file = EXAMPLES / "pick_and_place.seq"
+        page = graph(file)["page"]
+        png = run(file, "--format", "png")
+        self.assertTrue(png.startswith(b"\x89PNG\r\n\x1a\n"))
+        width, height = struct.unpack(">II", png[16:24])
+        self.assertAlmostEqual(width, page["width"] * page["points"] * 200 / 72, delta=4)
+        self.assertAlmostEqual(height, page["height"] * page["points"] * 200 / 72, delta=4)
 
     def test_pictures_beside_the_examples_are_true(self):
         """A picture of a program has the CRC-32 of its table; the other pictures are traces."""
@@ -174,34 +322,27 @@ class Graph(unittest.TestCase):
 
     def test_random_tables(self):
         chance = random.Random(SEED)
-        with tempfile.TemporaryDirectory() as folder:
-            for number in range(8):
-                steps = chance.randrange(1, 15)
-                table = random_table(chance, steps, chance.randrange(1, 40))
-                file = Path(folder) / "table.bin"
-                file.write_bytes(table)
-                with self.subTest(seed=SEED, number=number):
-                    svg = draw(file)
-                    self.check_drawing(svg)
-                    texts = {text.strip() for text in svg.itertext()}
-                    for at in range(0, len(table) - 8, 8):
-                        self.assertIn(f"step {table[at] & 0x3F}", texts)
+        for number in range(12):
+            steps = chance.randrange(1, 15)
+            table = random_table(chance, steps, chance.randrange(1, 40))
+            with self.subTest(seed=SEED, number=number):
+                drawing = self.check(self.write("table.bin", table))
+                self.check_ways(drawing)
+                names = {node.get("name") for node in drawing["nodes"]}
+                self.assertLessEqual({f"step {table[at] & 0x3F}" for at in range(0, len(table) - 8, 8)}, names)
 
     def test_long_names_are_not_cut(self):
         long = "A_Name_As_Long_As_Anybody_Would_Ever_Want_To_Write_It_Down"
         source = (f"PROGRAM {long} VAR_INPUT {long}_In AT IN0; END_VAR VAR_OUTPUT {long}_Out AT OUT0; END_VAR\n"
                   f"STEP {long}_1: OWN ERROR; OUT {long}_Out; IF {long}_In THEN NEXT := {long}_2; END_IF END_STEP\n"
                   f"STEP {long}_2: OWN ERROR; END_STEP END_PROGRAM\n")
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder) / "long.seq"
-            file.write_text(source)
-            svg = draw(file)
-            self.check_drawing(svg)
-            texts = {text.strip() for text in svg.itertext()}
-            self.assertLessEqual({f"{long}_1", f"{long}_2", f"OUT {long}_Out", f"{long}_In"}, texts)
+        drawing = self.check(self.write("long.seq", source))
+        texts = {text["text"] for text in texts_in(drawing)}
+        self.assertLessEqual({f"{long}_1", f"{long}_2", f"OUT {long}_Out", f"{long}_In"}, texts)
 
 
 if __name__ == "__main__":
+    RECIPES = Path(sys.argv.pop())
     EXAMPLES = Path(sys.argv.pop())
     SEQC = sys.argv.pop()
     unittest.main()

@@ -71,6 +71,8 @@ TEST_F(ViewsCli, GraphGoesByTheOutputsName) {
     EXPECT_TRUE(read("a.png").starts_with("\x89PNG"));
     EXPECT_EQ(run("graph a.seq -o a.pdf"), 0) << read("err");
     EXPECT_TRUE(read("a.pdf").starts_with("%PDF"));
+    EXPECT_EQ(run("graph a.seq -o a.json"), 0) << read("err");
+    EXPECT_TRUE(read("a.json").starts_with(R"({"format":"nanoplc-graph","version":1,)")) << read("a.json");
     EXPECT_EQ(run("graph a.seq --format svg -o odd.name"), 0) << read("err");
     EXPECT_NE(read("odd.name").find("<svg"), std::string::npos);
     EXPECT_TRUE(failed_in_one_line("graph a.seq -o odd.txt", "--format"));
@@ -88,11 +90,12 @@ TEST_F(ViewsCli, GraphIsTheSameEachTime) {
 
 TEST_F(ViewsCli, WithoutGraphvizItSaysWhatToDo) {
     const std::string seqc = "cd '" + folder_.string() + "' && PATH=/nowhere '" SEQC_PROGRAM "' graph a.seq ";
-    EXPECT_EQ(WEXITSTATUS(std::system((seqc + "-o a.svg 2>err").c_str())), 2);
+    EXPECT_EQ(WEXITSTATUS(std::system((seqc + "-o a.png 2>err").c_str())), 2);
     EXPECT_NE(read("err").find("apt-get install graphviz"), std::string::npos) << read("err");
-    EXPECT_NE(read("err").find("--format dot"), std::string::npos) << read("err");
-    EXPECT_FALSE(exists("a.svg"));
-    EXPECT_EQ(WEXITSTATUS(std::system((seqc + "-o a.dot 2>err").c_str())), 0);
+    EXPECT_NE(read("err").find("--format svg"), std::string::npos) << read("err");
+    EXPECT_FALSE(exists("a.png"));
+    for (const char* const needs_none : {"-o a.svg", "-o a.json", "-o a.dot"})
+        EXPECT_EQ(WEXITSTATUS(std::system((seqc + needs_none + " 2>err").c_str())), 0) << read("err");
 }
 
 // A dot that fails, and one that is killed.
@@ -100,12 +103,12 @@ TEST_F(ViewsCli, AGraphvizThatFailsIsReported) {
     write("dot", "#!/bin/sh\necho 'no such luck' >&2\nexit 3\n");
     std::filesystem::permissions(folder_ / "dot", std::filesystem::perms::owner_all);
     const std::string seqc =
-        "cd '" + folder_.string() + "' && PATH=.:$PATH '" SEQC_PROGRAM "' graph a.seq -o a.svg 2>err";
+        "cd '" + folder_.string() + "' && PATH=.:$PATH '" SEQC_PROGRAM "' graph a.seq -o a.png 2>err";
     EXPECT_EQ(WEXITSTATUS(std::system(seqc.c_str())), 2);
     EXPECT_NE(read("err").find("'dot' failed: no such luck"), std::string::npos) << read("err");
     write("dot", "#!/bin/sh\nkill -9 $$\n");
     EXPECT_EQ(WEXITSTATUS(std::system(seqc.c_str())), 2);
-    EXPECT_FALSE(exists("a.svg"));
+    EXPECT_FALSE(exists("a.png"));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "cli/input.h"
@@ -10,6 +11,10 @@
 #include "host/paths.h"
 #include "host/process.h"
 #include "views/graph.h"
+#include "views/graph_json.h"
+#include "views/graph_layout.h"
+#include "views/graph_print.h"
+#include "views/graph_svg.h"
 
 namespace nplc::seqc::cli {
 namespace {
@@ -23,21 +28,20 @@ struct Rendering {
     std::string error;  ///< why there are none, in one line
 };
 
-/// What Graphviz' `dot -Tformat` makes of `text`. No shell is involved; nothing is left behind.
+/// What Graphviz makes of `text`. No shell is involved; nothing is left behind.
 Rendering render_dot(const std::string& text, const std::string& format) {
-    host::Ran ran = host::run_program("dot", {"-T" + format}, text);
+    host::Ran ran = host::run_program("dot", {"-Kneato", "-n2", "-Gdpi=200", "-T" + format}, text);
     if (ran.missing) {
         return {{},
                 "Graphviz' program 'dot' is missing: install it (on Debian: apt-get install graphviz), or "
-                "take --format "
-                "dot, which needs no Graphviz"};
+                "take --format svg, which needs no Graphviz"};
     }
     if (!ran.problem.empty()) return {{}, ran.problem};
     if (!ran.done) return {{}, fmt::format("'dot' failed: {}", first_line(ran.errors))};
     return {std::move(ran.output), {}};
 }
 
-constexpr std::array kFormats{"svg", "dot", "pdf", "png"};
+constexpr std::array kFormats{"svg", "png", "pdf", "json", "dot"};
 
 struct GraphArguments {
     InputFile table;
@@ -57,11 +61,17 @@ std::string format_of(const GraphArguments& options) {
     return !extension.empty() && is_format(extension.substr(1)) ? extension.substr(1) : "";
 }
 
+std::string json_text(const GraphModel& model, const Picture& picture) {
+    return graph_json_of(model, picture)
+               .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+           "\n";
+}
+
 int graph(const GraphArguments& options) {
     const std::string format = format_of(options);
     if (format.empty()) {
         return file_problem(
-            fmt::format("'{}' does not say what to draw: name it .svg, .dot, .pdf or .png, or give "
+            fmt::format("'{}' does not say what to draw: name it .svg, .png, .pdf, .json or .dot, or give "
                         "--format",
                         options.output));
     }
@@ -71,10 +81,14 @@ int graph(const GraphArguments& options) {
         return file_problem(fmt::format("'{}' is the file to draw: name another output", options.output));
     const GraphSource source{input.program ? &input.program->written : nullptr,
                              input.sources ? input.sources->text() : std::string_view()};
-    const std::string text = graph_of(input.table, names_of(input),
-                                      host::name_of(host::path_of(options.table.file).stem()), source);
-    if (format == "dot") return print_or_write(text, options.output);
-    const Rendering rendering = render_dot(text, format);
+    const std::string title = host::name_of(host::path_of(options.table.file).stem());
+    if (format == "dot")
+        return print_or_write(graph_of(input.table, names_of(input), title, source), options.output);
+    const GraphModel model = graph_model_of(input.table, names_of(input), title, source);
+    const Picture picture = picture_of(model);
+    if (format == "svg") return print_or_write(svg_of(picture, model.title), options.output);
+    if (format == "json") return print_or_write(json_text(model, picture), options.output);
+    const Rendering rendering = render_dot(print_of(picture), format);
     return rendering.error.empty() ? print_or_write(rendering.bytes, options.output)
                                    : file_problem(rendering.error);
 }
@@ -83,12 +97,13 @@ int graph(const GraphArguments& options) {
 
 void add_graph(arguments::App& app, int& exit_code) {
     const auto options = std::make_shared<GraphArguments>();
-    arguments::App& command = *app.add_subcommand("graph", "Draw a program or table, with Graphviz");
+    arguments::App& command = *app.add_subcommand("graph", "Draw a program or table for an A4 page");
     command.add_option("file", options->table.file, "A program, F.seq, or a table")->required();
     add_symbols_option(command, options->table);
     command.add_option("-o,--output", options->output,
-                       "F.svg, F.dot, F.pdf or F.png (default: SVG to standard output)");
-    command.add_option("--format", options->format, "svg, dot, pdf or png, whatever the output is called")
+                       "F.svg, F.png, F.pdf, F.json or F.dot (default: SVG to standard output)");
+    command
+        .add_option("--format", options->format, "svg, png, pdf, json or dot, whatever the output is called")
         ->one_of(std::vector<std::string>(kFormats.begin(), kFormats.end()));
     command.callback([options, &exit_code] { exit_code = graph(*options); });
 }

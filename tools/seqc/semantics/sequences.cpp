@@ -186,6 +186,8 @@ class Expansion {
             ast::Origin& origin = step.origin.emplace();
             origin.sequence = sequence.name;
             origin.back = back;
+            for (std::size_t k = 0; k < sequence.parameters.size(); ++k)
+                origin.arguments.emplace_back(sequence.parameters[k].name.text, call.call[k].text);
             const auto [first, is_first] = families_.try_emplace(
                 upper(fmt::format("{}.{}", sequence.name.text, sequence.steps[i].name.text)), names[i].text);
             if (!is_first) origin.first = first->second;

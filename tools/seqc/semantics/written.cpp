@@ -4,6 +4,8 @@
 #include <iterator>
 #include <utility>
 
+#include "syntax/names.h"
+
 namespace nplc::seqc {
 namespace {
 
@@ -52,6 +54,17 @@ Written::Step step_of(const StepPlan& plan) {
     return step;
 }
 
+std::vector<Written::Argument> arguments_of(const ast::Program& program, std::string_view step) {
+    const auto found = std::find_if(program.steps.begin(), program.steps.end(), [&](const ast::Step& s) {
+        return s.origin && same_name(s.name.text, step);
+    });
+    std::vector<Written::Argument> arguments;
+    if (found == program.steps.end()) return arguments;
+    for (const auto& [parameter, text] : found->origin->arguments)
+        arguments.push_back({std::string(parameter), std::string(text)});
+    return arguments;
+}
+
 Written::Everywhere everywhere_of(const ast::OnCondition& on) {
     const Span condition = on.condition.span;
     const std::vector<ast::Name>& last = on.except.empty() ? on.only : on.except;
@@ -68,6 +81,7 @@ Written written_of(const ast::Program& program, const Plan& plan, const std::vec
                    std::back_inserter(written.everywhere), everywhere_of);
     for (const StepPlan& step : plan.steps) {
         written.steps.push_back(step_of(step));
+        written.steps.back().arguments = arguments_of(program, step.name);
         sort_as_judged(written.steps.back().branches, written.everywhere);
         if (step.number != 0) continue;
         std::vector<Span>& entry = written.steps.back().entry;

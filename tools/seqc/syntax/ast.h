@@ -201,6 +201,7 @@ struct Origin {
     Name sequence;
     Name back;               ///< the step at which the call goes on
     std::string_view first;  ///< the same step of the first call; empty: it is that
+    std::vector<std::pair<std::string_view, std::string_view>> arguments;  ///< parameter, what it is
 };
 
 struct Step {

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
+#include <utility>
 
-#include "views/graph_columns.h"
 #include "views/graph_model.h"
 #include "views/graph_text.h"
 #include "views/table_text.h"
@@ -13,6 +14,7 @@
 namespace nplc::seqc {
 namespace {
 
+constexpr std::size_t kBoxWidth = 36;  // letters of a line in a step
 constexpr std::size_t kNoteWidth = 30;
 
 constexpr const char* kActionColour = "#1f4e79";
@@ -26,6 +28,21 @@ constexpr const char* kStyle = R"(
 // A4 less half an inch of margin.
 constexpr const char* kPage =
     R"(size="7.3,10.7", margin=0.2, nodesep=0.3, ranksep=0.3, labelloc=b, fontname="Helvetica", fontsize=9)";
+
+using LinePair = std::pair<std::uint8_t, std::uint8_t>;  // from, to
+
+/// The pairs of steps between which a line is drawn, and whether only ERROR leads along it.
+std::map<LinePair, bool> lines_of(const GraphModel& model) {
+    std::map<LinePair, bool> lines;
+    for (const GraphModel::Box& box : model.boxes) {
+        for (const GraphModel::Way& way : box.ways) {
+            if (way.to == box.step) continue;
+            const auto [line, is_new] = lines.try_emplace({box.step, way.by.value_or(way.to)}, way.on_error);
+            if (!is_new) line->second = line->second && way.on_error;
+        }
+    }
+    return lines;
+}
 
 std::string coloured(std::string_view colour, std::string_view content) {
     return fmt::format(R"(<FONT COLOR="{}">{}</FONT>)", colour, content);
@@ -59,7 +76,7 @@ std::string lines(std::string_view text, std::string_view colour) {
 
 class Drawing {
   public:
-    explicit Drawing(const GraphModel& model) : model_(model), columns_(columns_of(model)) {}
+    explicit Drawing(const GraphModel& model) : model_(model) {}
 
     std::string text() const {
         std::string text = fmt::format("digraph {} {{\n  graph [{}, label=<{}{}>];", quoted(model_.title),
@@ -68,10 +85,10 @@ class Drawing {
         text += fmt::format(
             "  subgraph cluster_table {{\n    graph [peripheries=0, fontsize=16, labelloc=t, "
             "label=<<B>{}</B>{}>];\n",
-            markup(model_.title), model_.motor.empty() ? "" : "  " + model_.motor);
+            markup(model_.title), machine());
         for (const GraphModel::Box& box : model_.boxes) text += node(box);
         for (std::size_t i = 0; i < model_.notes.size(); ++i) text += note(i);
-        text += columns_.size() > 1 ? column_lines() : all_lines();
+        text += all_lines();
         return text + "  }\n}\n";
     }
 
@@ -82,6 +99,19 @@ class Drawing {
         if (!has_order) return "";
         return model_.notes.empty() ? "; in a step the first condition that holds counts"
                                     : "; notes come first, then the first condition of the step that holds";
+    }
+
+    /// Motor, scale and terminals, a line each.
+    std::string machine() const {
+        std::string text;
+        if (!model_.motor.empty()) text += small("Motor: " + model_.motor);
+        if (!model_.scale.empty()) text += small("Scale: " + model_.scale);
+        for (const auto& [terminal, name] : model_.terminals) text += small(terminal + " = " + name);
+        return text;
+    }
+
+    static std::string small(const std::string& line) {
+        return fmt::format(R"(<BR/><FONT POINT-SIZE="10">{}</FONT>)", markup(line));
     }
 
     std::string name_of(std::uint8_t step) const {
@@ -130,7 +160,9 @@ class Drawing {
         if (!ways.empty()) content += "<HR/>" + ways;
         return fmt::format("    s{} [label={}{}{}];\n", box.step, table_of(content),
                            box.step == 0 ? ", peripheries=2" : "",
-                           box.reachable ? "" : R"(, fillcolor="#dddddd", fontcolor="#555555")");
+                           !box.reachable        ? R"(, fillcolor="#dddddd", fontcolor="#555555")"
+                           : !box.is_of_compiler ? ""
+                                                 : R"(, style="filled,rounded,dashed", fillcolor="#f2f5f9")");
     }
 
     std::string note(std::size_t number) const {
@@ -166,37 +198,7 @@ class Drawing {
         return text;
     }
 
-    std::string column_lines() const {
-        std::string text;
-        std::string heads;
-        const std::map<LinePair, bool> drawn = lines_of(model_);
-        for (std::size_t c = 0; c < columns_.size(); ++c) {
-            const std::vector<std::string>& column = columns_[c];
-            for (const std::string& name : column) text += fmt::format("    {} [group=c{}];\n", name, c);
-            for (std::size_t i = 0; i + 1 < column.size(); ++i)
-                text += neighbours(column[i], column[i + 1], drawn);
-            append(heads, column.front(), " -> ");
-        }
-        return text + fmt::format("    {{ rank=min; edge [style=invis]; {}; }}\n", heads);
-    }
-
-    /// What binds two boxes of a column: a line where one leads to the other.
-    static std::string neighbours(const std::string& upper, const std::string& lower,
-                                  const std::map<LinePair, bool>& drawn) {
-        const auto leads = [&](const std::string& from, const std::string& to) {
-            if (from.front() != 's' || to.front() != 's') return false;
-            const LinePair pair{static_cast<std::uint8_t>(std::stoi(from.substr(1))),
-                                static_cast<std::uint8_t>(std::stoi(to.substr(1)))};
-            return drawn.contains(pair);
-        };
-        const char* direction = leads(upper, lower)   ? leads(lower, upper) ? "dir=both, " : ""
-                                : leads(lower, upper) ? "dir=back, "
-                                                      : "style=invis, ";
-        return fmt::format("    {} -> {} [{}weight=100];\n", upper, lower, direction);
-    }
-
     const GraphModel& model_;
-    std::vector<std::vector<std::string>> columns_;
 };
 
 }  // namespace

@@ -1,125 +1,162 @@
 #include "views/graph_columns.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-
-#include "views/graph_text.h"
+#include <array>
+#include <optional>
+#include <set>
+#include <utility>
 
 namespace nplc::seqc {
 namespace {
 
-constexpr std::size_t kByTheirLines = 14;  // boxes that lines alone lay out well
-constexpr std::size_t kMostColumns = 7;
-// Points of an A4 page, and about what a line and a letter take.
-constexpr double kPageWidth = 525;
-constexpr double kPageHeight = 770;
-constexpr double kLine = 15;
-constexpr double kLetter = 6.2;
-constexpr double kGap = 34;
+constexpr double kCardGap = 18;
 
-struct Card {
-    std::string name;
-    double width = 0;
-    double height = 0;
-};
-
-class Measure {
+class Reading {
   public:
-    void line(std::size_t letters, std::size_t count = 1) {
-        width_ = std::max(width_, static_cast<double>(letters) * kLetter + kGap / 2);
-        height_ += static_cast<double>(count) * kLine;
+    explicit Reading(const GraphModel& model) : model_(model) {
+        for (const GraphModel::Note& note : model.notes) noted_.insert(note.way.to);
+        for (const GraphModel::Box& box : model.boxes) {
+            std::set<std::uint8_t> targets;
+            for (const GraphModel::Way& way : box.ways) targets.insert(way.by.value_or(way.to));
+            for (const std::uint8_t to : targets) ++entries_[to];
+        }
     }
-    void text(const std::string& text, std::size_t beside = 0) {
-        for (const std::string& part : wrapped(text, kBoxWidth)) line(part.size() + beside);
+
+    std::vector<std::size_t> order() {
+        while (order_.size() < model_.boxes.size()) {
+            std::optional<std::size_t> next = first();
+            while (next) {
+                order_.push_back(*next);
+                placed_.insert(model_.boxes[*next].step);
+                next = after(*next);
+            }
+        }
+        return order_;
     }
-    Card card(std::string name) const { return {std::move(name), width_, height_ + kGap}; }
 
   private:
-    double width_ = 0;
-    double height_ = 0;
+    /// Of the places where it leads the one that fewest others lead to.
+    std::optional<std::size_t> after(std::size_t at) const {
+        std::optional<std::size_t> best;
+        for (const GraphModel::Way& way : model_.boxes[at].ways) {
+            const std::uint8_t to = way.by.value_or(way.to);
+            const std::optional<std::size_t> box = place_of(to);
+            if (!box || way.on_error || noted_.contains(to)) continue;
+            if (!best || entries_[to] < entries_[model_.boxes[*best].step]) best = box;
+        }
+        return best;
+    }
+
+    std::optional<std::size_t> first() const {
+        for (auto placed = order_.rbegin(); placed != order_.rend(); ++placed) {
+            if (const auto next = after(*placed)) return next;
+        }
+        std::optional<std::size_t> any;
+        for (std::size_t i = 0; i < model_.boxes.size(); ++i) {
+            const std::uint8_t step = model_.boxes[i].step;
+            if (placed_.contains(step)) continue;
+            if (step == 0 || noted_.contains(step)) return i;
+            if (!any) any = i;
+        }
+        return any;
+    }
+
+    std::optional<std::size_t> place_of(std::uint8_t step) const {
+        if (placed_.contains(step)) return std::nullopt;
+        for (std::size_t i = 0; i < model_.boxes.size(); ++i) {
+            if (model_.boxes[i].step == step) return i;
+        }
+        return std::nullopt;
+    }
+
+    const GraphModel& model_;
+    std::set<std::uint8_t> noted_;
+    std::set<std::uint8_t> placed_;
+    std::array<std::size_t, kStepNumbers> entries_{};
+    std::vector<std::size_t> order_;
 };
 
-constexpr std::size_t kTarget = 16;  // letters of a target beside a condition
+/// A step with the note above it.
+using Group = std::vector<Card>;
 
-Card card_of(const GraphModel::Box& box) {
-    Measure measure;
-    measure.line(box.name.size() + 4);
-    for (const std::string& output : box.outputs) measure.text(output);
-    for (const std::string& entry : box.entry) measure.text(entry);
-    for (const GraphModel::Way& way : box.ways) {
-        measure.text(way.condition, kTarget);
-        measure.text(way.actions, kTarget);
+std::vector<Group> groups_of(const GraphModel& model, std::size_t letters) {
+    std::vector<Card> notes = note_cards(model, letters);
+    std::vector<Card> steps = step_cards(model, letters);
+    std::vector<Group> groups;
+    for (const std::size_t at : reading_order(model)) {
+        Group group;
+        for (Card& note : notes) {
+            if (note.box.step == steps[at].box.step) group.push_back(std::move(note));
+        }
+        group.push_back(std::move(steps[at]));
+        groups.push_back(std::move(group));
     }
-    return measure.card(fmt::format("s{}", box.step));
+    return groups;
 }
 
-Card card_of(const GraphModel::Note& note, std::size_t number) {
-    Measure measure;
-    measure.text(note.way.condition);
-    measure.text(note.where);
-    measure.text(note.way.actions);
-    measure.line(kTarget);
-    return measure.card(fmt::format("n{}", number));
-}
-
-/// By how much the page must be made smaller. Cards side by side share the height of the highest.
-double scale_of(const std::vector<Card>& cards, std::size_t rows) {
-    double width = 0;
-    for (std::size_t at = 0; at < cards.size(); at += rows) {
-        double widest = 0;
-        for (std::size_t i = at; i < std::min(at + rows, cards.size()); ++i)
-            widest = std::max(widest, cards[i].width);
-        width += widest;
-    }
+double height_of(const Group& group) {
     double height = 0;
-    for (std::size_t row = 0; row < rows; ++row) {
-        double highest = 0;
-        for (std::size_t i = row; i < cards.size(); i += rows) highest = std::max(highest, cards[i].height);
-        height += highest;
+    for (const Card& card : group) height += card.box.height + kCardGap;
+    return height;
+}
+
+/// Where columns begin if none is higher than `limit` unless one group is.
+std::vector<std::size_t> breaks(const std::vector<double>& heights, double limit) {
+    std::vector<std::size_t> begins;
+    double height = 0;
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+        if (i == 0 || height + heights[i] > limit) {
+            begins.push_back(i);
+            height = 0;
+        }
+        height += heights[i];
     }
-    return std::min(kPageWidth / width, kPageHeight / height);
+    return begins;
+}
+
+std::vector<std::size_t> even_breaks(const std::vector<double>& heights, std::size_t columns) {
+    double low = 0;
+    double high = 0;
+    for (const double height : heights) {
+        low = std::max(low, height);
+        high += height;
+    }
+    constexpr int kHalvings = 20;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double limit = (low + high) / 2;
+        (breaks(heights, limit).size() > columns ? low : high) = limit;
+    }
+    return breaks(heights, high);
+}
+
+void stack(std::vector<Card>& column, const GraphModel& model, std::size_t letters) {
+    double width = 0;
+    for (const Card& card : column) width = std::max(width, card.box.width);
+    double y = 0;
+    for (Card& card : column) {
+        widen(card, width, model, letters);
+        card.box.y = y;
+        y += card.box.height + kCardGap;
+    }
 }
 
 }  // namespace
 
-std::map<LinePair, bool> lines_of(const GraphModel& model) {
-    std::map<LinePair, bool> lines;
-    for (const GraphModel::Box& box : model.boxes) {
-        for (const GraphModel::Way& way : box.ways) {
-            if (way.to == box.step) continue;
-            const auto [line, is_new] = lines.try_emplace({box.step, way.by.value_or(way.to)}, way.on_error);
-            if (!is_new) line->second = line->second && way.on_error;
-        }
-    }
-    return lines;
+std::vector<std::size_t> reading_order(const GraphModel& model) {
+    return Reading(model).order();
 }
 
-std::vector<std::vector<std::string>> columns_of(const GraphModel& model) {
-    std::vector<Card> cards;
-    for (const GraphModel::Box& box : model.boxes) {
-        for (std::size_t i = 0; i < model.notes.size(); ++i) {
-            if (model.notes[i].way.to == box.step) cards.push_back(card_of(model.notes[i], i));
-        }
-        cards.push_back(card_of(box));
+CardColumns columns_of(const GraphModel& model, std::size_t columns, std::size_t letters) {
+    std::vector<Group> groups = groups_of(model, letters);
+    std::vector<double> heights;
+    for (const Group& group : groups) heights.push_back(height_of(group));
+    const std::vector<std::size_t> begins = even_breaks(heights, columns);
+    CardColumns result;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        if (std::find(begins.begin(), begins.end(), i) != begins.end()) result.emplace_back();
+        for (Card& card : groups[i]) result.back().push_back(std::move(card));
     }
-    const std::size_t lines = lines_of(model).size();
-    std::size_t rows = cards.size();
-    if (cards.size() > kByTheirLines || lines > 3 * cards.size()) {
-        double best = 0;
-        for (std::size_t columns = 2; columns <= kMostColumns; ++columns) {
-            const std::size_t wanted = (cards.size() + columns - 1) / columns;
-            const double scale = scale_of(cards, wanted);
-            if (scale <= best) continue;
-            best = scale;
-            rows = wanted;
-        }
-    }
-    std::vector<std::vector<std::string>> result;
-    for (std::size_t i = 0; i < cards.size(); ++i) {
-        if (i % rows == 0) result.emplace_back();
-        result.back().push_back(cards[i].name);
-    }
+    for (std::vector<Card>& column : result) stack(column, model, letters);
     return result;
 }
 

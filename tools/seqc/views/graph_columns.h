@@ -1,24 +1,22 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <map>
-#include <string>
-#include <utility>
 #include <vector>
 
+#include "views/graph_cards.h"
 #include "views/graph_model.h"
 
 namespace nplc::seqc {
 
-inline constexpr std::size_t kBoxWidth = 36;  ///< characters of a line in a step
+using CardColumns = std::vector<std::vector<Card>>;
 
-using LinePair = std::pair<std::uint8_t, std::uint8_t>;  ///< from, to
+/// Places in `model.boxes` in the order in which a person reads them: along the ways, what notes lead to
+/// last.
+std::vector<std::size_t> reading_order(const GraphModel& model);
 
-/// The pairs of steps between which a line may be drawn, and whether only ERROR leads along it.
-std::map<LinePair, bool> lines_of(const GraphModel& model);
-
-/// Names of nodes, "s5" for a step and "n0" for a note, in columns for one page: what is readable where a
-/// layout by the lines would be a thread. One column: let the lines decide.
-std::vector<std::vector<std::string>> columns_of(const GraphModel& model);
+/// The model's cards one below the other in so many columns or fewer, about equally high; a note above its
+/// step. Heights are set, and all widths but those of notes are their column's.
+CardColumns columns_of(const GraphModel& model, std::size_t columns, std::size_t letters);
 
 }  // namespace nplc::seqc

@@ -14,7 +14,8 @@
 namespace nplc::seqc {
 namespace {
 
-constexpr std::size_t kWorthANote = 3;  // steps with the same way out
+constexpr std::size_t kWorthANote = 3;     // steps with the same way out
+constexpr std::size_t kOfOnCondition = 2;  // the same of an ON condition
 constexpr std::size_t kFewSteps = 3;
 constexpr std::size_t kInputs = 6;
 
@@ -92,7 +93,8 @@ class Builder {
     bool take(const Bundles& bundles, std::vector<GraphModel::Note>& notes, const Which& which) {
         const std::size_t before = notes.size();
         for (const auto& [key, steps] : bundles) {
-            if (steps.size() < kWorthANote) continue;
+            const bool is_on = source_.where_of(std::get<0>(key)).has_value();
+            if (steps.size() < (is_on ? kOfOnCondition : kWorthANote)) continue;
             for (const std::uint8_t step : steps) {
                 auto& ways = ways_[step];
                 const auto taken =
@@ -102,14 +104,19 @@ class Builder {
                 covered_[step] |= taken->when;
                 ways.erase(taken);
             }
-            notes.push_back(note(key, steps));
+            const auto same = [&, &wanted = key](const auto& bundle) {
+                return std::get<0>(bundle.first) == std::get<0>(wanted);
+            };
+            const bool is_only_one = std::count_if(bundles.begin(), bundles.end(), same) == 1;
+            notes.push_back(note(key, steps, is_only_one));
         }
         return notes.size() > before;
     }
 
-    GraphModel::Note note(const Key& key, const Steps& steps) const {
+    /// `as_written`: the program's own words say where.
+    GraphModel::Note note(const Key& key, const Steps& steps, bool as_written = true) const {
         const auto& [condition, actions, to] = key;
-        const std::optional<std::string> written = source_.where_of(condition);
+        const std::optional<std::string> written = as_written ? source_.where_of(condition) : std::nullopt;
         std::string in = where(steps, to, condition == "ERROR");
         if (written && !written->empty() && written->size() < in.size()) in = *written;
         return {{.condition = condition, .actions = actions, .to = to, .on_error = condition == "ERROR"}, in};
@@ -168,9 +175,11 @@ class Builder {
                             .shows_number = named,
                             .reachable = machine_.reachable.test(step),
                             .made_as = source_.made_as(step),
+                            .is_of_compiler = false,
                             .outputs = source_.outputs(step),
                             .entry = source_.entry(step),
                             .ways = {}};
+        box.is_of_compiler = !box.made_as.empty() && !box.made_as.starts_with("of SEQUENCE");
         for (const GraphWays::Way& way : ways_[step]) box.ways.push_back(way.shown);
         return box;
     }
@@ -212,6 +221,16 @@ class Builder {
     std::array<Truth, kStepNumbers> covered_;  ///< by notes
 };
 
+/// Those that the program gave a name.
+template <class Names>
+void add_terminals(std::string_view kind, const Names& names, GraphModel& model) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        std::string terminal = fmt::format("{}{}", kind, i);
+        if (!names[i].empty() && names[i] != terminal)
+            model.terminals.emplace_back(std::move(terminal), names[i]);
+    }
+}
+
 }  // namespace
 
 GraphModel graph_model_of(std::span<const std::uint8_t> table, const Symbols* symbols,
@@ -222,9 +241,16 @@ GraphModel graph_model_of(std::span<const std::uint8_t> table, const Symbols* sy
     model.title = named ? symbols->program : title;
     if (symbols != nullptr) model.motor = motor_name(*symbols);
     const std::size_t steps = machine.used.count();
-    const std::size_t terms = machine.terms + 1;
-    model.footer = fmt::format("{} step{}, {} term{}, CRC-32 {:08X}", steps, steps == 1 ? "" : "s", terms,
-                               terms == 1 ? "" : "s", base::crc32(table));
+    model.terms = machine.terms + 1;
+    model.crc32 = base::crc32(table);
+    model.footer = fmt::format("{} step{}, {} term{}, CRC-32 {:08X}", steps, steps == 1 ? "" : "s",
+                               model.terms, model.terms == 1 ? "" : "s", model.crc32);
+    if (symbols != nullptr) {
+        add_terminals("IN", symbols->inputs, model);
+        add_terminals("OUT", symbols->outputs, model);
+        if (const auto& scale = symbols->scale)
+            model.scale = fmt::format("{:g} rev = {:g} {}", scale->revolutions, scale->length, scale->unit);
+    }
     Builder(machine, symbols, source).build(model);
     return model;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "seqc/seqc.h"
@@ -26,7 +27,8 @@ struct GraphModel {
         std::string name = {};
         bool shows_number = false;
         bool reachable = false;
-        std::string made_as = {};               ///< "helper step", "copy of Fault": the compiler made it
+        std::string made_as = {};               ///< "helper step", "copy of Fault", "of SEQUENCE Stamp"
+        bool is_of_compiler = false;            ///< a helper step or copy
         std::vector<std::string> outputs = {};  ///< "OUT Grip", "OUT Lamp WHEN IN3"
         std::vector<std::string> entry = {};    ///< "ENTRY STOP"; in step 0 what POWER_UP writes
         std::vector<Way> ways = {};             ///< the first one that holds counts
@@ -39,7 +41,11 @@ struct GraphModel {
 
     std::string title;
     std::string motor;   ///< empty where unknown
+    std::string scale;   ///< "1 rev = 10 mm"; empty where there is none
     std::string footer;  ///< what tells this table from others
+    std::size_t terms = 0;
+    std::uint32_t crc32 = 0;
+    std::vector<std::pair<std::string, std::string>> terminals;  ///< "IN0", "Pedal"; those that have names
     std::vector<Box> boxes;
     std::vector<Note> notes;
 };

@@ -25,9 +25,22 @@ GraphWays::GraphWays(const Machine& machine, const Symbols* symbols, const Graph
     : machine_(machine),
       symbols_(symbols),
       written_(source.written),
+      source_(source.text),
       text_(source.text),
       power_up_(power_up_orders(machine)) {
     for (std::uint8_t step = 0; step < kStepNumbers; ++step) entries_[step] = entry_of(machine, step);
+}
+
+/// A copy that the compiler made has them from the step that it is a copy of.
+WrittenText GraphWays::text_of(const Written::Step& step) const {
+    if (written_ == nullptr || symbols_ == nullptr || step.number >= symbols_->made_for.size()) return text_;
+    const std::string_view made_for = symbols_->made_for[step.number];
+    for (const Written::Step& other : written_->steps) {
+        const bool is_it = &other == &step ||
+                           made_for.starts_with(fmt::format("copy of '{}' ", symbols_->steps[other.number]));
+        if (is_it && !other.arguments.empty()) return {source_, other.arguments};
+    }
+    return text_;
 }
 
 const Written::Step* GraphWays::written_step(std::uint8_t step) const {
@@ -46,6 +59,34 @@ bool GraphWays::is_true(const Written::Branch& branch, std::uint8_t step) const 
     return branch.when.any();
 }
 
+GraphModel::Way GraphWays::shown(const Written::Step& step, const Written::Branch& branch,
+                                 const Truth& told) const {
+    const WrittenText text = text_of(step);
+    const std::string condition = text.condition(branch);
+    GraphModel::Way way{.condition = condition,
+                        .actions = text.statements(branch.statements),
+                        .to = branch.next.value_or(step.number),
+                        .by = branch.by_helper};
+    if (branch.statements.empty() && branch.when == truth_of_bit(kErrorBit)) {
+        way.condition = "ERROR";
+    } else if (leads_to_several(step, condition)) {
+        way.condition = condition_text(branch.when & ~told, told, symbols_);
+    }
+    return way;
+}
+
+/// A condition that the compiler divided, so that its words alone do not say which of the ways it is.
+bool GraphWays::leads_to_several(const Written::Step& step, const std::string& condition) const {
+    std::optional<std::uint8_t> first;
+    for (const Written::Branch& branch : step.branches) {
+        if (!is_true(branch, step.number) || text_of(step).condition(branch) != condition) continue;
+        const std::uint8_t to = branch.next.value_or(step.number);
+        if (first.value_or(to) != to) return true;
+        first = to;
+    }
+    return false;
+}
+
 std::vector<GraphWays::Way> GraphWays::of(std::uint8_t step) const {
     const Truth error = truth_of_bit(kErrorBit);
     std::vector<Way> ways;
@@ -58,13 +99,7 @@ std::vector<GraphWays::Way> GraphWays::of(std::uint8_t step) const {
     if (const Written::Step* written = written_step(step)) {
         for (const Written::Branch& branch : written->branches) {
             if (!is_true(branch, step)) continue;
-            const bool is_on_error = branch.statements.empty() && branch.when == error;
-            add(branch.when,
-                {.condition = is_on_error ? "ERROR" : text_.condition(branch),
-                 .actions = text_.statements(branch.statements),
-                 .to = branch.next.value_or(step),
-                 .by = branch.by_helper},
-                true);
+            add(branch.when, shown(*written, branch, told), true);
         }
     }
     for (const Reaction& reaction : reactions_of(machine_, step)) {
@@ -76,7 +111,18 @@ std::vector<GraphWays::Way> GraphWays::of(std::uint8_t step) const {
              .to = reaction.outcome.next},
             false);
     }
+    name_the_rest(ways);
     return ways;
+}
+
+/// ELSE before the last way, where the compiler added one behind it, is said in full.
+void GraphWays::name_the_rest(std::vector<Way>& ways) const {
+    Truth told;
+    for (std::size_t i = 0; i + 1 < ways.size(); ++i) {
+        std::string& condition = ways[i].shown.condition;
+        if (condition == "ELSE") condition = condition_text(ways[i].when & ~told, told, symbols_);
+        told |= ways[i].when;
+    }
 }
 
 std::string GraphWays::actions(std::uint8_t step, const Reaction& reaction) const {
@@ -102,8 +148,9 @@ std::string GraphWays::actions(std::uint8_t step, const Reaction& reaction) cons
 std::vector<std::string> GraphWays::entry(std::uint8_t step) const {
     std::vector<std::string> lines;
     if (const Written::Step* written = written_step(step)) {
+        const WrittenText own = text_of(*written);
         for (const Span span : written->entry) {
-            const std::string text = step == 0 ? text_.value(span) : text_.statements({span});
+            const std::string text = step == 0 ? own.value(span) : own.statements({span});
             lines.push_back(step == 0 ? text : "ENTRY " + text);
         }
         return lines;
@@ -129,7 +176,7 @@ std::string GraphWays::condition_of(const OutputRule& rule, std::uint8_t step) c
         for (const Written::Output& output : written->outputs) {
             const bool is_of_it = ((output.outputs >> rule.bit) & 1) != 0;
             if (is_of_it && (output.when & ~rule.open) == (rule.when & ~rule.open))
-                return text_.of(output.condition);
+                return text_of(*written).of(output.condition);
         }
     }
     return condition_text(rule.when, rule.open, symbols_);

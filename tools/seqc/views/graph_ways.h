@@ -31,13 +31,19 @@ class GraphWays {
 
   private:
     const Written::Step* written_step(std::uint8_t step) const;
+    /// Texts of a step, with what its sequence was called with.
+    WrittenText text_of(const Written::Step& step) const;
+    GraphModel::Way shown(const Written::Step& step, const Written::Branch& branch, const Truth& told) const;
     std::string actions(std::uint8_t step, const Reaction& reaction) const;
     std::string condition_of(const OutputRule& rule, std::uint8_t step) const;
+    bool leads_to_several(const Written::Step& step, const std::string& condition) const;
+    void name_the_rest(std::vector<Way>& ways) const;
     bool is_true(const Written::Branch& branch, std::uint8_t step) const;
 
     const Machine& machine_;
     const Symbols* symbols_;
     const Written* written_;
+    std::string_view source_;
     WrittenText text_;
     std::vector<sequencer::MotorOrder> power_up_;
     std::array<Entry, kStepNumbers> entries_;

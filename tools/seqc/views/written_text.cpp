@@ -20,6 +20,14 @@ std::string in_capitals_if_joining(std::string_view word) {
 
 }  // namespace
 
+std::string_view WrittenText::word(std::string_view text) const {
+    if (arguments_ == nullptr) return text;
+    for (const Written::Argument& argument : *arguments_) {
+        if (same_name(argument.parameter, text)) return argument.text;
+    }
+    return text;
+}
+
 std::string WrittenText::of(Span span) const {
     if (span.offset > source_.size()) return {};
     const std::string_view slice = source_.substr(span.offset, span.length);
@@ -29,7 +37,7 @@ std::string WrittenText::of(Span span) const {
     for (const Token& token : tokens_of(slice, ignored)) {
         if (token.kind == TokenKind::end) break;
         if (token.span.offset > end && !text.empty()) text += ' ';
-        text += in_capitals_if_joining(token.text);
+        text += in_capitals_if_joining(word(token.text));
         end = token.span.offset + token.span.length;
     }
     return text;
@@ -43,7 +51,8 @@ std::string WrittenText::condition(const Written::Branch& branch) const {
             return statement.offset >= branch.condition.offset &&
                    statement.offset < branch.condition.offset + branch.condition.length;
         });
-    const bool is_next = same_name(std::string_view(text).substr(0, text.find_first_of(" :")), "NEXT");
+    const std::string_view first = std::string_view(text).substr(0, text.find_first_of(" :"));
+    const bool is_next = same_name(first, "NEXT") || same_name(first, "CALL");
     return text.empty() || is_statement || is_next ? "always" : text + limit_behind(branch.condition);
 }
 

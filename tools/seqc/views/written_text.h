@@ -12,6 +12,9 @@ namespace nplc::seqc {
 class WrittenText {
   public:
     explicit WrittenText(std::string_view source) : source_(source) {}
+    /// With arguments in the place of parameters.
+    WrittenText(std::string_view source, const std::vector<Written::Argument>& arguments)
+        : source_(source), arguments_(&arguments) {}
 
     std::string of(Span span) const;
     /// "Start AND NOT Guard"; "ELSE"; "always" where the program wrote no condition.
@@ -24,7 +27,10 @@ class WrittenText {
   private:
     std::string limit_behind(Span condition) const;
 
+    std::string_view word(std::string_view text) const;
+
     std::string_view source_;
+    const std::vector<Written::Argument>* arguments_ = nullptr;
 };
 
 }  // namespace nplc::seqc

@@ -26,12 +26,18 @@ struct Written {
         Cases when;
         Span condition;
     };
+    /// Of the SEQUENCE that a step stands in, as it was called.
+    struct Argument {
+        std::string parameter;
+        std::string text;
+    };
     struct Step {
         std::uint8_t number = 0;
         bool is_helper = false;
         std::vector<Branch> branches;  ///< in the order in which they are judged
         std::vector<Span> entry;       ///< in step 0 the values of VAR_MOTOR: `Home AT P1 := 0 mm`
         std::vector<Output> outputs;   ///< those with a condition
+        std::vector<Argument> arguments = {};
     };
     /// ON condition IN .. EXCEPT .. NEXT := Step;
     struct Everywhere {

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "views/graph_model.h"
+#include "views/graph_picture.h"
+
+namespace nplc::seqc {
+
+/// The drawing for other programs: what stands in it, and where.
+nlohmann::ordered_json graph_json_of(const GraphModel& model, const Picture& picture);
+
+}  // namespace nplc::seqc

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "views/graph_model.h"
+#include "views/graph_picture.h"
+
+namespace nplc::seqc {
+
+/// The model laid out for an A4 page, upright or across, whichever lets it be read better.
+Picture picture_of(const GraphModel& model);
+
+}  // namespace nplc::seqc

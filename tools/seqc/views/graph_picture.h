@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace nplc::seqc {
+
+/// A drawing with all its places: x to the right, y down. Nothing in it depends on a font or a program.
+struct Picture {
+    enum class TextKind : std::uint8_t {
+        title,
+        motor,
+        terminal,
+        footer,
+        number,
+        name,
+        made_as,
+        output,
+        entry,
+        condition,
+        action,
+        target,
+        note,
+        error_note,
+        where
+    };
+    enum class Anchor : std::uint8_t { start, middle, end };
+    struct Text {
+        TextKind kind = TextKind::name;
+        Anchor anchor = Anchor::start;
+        double x = 0;
+        double y = 0;      ///< of the line on which letters stand
+        double width = 0;  ///< what it takes at the most
+        std::string text = {};
+        std::optional<std::size_t> way = {};  ///< of its box
+    };
+    enum class BoxKind : std::uint8_t { step, helper, copy, note };
+    struct Box {
+        std::string id;  ///< "s5" for a step, "n5" for a note of what leads to it
+        BoxKind kind = BoxKind::step;
+        std::uint8_t step = 0;
+        bool reachable = true;
+        bool on_error = false;  ///< a note of errors alone
+        double x = 0;
+        double y = 0;
+        double width = 0;
+        double height = 0;
+        std::vector<Text> texts = {};
+        std::vector<double> rules = {};  ///< heights of lines across
+    };
+    enum class LineKind : std::uint8_t { forward, back, error, note };
+    using Point = std::pair<double, double>;
+    struct Line {
+        std::string from;
+        std::string to;
+        std::optional<std::size_t> way;  ///< of the box where it begins
+        LineKind kind = LineKind::forward;
+        std::vector<Point> points;  ///< none: the arrow in the box alone says where it goes on
+    };
+
+    double width = 0;
+    double height = 0;
+    double scale = 1;  ///< points of the paper for 1 of it
+    std::vector<Text> texts;
+    std::vector<Box> boxes;
+    std::vector<Line> lines;
+};
+
+inline constexpr double kInnerFrame = 2.5;  ///< of POWER_UP, from its outer one
+
+struct TextStyle {
+    double size;
+    bool bold;
+    bool italic;
+    std::string_view colour;
+    std::string_view name;  ///< of the kind
+};
+
+TextStyle style_of(Picture::TextKind kind);
+std::string_view colour_of(Picture::LineKind kind);
+std::string_view name_of(Picture::LineKind kind);
+std::string_view name_of(Picture::BoxKind kind);
+std::string_view colour_of(const Picture::Box& box);
+/// From the outer frame to where rules begin.
+double inset_of(const Picture::Box& box);
+/// Of a text in it.
+std::string_view colour_of(const Picture::Box& box, const Picture::Text& text);
+std::string_view fill_of(const Picture::Box& box);
+
+}  // namespace nplc::seqc
