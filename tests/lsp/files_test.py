@@ -116,6 +116,8 @@ class Includes(Case):
         text = "\n".join(line for line in PRESS.replace("ON ERROR", "INCLUDE 'fault.seqi';\nON ERROR").split("\n") if "STEP Fault" not in line)
         self.client.change(self.press, 2, [{"text": text}])
         told = self.client.request("workspace/executeCommand", {"command": "seqc.dot", "arguments": [self.press]})
+        self.assertIn("digraph", told["dot"])
+        self.assertIn(">Work</text>", told["svg"])
         places = {step["name"]: (step["uri"], step["line"]) for step in told["steps"]}
         idle = place_of(text, "STEP Idle")["line"]
         self.assertEqual(places, {"Idle": (self.press, idle), "Work": (self.press, idle + 1), "Fault": (fault, 1)})

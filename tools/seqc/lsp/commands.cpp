@@ -3,6 +3,8 @@
 #include <array>
 
 #include "views/graph.h"
+#include "views/graph_layout.h"
+#include "views/graph_svg.h"
 
 namespace nplc::seqc::lsp {
 namespace {
@@ -34,7 +36,10 @@ Json step_lines(const Workspace& workspace, const View& view, const Compilation&
 Json dot_of(Workspace& workspace, const Document& document) {
     const View view = workspace.view_of(document);
     const Compilation& compiled = sound(view);
-    return {{"dot", graph_of(compiled.table, &compiled.symbols, compiled.symbols.program)},
+    const std::string& program = compiled.symbols.program;
+    const GraphModel model = graph_model_of(compiled.table, &compiled.symbols, program);
+    return {{"dot", graph_of(compiled.table, &compiled.symbols, program)},
+            {"svg", svg_of(picture_of(model), program)},
             {"steps", step_lines(workspace, view, compiled)}};
 }
 

@@ -8,7 +8,8 @@
 /// What workspace/executeCommand answers.
 namespace nplc::seqc::lsp {
 
-/// {"dot": Graphviz' text, "steps": {"name": line}}; throws ResponseError for a program with errors.
+/// {"dot": Graphviz' text, "svg": the drawing, "steps": {"name": line}}; throws ResponseError for a program
+/// with errors.
 Json dot_of(Workspace& workspace, const Document& document);
 
 /// Steps, inputs, outputs and registers with their numbers and lines, for live views.

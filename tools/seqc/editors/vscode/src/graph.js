@@ -1,21 +1,6 @@
 "use strict";
 
-const { spawn } = require("node:child_process");
 const vscode = require("vscode");
-
-/** What Graphviz makes of a text. */
-function drawn(dot, program = "dot") {
-    return new Promise((resolve, reject) => {
-        const process = spawn(program, ["-Tsvg"]);
-        let svg = "";
-        let errors = "";
-        process.stdout.on("data", (part) => (svg += part));
-        process.stderr.on("data", (part) => (errors += part));
-        process.on("error", () => reject(new Error("Graphviz' program 'dot' is missing: install graphviz")));
-        process.on("close", (code) => (code === 0 ? resolve(svg) : reject(new Error(errors.split("\n")[0]))));
-        process.stdin.end(dot);
-    });
-}
 
 /** The step in whose lines a place of a file is; steps of included files say in which. */
 function stepAt(steps, line, uri) {
@@ -27,7 +12,7 @@ function page(svg) {
     const drawing = svg.slice(svg.indexOf("<svg"));
     return `<!DOCTYPE html><html><head><meta charset="utf-8">
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'">
-<style>body { background: white } svg { max-width: 100%; height: auto } .here polygon, .here path { stroke: #d35400; stroke-width: 3 }</style></head>
+<style>body { background: white } svg { max-width: 100%; height: auto } .here > rect { stroke: #d35400; stroke-width: 3 }</style></head>
 <body>${drawing}<script>
 window.addEventListener("message", (event) => {
     for (const node of document.querySelectorAll("g.node")) {
@@ -67,9 +52,9 @@ class GraphView {
 
     async draw() {
         if (this.panel === undefined) return;
-        const { dot, steps } = await this.ask("seqc.dot", this.uri);
+        const { svg, steps } = await this.ask("seqc.dot", this.uri);
         this.steps = steps;
-        this.panel.webview.html = page(await drawn(dot));
+        this.panel.webview.html = page(svg);
     }
 
     follow(editor) {
@@ -85,4 +70,4 @@ class GraphView {
     }
 }
 
-module.exports = { GraphView, drawn, page, stepAt };
+module.exports = { GraphView, page, stepAt };
