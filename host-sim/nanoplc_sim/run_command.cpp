@@ -246,7 +246,9 @@ Program stored_program() {
 /// whatever name. Throws InputError.
 void check_outputs(const RunOptions& options) {
     std::vector<Output> outputs;
+    const std::string symbols = symbols_beside_trace(options);
     if (options.csv) outputs.push_back({"--trace", *options.csv});
+    if (!symbols.empty()) outputs.push_back({"the symbols of --trace,", symbols});
     if (options.vcd) outputs.push_back({"--vcd", *options.vcd});
     if (options.junit) outputs.push_back({"--junit", *options.junit});
     for (std::size_t i = 0; i < outputs.size(); ++i) {
@@ -256,6 +258,14 @@ void check_outputs(const RunOptions& options) {
 }
 
 }  // namespace
+
+std::string symbols_beside_trace(const RunOptions& options) {
+    if (!options.csv || OutputFile::written_for(*options.csv).empty()) return {};
+    const std::string beside = *options.csv + ".sym";
+    const std::string own =
+        options.program.empty() ? std::string() : symbols_of(options.program, options.symbols);
+    return !own.empty() && touches(OutputFile::written_for(beside), own) ? std::string() : beside;
+}
 
 int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted) {
     check_outputs(options);

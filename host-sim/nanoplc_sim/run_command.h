@@ -46,6 +46,10 @@ struct RunOptions {
     std::uint32_t jvl_baud() const { return baud.value_or(19'200); }
 };
 
+/// Where the symbols of a program go for a plot of its trace. Empty for none: the trace is no ordinary file,
+/// or the program's own symbol file has that name.
+std::string symbols_beside_trace(const RunOptions& options);
+
 /// `nanoplc-sim run`. Answers the exit code: 0, or 1 if an expectation failed. `interrupted` becomes other
 /// than 0 when the user wants the run to end: it then ends in good order. Throws InputError, FileError,
 /// EndlessRules.

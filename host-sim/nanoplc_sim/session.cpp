@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string_view>
+#include <system_error>
 
 #include "input_file.h"
 #include "junit.h"
@@ -83,6 +87,17 @@ std::string_view in_words(gateway::SafeReason reason) {
 std::string identity(const Program& program) {
     return fmt::format("{}table CRC-32 {:08X}",
                        program.name.empty() ? "" : fmt::format("program {}, ", program.name), program.crc32);
+}
+
+constexpr std::string_view kLeftByTrace = "  \"trace\": {\"counts_per_rev\":";
+
+/// Symbols that an earlier run left; nobody else's.
+void remove_left(const std::string& path) {
+    std::ifstream file(path);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    file.close();
+    std::error_code ignored;
+    if (text.find(kLeftByTrace) != std::string::npos) std::filesystem::remove(path, ignored);
 }
 
 /// Of --inputs.
@@ -292,7 +307,10 @@ bool Session::finish() {
     runner_.finish(last_);
     note_changes();
     if (!options_.quiet) timeline_.observe(last_);
-    if (csv_) csv_->finish(last_);
+    if (csv_) {
+        csv_->finish(last_);
+        leave_symbols();
+    }
     if (vcd_) vcd_->finish(now());
     if (junit_) {
         junit_->write(junit_of(runner_.outcomes(), scenario_.file, program_.file, now()));
@@ -300,6 +318,25 @@ bool Session::finish() {
     }
     summary();
     return runner_.failures() == 0;
+}
+
+/// What a plot of the trace wants to know: the program's names, and what a count is. Of a table without names
+/// there are none; those of an earlier trace go.
+void Session::leave_symbols() const {
+    const std::string path = symbols_beside_trace(options_);
+    if (path.empty()) return;
+    const std::size_t end = program_.symbols_text.rfind('}');
+    if (end == std::string::npos) {
+        remove_left(path);
+        return;
+    }
+    std::string text = program_.symbols_text.substr(0, end);
+    while (text.ends_with('\n')) text.pop_back();
+    const registers::Scale scale = registers::scale_of(program_.names.motor);
+    OutputFile file(path);
+    file.write(fmt::format("{},\n{}{},\"samples_per_second\":{}}}\n}}\n", text, kLeftByTrace,
+                           scale.counts_per_rev, scale.samples_per_second));
+    file.commit();
 }
 
 void Session::summary() {

@@ -66,6 +66,7 @@ class Session {
     void show();
     void note_changes();
     bool waits_for_motor() const;
+    void leave_symbols() const;
     void summary();
     void follow_orders();
     void compare_orders();
