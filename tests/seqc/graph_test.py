@@ -226,6 +226,9 @@ class Graph(unittest.TestCase):
         for (to, a), (other, b) in combinations(pieces, 2):
             self.assertFalse(to != other and run_together(a, b), (to, a, other, b))
 
+        kinds = [edge["kind"] for edge in drawing["edges"]]
+        self.assertEqual(kinds, sorted(kinds, key=["error", "back", "forward", "note"].index), "back to front")
+
     def check_page(self, drawing):
         page = drawing["page"]
         for area in [*map(box_of, drawing["nodes"]), *map(area_of, texts_in(drawing)), *(p for e in drawing["edges"] for p in segments(e))]:

@@ -151,6 +151,8 @@ Picture laid_out(const GraphModel& model, std::size_t columns, std::size_t lette
         }
         picture.lines.push_back(std::move(line));
     }
+    std::stable_sort(picture.lines.begin(), picture.lines.end(),
+                     [](const Picture::Line& a, const Picture::Line& b) { return a.kind < b.kind; });
     return picture;
 }
 

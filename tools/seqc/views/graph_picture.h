@@ -52,7 +52,12 @@ struct Picture {
         std::vector<Text> texts = {};
         std::vector<double> rules = {};  ///< heights of lines across
     };
-    enum class LineKind : std::uint8_t { forward, back, error, note };
+    enum class LineKind : std::uint8_t {
+        error,
+        back,
+        forward,
+        note
+    };  ///< where they run together, the later one is seen
     using Point = std::pair<double, double>;
     struct Line {
         std::string from;
@@ -67,7 +72,7 @@ struct Picture {
     double scale = 1;  ///< points of the paper for 1 of it
     std::vector<Text> texts;
     std::vector<Box> boxes;
-    std::vector<Line> lines;
+    std::vector<Line> lines;  ///< back to front
 };
 
 inline constexpr double kInnerFrame = 2.5;  ///< of POWER_UP, from its outer one

@@ -29,11 +29,8 @@ class Print {
         for (const Picture::Box& box : picture_.boxes) outline(box);
         for (const Picture::Text& part : picture_.texts) label(part, style_of(part.kind).colour);
         for (const Picture::Box& box : picture_.boxes) texts(box);
-        for (const bool back : {true, false}) {
-            for (const Picture::Line& line : picture_.lines) {
-                const bool is_back = line.kind == Picture::LineKind::back;
-                if (!line.points.empty() && is_back == back) edge(line);
-            }
+        for (const Picture::Line& line : picture_.lines) {
+            if (!line.points.empty()) edge(line);
         }
         return text_ + "}\n";
     }

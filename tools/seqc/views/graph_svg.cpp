@@ -120,11 +120,8 @@ std::string svg_of(const Picture& picture, const std::string& title) {
         picture.width * picture.scale, picture.height * picture.scale, picture.width, picture.height,
         markup(title), arrows());
     for (const Picture::Text& part : picture.texts) text += element(part, style_of(part.kind).colour);
-    // Back lines below the others where they run together.
-    for (const bool back : {true, false}) {
-        for (const Picture::Line& line : picture.lines) {
-            if (!line.points.empty() && (line.kind == Picture::LineKind::back) == back) text += edge(line);
-        }
+    for (const Picture::Line& line : picture.lines) {
+        if (!line.points.empty()) text += edge(line);
     }
     for (const Picture::Box& box : picture.boxes) text += node(box);
     return text + "</svg>\n";
