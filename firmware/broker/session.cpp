@@ -37,6 +37,8 @@ Secrets read_secrets(const Options& options) {
     if (options.password_file.empty()) return secrets;
     std::ifstream file(options.password_file);
     std::getline(file, secrets.password);
+    if (secrets.password.starts_with("\xEF\xBB\xBF")) secrets.password.erase(0, 3);
+    if (secrets.password.ends_with('\r')) secrets.password.pop_back();
     if (secrets.password.empty())
         secrets.error =
             fmt::format("{}: its first line must be the password, and this program must be let read it",

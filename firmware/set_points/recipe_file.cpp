@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/csv_row.h"
 #include "set_points/recipes.h"
 #include "set_points/values.h"
 #include "toml_files/toml_file.h"
@@ -127,7 +128,7 @@ RecipeReading read_csv(std::string_view text, const Record& record) {
             if (line != kHeader && !gatherer.fail(1, fmt::format("the header is not {}", kHeader))) break;
             continue;
         }
-        if (line.empty()) continue;
+        if (base::is_blank_row(line)) continue;
         const std::vector<std::string> fields = fields_of(line);
         if (fields.empty()) {
             gatherer.fail(number, "a quote is open at the end of the line");

@@ -4,14 +4,14 @@
 
 #include <filesystem>
 
-#include "host/files.h"
+#include "host/text_file.h"
 
 namespace nplc::sim {
 
 AxisReading read_axis(const std::string& file, registers::Model model) {
     constexpr std::size_t kLargest = std::size_t{1} << 20U;
     AxisReading result;
-    const host::FileContent content = host::read_file(file, kLargest);
+    const host::FileContent content = host::read_text(file, kLargest);
     if (!content.problem.empty()) {
         result.error = fmt::format("{}: cannot be read: {}; name a file that `macreg fit` has written", file,
                                    content.problem);

@@ -6,7 +6,7 @@
 #include <optional>
 #include <sstream>
 
-#include "host/files.h"
+#include "host/text_file.h"
 #include "sim/output_file.h"
 #include "sim/text.h"
 
@@ -33,7 +33,7 @@ std::string bad_line(const std::string& path, int line, const std::string& text,
 std::string load(const std::string& path, DeviceMemory& memory) {
     std::error_code error;
     if (!std::filesystem::exists(path, error)) return {};
-    const host::FileContent file = host::read_file(path, kMostBytes);
+    const host::FileContent file = host::read_text(path, kMostBytes);
     if (!file.problem.empty()) return fmt::format("{}: cannot be read: {}", path, file.problem);
     std::istringstream lines(file.bytes.empty() ? "\n" : file.bytes);
     std::string line;

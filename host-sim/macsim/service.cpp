@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "host/files.h"
+#include "host/text_file.h"
 #include "macsim.h"
 #include "sim/axis.h"
 #include "sim/bench_line.h"
@@ -114,7 +114,7 @@ class RackService final : public VirtualDevices {
 
     std::string read(const std::string& file) {
         constexpr std::size_t kLargest = std::size_t{4} << 20U;
-        const host::FileContent content = host::read_file(file, kLargest);
+        const host::FileContent content = host::read_text(file, kLargest);
         if (!content.problem.empty())
             return fmt::format("{}: cannot be opened: {}; name a scenario", file, content.problem);
         ParsedScenario parsed = parse_scenario(content.bytes, file, names_);

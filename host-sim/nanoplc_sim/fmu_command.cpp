@@ -47,7 +47,7 @@ void take_program(fmu::FmuOptions& options, const FmuCommand& command) {
 void take_windows(fmu::FmuOptions& options, const FmuCommand& command) {
     if (!command.windows) return;
     check_output(command, *command.windows, "library");
-    options.windows_dll = read_long_input(*command.windows, "the library for Windows as a DLL");
+    options.windows_dll = read_bytes(*command.windows, "the library for Windows as a DLL");
     if (!options.windows_dll.starts_with("MZ"))
         throw InputError(fmt::format("{}: is no DLL; name the library that `tools/portable windows` builds",
                                      *command.windows));

@@ -7,8 +7,10 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <span>
 
 #include "host/files.h"
+#include "host/text_file.h"
 #include "intel_hex/intel_hex.h"
 #include "sequencer/table.h"
 #include "sim/text.h"
@@ -41,19 +43,49 @@ std::string read(const std::string& path, const std::string& what, std::size_t m
     return std::move(file.bytes);
 }
 
-bool is_printable(const std::string& text) {
-    return std::all_of(text.begin(), text.end(), [](char c) {
-        const auto byte = static_cast<unsigned char>(c);
-        return byte == '\t' || byte == '\r' || byte == '\n' || (byte >= ' ' && byte != 0x7F);
-    });
+std::string as_text(std::string bytes, const std::string& path, const std::string& what) {
+    if (const std::string problem = host::make_text(bytes); !problem.empty())
+        refuse(path, what, fmt::format("cannot be read: {}", problem));
+    return bytes;
 }
 
-std::vector<std::uint8_t> bytes_of(const std::string& text, const std::string& path) {
-    if (!intel_hex::is_file(path, text)) return {text.begin(), text.end()};
-    intel_hex::Image image = intel_hex::read(text);
+/// What a text that was named as a table may be, and what to do with it.
+std::string advice_for_text(const std::string& path) {
+    const auto with = [&](const char* extension) {
+        return std::filesystem::path(path).replace_extension(extension).string();
+    };
+    if (has_extension(path, ".scn"))
+        return fmt::format("name the program to run, and this scenario with --scenario {}", path);
+    if (has_extension(path, ".sym")) return "name the table, whose names these are; they are found beside it";
+    if (has_extension(path, ".bin"))
+        return fmt::format("if it is a program's source, call it {}", with(".seq"));
+    return fmt::format("if it is a program's source, build the table first: seqc build {} -o {}", path,
+                       with(".bin"));
+}
+
+std::vector<std::uint8_t> bytes_of(const std::string& content, const std::string& path) {
+    intel_hex::Image image = intel_hex::bytes_in(path, content);
     if (image.error.empty()) return std::move(image.bytes);
+    if (image.is_text) {
+        const bool is_utf16 = host::is_marked_utf16(content);
+        throw InputError(fmt::format("{}: {}, not a raw table; {}", path,
+                                     is_utf16 ? "text in UTF-16" : "text", advice_for_text(path)));
+    }
+    throw InputError(fmt::format("{}{}: {}; mend the file or build it again with seqc", path,
+                                 image.line == 0 ? "" : fmt::format(":{}", image.line), image.error));
+}
+
+/// Whatever begins with a byte such as '?' or FFh ends at once.
+void refuse_empty(std::span<const std::uint8_t> bytes, const std::string& path) {
+    const auto rest = bytes.subspan(std::min(bytes.size(), sequencer::kTermBytes));
+    const auto is_all = [&](std::uint8_t value) {
+        return std::all_of(rest.begin(), rest.end(), [&](std::uint8_t byte) { return byte == value; });
+    };
+    if (is_all(0xFF) || is_all(0)) return;
     throw InputError(
-        fmt::format("{}:{}: {}; mend the file or build it again with seqc", path, image.line, image.error));
+        fmt::format("{}: no term of a table, and {} bytes behind its end: this is another file; name a table "
+                    "as `seqc build` writes it",
+                    path, rest.size()));
 }
 
 }  // namespace
@@ -63,11 +95,16 @@ bool has_extension(const std::string& path, std::string_view extension) {
 }
 
 std::string read_input(const std::string& path, const std::string& what) {
-    return read(path, what, kMostBytes);
+    return as_text(read(path, what, kMostBytes), path, what);
 }
 
 std::string read_long_input(const std::string& path, const std::string& what) {
-    return path == "-" ? read_standard_input(what) : read(path, what, kMostOfALongOne);
+    if (path == "-") return as_text(read_standard_input(what), "standard input", what);
+    return as_text(read_bytes(path, what), path, what);
+}
+
+std::string read_bytes(const std::string& path, const std::string& what) {
+    return read(path, what, kMostOfALongOne);
 }
 
 std::vector<std::uint8_t> read_table(const std::string& path) {
@@ -76,16 +113,12 @@ std::vector<std::uint8_t> read_table(const std::string& path) {
             "{0}: a program's source, not a table; build the table first: seqc build {0} -o {1}.bin", path,
             path.substr(0, path.size() - 4)));
     }
-    const std::string text = read_input(path, "a sequence table as `seqc build` writes it");
-    if (text.empty()) refuse(path, "a sequence table as `seqc build` writes it", "the file is empty");
-    std::vector<std::uint8_t> bytes = bytes_of(text, path);
-    if (is_printable(text) && !intel_hex::is_file(path, text)) {
-        throw InputError(
-            fmt::format("{0}: text, not a raw table; if it is a program's source, build the table first: "
-                        "seqc build {0} -o {1}",
-                        path, std::filesystem::path(path).replace_extension(".bin").string()));
-    }
+    const std::string what = "a sequence table as `seqc build` writes it";
+    const std::string content = read(path, what, kMostBytes);
+    if (content.empty()) refuse(path, what, "the file is empty");
+    std::vector<std::uint8_t> bytes = bytes_of(content, path);
     check_table(bytes, path);
+    if (sequencer::Table::load(bytes).table.empty()) refuse_empty(bytes, path);
     return bytes;
 }
 

@@ -13,10 +13,12 @@ struct InputError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The whole file, of no more than 4 MiB. `what` names its purpose in messages.
+/// The whole text in a file of no more than 4 MiB. `what` names its purpose in messages.
 std::string read_input(const std::string& path, const std::string& what);
 /// The same of up to 256 MiB; `-` is standard input.
 std::string read_long_input(const std::string& path, const std::string& what);
+/// What is no text, of up to 256 MiB.
+std::string read_bytes(const std::string& path, const std::string& what);
 
 /// Without regard to case; `extension` is lower case and begins with its dot.
 bool has_extension(const std::string& path, std::string_view extension);

@@ -23,8 +23,6 @@ std::string rendered(const seqc::Compilation& compilation, const seqc::Sources& 
 
 Program compile(const std::string& file) {
     const std::string source = read_input(file, "a program for seqc");
-    if (source.find('\0') != std::string::npos)
-        throw InputError(fmt::format("{}: is no text, for it holds zeros; name a program for seqc", file));
     const seqc::Sources sources = seqc::read_sources(file, source);
     const seqc::Compilation compilation = seqc::compile(sources);
     if (!compilation.ok) throw InputError(rendered(compilation, sources));
@@ -62,7 +60,9 @@ void take_names_beside(Program& program, const std::string& file) {
     try {
         take_names(program, file, "names are left out");
     } catch (const InputError& misfit) {
+        constexpr std::string_view kLeftOut = "; names are left out";
         program.nameless = misfit.what();
+        if (!program.nameless.ends_with(kLeftOut)) program.nameless += kLeftOut;
     }
 }
 

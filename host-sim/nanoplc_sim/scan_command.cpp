@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <iterator>
 
+#include "base/csv_row.h"
 #include "input_file.h"
 #include "sequencer/engine.h"
 
@@ -87,7 +88,6 @@ void append_word(std::string& words, const std::string& word) {
 }  // namespace
 
 std::vector<StimulusRow> parse_stimulus(std::string_view text, const std::string& file) {
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     text = without_blank_end(text);
     std::vector<StimulusRow> rows;
     std::size_t number = 0;
@@ -97,6 +97,7 @@ std::vector<StimulusRow> parse_stimulus(std::string_view text, const std::string
         if (line.ends_with('\r')) line.remove_suffix(1);
         text.remove_prefix(std::min(length + 1, text.size()));
         ++number;
+        if (number > 1 && base::is_blank_row(line)) continue;
         if (number > 1) {
             rows.push_back(Line(line, file, number).row());
         } else if (line != kHeader) {

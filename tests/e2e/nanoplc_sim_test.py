@@ -79,6 +79,13 @@ class Scan(Case):
         table = self.write("more.bin", TABLE + b"rubbish")
         self.assertIn("1,1,490,0,1,,", self.scan("10,0,0,0\n", table))
 
+    def test_another_file_is_no_empty_table(self):
+        stimulus = self.write("s.csv", HEADER)
+        for content in (b"\xff\xfe" + bytes(20) + b"a", b"?" * 7 + b"\x01" * 9, b"\xff\xfeP\0R\0O\0"):
+            self.refused("run", self.write("t.bin", content), says="t.bin: ")
+            self.refused("scan", self.path("t.bin"), "--stimulus", stimulus, says="t.bin: ")
+        self.assertEqual(self.call("run", self.write("t.bin", b"\xff" * 64), "--for", "1ms").returncode, 0)  # erased flash
+
     def test_bad_tables(self):
         stimulus = self.write("s.csv", HEADER + "10,0,0,0\n")
         bad = {
@@ -107,8 +114,7 @@ class Scan(Case):
             HEADER + "1,0,0,2\n": "error is \"2\"",
             HEADER + "1,0,x,0\n": "inpos is \"x\"",
             HEADER + "1, 0,0,0\n": "inputs is \" 0\"",
-            HEADER + "1,0,0,0\n\n1,0,0,0\n": "s.csv:3:",
-            HEADER + "1,0,0,\0\n": "s.csv:2:",
+            HEADER + "1,0,0,\0\n": "s.csv: cannot be read: it is no text, for it holds zeros",
         }
         for content, says in bad.items():
             with self.subTest(content):
@@ -217,7 +223,7 @@ class Run(Case):
             "at 1 s IN0 := 1\n": "s.scn: the scenario has no end",
             "end at 1 s\nwhen IN0 rises IN0 := 0\nwhen not IN0 IN0 := 1\n": "",
             "foo\nbar\nbaz\n": "(and 2 more mistakes in this file)",
-            "\x00\xff\n": "s.scn:1:",
+            "\x00\xff\n": "it is no text, for it holds zeros",
             "end at 1 s\nexpect " + "(" * 10000 + "IN0" + ")" * 10000 + "\n": "s.scn:2:108: parentheses and NOTs are more",
             "expect " + "not " * 40000 + "IN0\n": "s.scn:1:408: parentheses and NOTs are more",
         }

@@ -147,5 +147,28 @@ TEST(IntelHexFile, KnownByNameOrByItsFirstLine) {
     EXPECT_FALSE(is_file("a.bin", term));
 }
 
+TEST(FileOfBytes, HoldsThemRawOrAsIntelHex) {
+    const std::string raw(kTable.begin(), kTable.end());
+    EXPECT_EQ(bytes_in("F.bin", raw).bytes, kTable);
+    EXPECT_EQ(bytes_in("F.bin", write(kTable)).bytes, kTable);
+    EXPECT_EQ(bytes_in("F.hex", "\xEF\xBB\xBF" + write(kTable) + "\x1A").bytes, kTable);
+    EXPECT_EQ(bytes_in("F.bin", "\xEF\xBB\xBF" + write(kTable)).bytes, kTable);
+    EXPECT_EQ(bytes_in("F.hex", ":0100000000FF\r" + kEnd.substr(0, 11) + "\r").bytes, Bytes{0});
+    EXPECT_EQ(bytes_in("F.bin", std::string(8, '\xFF')).bytes, Bytes(8, 0xFF));  // erased flash
+    EXPECT_EQ(bytes_in("F.bin", "").error, "");
+}
+
+TEST(FileOfBytes, TextOfAnotherKindIsRefused) {
+    const std::string utf16("\xFF\xFEP\0R\0", 6);
+    for (const std::string& text : {std::string("PROGRAM P"), std::string("T\xC3\xA4glich\r\n"), utf16}) {
+        const Image image = bytes_in("F.bin", text);
+        EXPECT_TRUE(image.is_text);
+        EXPECT_NE(image.error, "");
+        EXPECT_EQ(image.line, 0U);
+    }
+    EXPECT_EQ(bytes_in("F.hex", utf16).error, "it is text in UTF-16; save it as UTF-8");
+    EXPECT_EQ(bytes_in("F.hex", "PROGRAM P").line, 1U);
+}
+
 }  // namespace
 }  // namespace nplc::intel_hex

@@ -86,8 +86,8 @@ TEST(Stimulus, MistakesNameFileAndLine) {
               "s.csv:1: the header is \"dt,inputs\"; write dt_ms,inputs,inpos,error");
     EXPECT_EQ(message(header + "1,2,0\n"),
               "s.csv:2: \"1,2,0\" has 3 fields; write the four dt_ms,inputs,inpos,error");
-    EXPECT_EQ(message(header + "1,2,0,0\n\n1,2,0,0\n\n"),
-              "s.csv:3: \"\" has 0 fields; write the four dt_ms,inputs,inpos,error");
+    EXPECT_EQ(message(header + "1,2,0,0\n\n , ,,\n1,2,0\n"),
+              "s.csv:5: \"1,2,0\" has 3 fields; write the four dt_ms,inputs,inpos,error");
     EXPECT_EQ(message(header + "1,64,0,0\n"), "s.csv:2: inputs is \"64\"; write a whole number 0 to 63");
     EXPECT_EQ(message(header + "1,0,2,0\n"), "s.csv:2: inpos is \"2\"; write a whole number 0 to 1");
     EXPECT_EQ(message(header + "1,0,0,-1\n"), "s.csv:2: error is \"-1\"; write a whole number 0 to 1");

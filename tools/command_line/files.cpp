@@ -4,6 +4,7 @@
 
 #include "command_line/program.h"
 #include "host/files.h"
+#include "host/text_file.h"
 
 namespace nplc::command_line {
 namespace {
@@ -11,12 +12,19 @@ namespace {
 /// Far more than a table or its symbols have.
 constexpr std::size_t kMostBytes = 4 * 1024 * 1024;
 
+std::string content_of(const std::string& path, host::FileContent file) {
+    if (!file.problem.empty()) throw UserError(fmt::format("{}: cannot be read: {}", path, file.problem));
+    return std::move(file.bytes);
+}
+
 }  // namespace
 
 std::string read_whole(const std::string& path) {
-    host::FileContent file = host::read_file(path, kMostBytes);
-    if (!file.problem.empty()) throw UserError(fmt::format("{}: cannot be read: {}", path, file.problem));
-    return std::move(file.bytes);
+    return content_of(path, host::read_file(path, kMostBytes));
+}
+
+std::string read_text(const std::string& path) {
+    return content_of(path, host::read_text(path, kMostBytes));
 }
 
 }  // namespace nplc::command_line

@@ -17,7 +17,7 @@ constexpr unsigned kAttempts = 3;
 
 /// As PASSWORD takes it.
 std::vector<std::uint8_t> password_of(const std::string& file) {
-    const std::string whole = read_whole(file);
+    const std::string whole = read_text(file);
     std::string line = whole.substr(0, whole.find('\n'));
     if (line.ends_with('\r')) line.pop_back();
     if (line.empty() || line.size() > gw::kMostPassword)

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "host/paths.h"
+#include "host/text_file.h"
 
 namespace nplc::intel_hex {
 namespace {
@@ -34,6 +35,18 @@ int digit(char c) {
     if (c >= '0' && c <= '9') return c - '0';
     if (c >= 'A' && c <= 'F') return c - 'A' + 10;
     return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+}
+
+/// What is raw has zeros, or bytes that no text has.
+bool is_other_text(std::string_view content) {
+    if (host::is_marked_utf16(content)) return true;
+    const auto is_of_text = [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return byte == '\t' || byte == '\r' || byte == '\n' || byte == 0x1A || (byte >= ' ' && byte != 0x7F);
+    };
+    const auto is_ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
+    return std::all_of(content.begin(), content.end(), is_of_text) &&
+           std::any_of(content.begin(), content.end(), is_ascii);
 }
 
 struct Block {
@@ -170,6 +183,20 @@ Image read(std::string_view text) {
     return Reader().run(text);
 }
 
+Image bytes_in(std::string_view file_name, std::string content) {
+    Image image;
+    const bool is_hex = is_file(file_name, content);
+    image.is_text = !is_hex && is_other_text(content);
+    if (!is_hex && !image.is_text) {
+        image.bytes.assign(content.begin(), content.end());
+        return image;
+    }
+    image.error = host::make_text(content);
+    if (image.error.empty() && is_hex) return read(content);
+    if (image.error.empty()) image.error = "it is text, neither raw bytes nor Intel HEX";
+    return image;
+}
+
 bool has_extension(std::string_view file_name) {
     std::string extension = host::name_of(host::path_of(file_name).extension());
     for (char& c : extension) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
@@ -179,6 +206,7 @@ bool has_extension(std::string_view file_name) {
 bool is_file(std::string_view file_name, std::string_view content) {
     if (has_extension(file_name)) return true;
     constexpr std::size_t kShortestRecord = 11;
+    if (content.starts_with("\xEF\xBB\xBF")) content.remove_prefix(3);
     const std::string_view line = content.substr(0, content.find_first_of("\r\n"));
     return line.size() >= kShortestRecord && line[0] == ':' &&
            std::all_of(line.begin() + 1, line.end(), [](char c) { return digit(c) >= 0; });

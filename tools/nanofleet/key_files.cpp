@@ -81,7 +81,7 @@ orders::SecretKey read_secret_file(const std::string& path) {
             fmt::format("'{}' can be read or written by others: `chmod 600` it, and make another key if "
                         "somebody may have",
                         path));
-    const auto secret = orders::read_secret(command_line::read_whole(path));
+    const auto secret = orders::read_secret(command_line::read_text(path));
     if (!secret)
         throw UserError(fmt::format("'{}' is no secret key; make one with `nanofleet keys make`", path));
     return *secret;

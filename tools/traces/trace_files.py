@@ -15,18 +15,30 @@ class Bad(Exception):
     pass
 
 
-def read(path):
+def text_of(path):
+    """The text in a file, whichever editor wrote it: as hal/host/text_file.cpp has it."""
     try:
-        with open(path, newline="", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
+        content = Path(path).read_bytes()
     except OSError as error:
         raise Bad(f"{path}: {error.strerror}") from error
-    except (UnicodeDecodeError, csv.Error) as error:
+    if content.startswith((b"\xff\xfe", b"\xfe\xff")):
+        raise Bad(f"{path}: it is text in UTF-16; save it as UTF-8")
+    if b"\0" in content:
+        raise Bad(f"{path}: it is no text, for it holds zeros")
+    return content.rstrip(b"\x1a").decode("utf-8-sig", errors="replace")
+
+
+def read(path):
+    try:
+        rows = list(csv.reader(text_of(path).splitlines()))
+    except csv.Error as error:
         raise Bad(f"{path}: not a trace; its first line must be {','.join(HEADER)}") from error
     if not rows or rows[0] != HEADER:
         raise Bad(f"{path}: not a trace; its first line must be {','.join(HEADER)}")
     trace = []
     for number, row in enumerate(rows[1:], start=2):
+        if not any(cell.strip() for cell in row):
+            continue
         if len(row) != len(HEADER):
             raise Bad(f"{path}:{number}: {len(row)} fields where {len(HEADER)} are wanted")
         try:
@@ -45,7 +57,7 @@ class Symbols:
     def __init__(self, path):
         self.path = path
         try:
-            file = json.loads(Path(path).read_text(encoding="utf-8"))
+            file = json.loads(text_of(path))
             if file["format"] != "nanoplc-symbols" or file["version"] != 1:
                 raise Bad(f"{path}: no symbol file of version 1; name the F.sym that seqc build wrote with the table")
             self.program = str(file["program"])
@@ -57,8 +69,6 @@ class Symbols:
             self.initial = {int(entry["number"]): int(entry["initial"]) for entry in file["registers"]
                             if "initial" in entry and entry["number"] not in free}
             self.read_units(file)
-        except OSError as error:
-            raise Bad(f"{path}: {error.strerror}") from error
         except json.JSONDecodeError as error:
             raise Bad(f"{path}:{error.lineno}:{error.colno}: this is not JSON; name the F.sym that seqc build wrote") from error
         except (AttributeError, KeyError, TypeError, ValueError, ZeroDivisionError) as error:

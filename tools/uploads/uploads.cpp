@@ -14,18 +14,15 @@
 
 namespace nplc::uploads {
 
-using command_line::read_whole;
 using command_line::UserError;
 namespace gw = registers::gateway;
 
 std::vector<std::uint8_t> read_table(const std::string& path) {
-    const std::string content = read_whole(path);
-    std::vector<std::uint8_t> table(content.begin(), content.end());
-    if (intel_hex::is_file(path, content)) {
-        const intel_hex::Image image = intel_hex::read(content);
-        if (!image.error.empty()) throw UserError(fmt::format("{}:{}: {}", path, image.line, image.error));
-        table = image.bytes;
-    }
+    const intel_hex::Image image = intel_hex::bytes_in(path, command_line::read_whole(path));
+    if (image.line != 0) throw UserError(fmt::format("{}:{}: {}", path, image.line, image.error));
+    if (!image.error.empty())
+        throw UserError(fmt::format("{}: {}; this is no table of seqc build", path, image.error));
+    const std::vector<std::uint8_t>& table = image.bytes;
     const auto loaded = sequencer::Table::load(table);
     if (!loaded.ok)
         throw UserError(fmt::format("{}: term {}: {}; this is no table of seqc build", path,
@@ -44,7 +41,7 @@ set_points::Record read_record(const std::string& table_file, const std::string&
     const std::string path = symbols.empty() ? seqc::symbol_file_beside(table_file) : symbols;
     std::error_code error;
     if (path.empty() || (symbols.empty() && !std::filesystem::exists(path, error))) return {};
-    const std::string text = read_whole(path);
+    const std::string text = command_line::read_text(path);
     const seqc::SymbolReading any = seqc::read_symbols(text);
     if (any.error.empty() && any.file.symbols.set_points.values.empty()) return {};
     const seqc::SymbolReading own = seqc::read_symbols(text, table);
@@ -60,7 +57,7 @@ set_points::Record read_record(const std::string& table_file, const std::string&
 
 digest::Digest certificate_for(const std::string& path, std::span<const std::uint8_t> table) {
     if (!digest::is_available()) throw UserError(fmt::format("{}: {}", path, digest::kNotAvailable));
-    const std::string text = read_whole(path);
+    const std::string text = command_line::read_text(path);
     const proof::CertificateReading reading = proof::read_certificate(text);
     std::string wrong = reading.error;
     if (wrong.empty()) wrong = proof::why_not_of(reading.certificate, table);

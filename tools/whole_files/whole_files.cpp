@@ -12,6 +12,7 @@
 #include "host/files.h"
 #include "host/paths.h"
 #include "host/process.h"
+#include "host/text_file.h"
 
 namespace nplc::whole_files {
 namespace {
@@ -60,6 +61,27 @@ void remove_temporaries(const std::vector<OutputFile>& files) {
     for (const OutputFile& file : files) remove_file(temporary_name(file.path));
 }
 
+FileText all_of_standard_input() {
+    errno = 0;
+    FileText result;
+    std::array<char, 65'536> some{};
+    while (std::cin.read(some.data(), some.size()), std::cin.gcount() > 0) {
+        result.text.append(some.data(), static_cast<std::size_t>(std::cin.gcount()));
+        if (result.text.size() > kMostInput)
+            return {{}, "standard input has more than 256 MiB; has it no end?"};
+    }
+    if (std::cin.bad() || std::ferror(stdin) != 0)
+        return {{}, fmt::format("cannot read standard input: {}", reason())};
+    return result;
+}
+
+FileText as_text(FileText file, const std::string& name) {
+    if (!file.error.empty()) return file;
+    const std::string problem = host::make_text(file.text);
+    if (problem.empty()) return file;
+    return {{}, fmt::format("cannot read {}: {}", name, problem)};
+}
+
 }  // namespace
 
 std::string behind_links(const std::string& path) {
@@ -97,24 +119,12 @@ FileText read_file(const std::string& path, std::size_t most) {
     return {std::move(file.bytes), {}};
 }
 
-FileText read_text(const std::string& path) {
-    FileText file = read_file(path);
-    if (file.text.find('\0') == std::string::npos) return file;
-    return {{}, fmt::format("cannot read '{}': it is no text, for it holds zeros", path)};
+FileText read_text(const std::string& path, std::size_t most) {
+    return as_text(read_file(path, most), fmt::format("'{}'", path));
 }
 
 FileText read_standard_input() {
-    errno = 0;
-    FileText result;
-    std::array<char, 65'536> some{};
-    while (std::cin.read(some.data(), some.size()), std::cin.gcount() > 0) {
-        result.text.append(some.data(), static_cast<std::size_t>(std::cin.gcount()));
-        if (result.text.size() > kMostInput)
-            return {{}, "standard input has more than 256 MiB; has it no end?"};
-    }
-    if (std::cin.bad() || std::ferror(stdin) != 0)
-        return {{}, fmt::format("cannot read standard input: {}", reason())};
-    return result;
+    return as_text(all_of_standard_input(), "standard input");
 }
 
 std::string why_not_made(const std::string& path) {

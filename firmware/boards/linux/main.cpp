@@ -8,7 +8,7 @@
 #include "command_line/generated.h"
 #include "config.h"
 #include "exit_codes.h"
-#include "host/files.h"
+#include "host/text_file.h"
 #include "plant_part.h"
 #include "service.h"
 #include "stored.h"
@@ -63,7 +63,7 @@ void print(const std::string& file, const std::vector<Mistake>& mistakes) {
 }
 
 Loaded load(const std::string& file) {
-    const host::FileContent content = host::read_file(file, kMostOfAConfig);
+    const host::FileContent content = host::read_text(file, kMostOfAConfig);
     if (!content.problem.empty()) {
         fmt::print(stderr, "{}: cannot be read: {}; name a configuration with --config\n", file,
                    content.problem);

@@ -73,14 +73,12 @@ TableFile read_table(const std::string& path, const std::string& symbols) {
     if (!file.is_open() || file.bad())
         return {.error = fmt::format("{}: cannot be read: {}; the service's user must be allowed to", path,
                                      std::strerror(errno))};
-    TableFile table{.bytes = {text.begin(), text.end()}};
-    if (intel_hex::is_file(path, text)) {
-        intel_hex::Image image = intel_hex::read(text);
-        if (!image.error.empty())
-            return {.error = fmt::format("{}:{}: {}; make it with `seqc build -o FILE.hex`", path, image.line,
-                                         image.error)};
-        table.bytes = std::move(image.bytes);
-    }
+    intel_hex::Image image = intel_hex::bytes_in(path, text);
+    if (!image.error.empty())
+        return {.error = fmt::format("{}: {}; make it with `seqc build`",
+                                     image.line == 0 ? path : fmt::format("{}:{}", path, image.line),
+                                     image.error)};
+    TableFile table{.bytes = std::move(image.bytes)};
     if (std::string error = fault_of(path, table.bytes); !error.empty()) return {.error = std::move(error)};
     const std::string beside = std::filesystem::path(path).replace_extension(".sym").string();
     if (std::string error = add_record(table.bytes, symbols.empty() ? beside : symbols); !error.empty())

@@ -19,6 +19,7 @@ Secret read_secret(const std::string& path, std::size_t most) {
     if (!file.is_open()) return {.error = path + ": " + std::strerror(errno)};
     Secret secret;
     std::getline(file, secret.text);
+    if (secret.text.starts_with("\xEF\xBB\xBF")) secret.text.erase(0, 3);
     if (secret.text.ends_with('\r')) secret.text.pop_back();
     if (secret.text.size() >= kLeastSecret && secret.text.size() <= most) return secret;
     return {.error = wrong_length(path, most)};

@@ -214,7 +214,7 @@ Input read_input(const std::string& path) {
     const bool standard = path == "-";
     if (standard) host::end_at_interruptions();
     whole_files::FileText input =
-        standard ? whole_files::read_standard_input() : whole_files::read_file(path, whole_files::kMostInput);
+        standard ? whole_files::read_standard_input() : whole_files::read_text(path, whole_files::kMostInput);
     host::note_interruptions();
     if (!input.error.empty()) throw UserError(input.error);
     return {standard ? "standard input" : path, std::move(input.text)};
@@ -226,7 +226,7 @@ std::string model_words(const ParameterSet& set) {
 }
 
 ParameterSet read_parameter_file(const std::string& path, bool partial) {
-    const auto [name, text] = path == "-" ? read_input(path) : Input{path, command_line::read_whole(path)};
+    const auto [name, text] = path == "-" ? read_input(path) : Input{path, command_line::read_text(path)};
     const ParsedFile file = parse_parameters(text);
     if (!file.problems.empty()) throw bad_file(name, file.problems);
     if (!file.set.incomplete.empty() && !partial)

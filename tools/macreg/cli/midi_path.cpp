@@ -91,7 +91,7 @@ struct PathOptions {
 };
 
 void path(const MidiCommon& midi, const PathOptions& options) {
-    const std::string text = command_line::read_whole(options.file);
+    const std::string text = command_line::read_text(options.file);
     const midi::PathFile file = midi::read_path(text, {.model = midi_model(midi)});
     if (!file.problems.empty())
         throw UserError(fmt::format("{}: {}", options.file, fmt::join(file.problems, "; ")));

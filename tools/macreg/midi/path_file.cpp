@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/csv_row.h"
 #include "macreg/midi/values.h"
 #include "registers/midi_scale.h"
 #include "spelling/text.h"
@@ -23,7 +24,7 @@ class Reader {
     void take(std::string_view line, unsigned number) {
         number_ = number;
         line = trimmed(line.substr(0, line.find('#')), kBlanks);
-        if (line.empty()) return;
+        if (base::is_blank_row(line)) return;
         auto cells = spelling::split(line, line.find(';') != std::string_view::npos ? ';' : ',');
         for (std::string_view& cell : cells) cell = trimmed(cell, kBlanks);
         if (!has_heading_) return heading(cells);

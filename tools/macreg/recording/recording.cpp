@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/csv_row.h"
 #include "macreg/values.h"
 #include "registers/convert.h"
 #include "spelling/text.h"
@@ -50,7 +51,7 @@ class Reader {
   private:
     void take(std::string_view line) {
         ++line_;
-        if (line.empty()) return;
+        if (base::is_blank_row(line)) return;
         if (line.front() == '#') return comment(trimmed(line.substr(1)));
         if (header_)
             row(line);

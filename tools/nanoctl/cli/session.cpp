@@ -70,7 +70,7 @@ Session::Session(const Common& common, ByteClient::Holding holding)
 
 Names Session::read_names() {
     if (common_.symbols.empty()) return {};
-    const auto reading = seqc::read_symbols(command_line::read_whole(common_.symbols));
+    const auto reading = seqc::read_symbols(command_line::read_text(common_.symbols));
     if (!reading.error.empty()) throw UserError(fmt::format("{}: {}", common_.symbols, reading.error));
     const Block about = gateway_.read_block(gw::IDENTITY);
     if (about[gw::TABLE_BYTES - 1] != 0 && about[gw::TABLE_CRC - 1] != reading.file.crc32)

@@ -207,7 +207,7 @@ void store_all(Session& session, const KeptSetPoints& kept, const std::string& f
 
 /// All of the file is looked at before the first is stored.
 void import_from(Session& session, const std::string& file) {
-    const std::string text = command_line::read_whole(file);
+    const std::string text = command_line::read_text(file);
     const KeptSetPoints kept = read_set_points(session.gateway());
     const set_points::RecipeReading read =
         set_points::read_recipes(text, kept.record, set_points::format_of(file));

@@ -9,7 +9,7 @@
 namespace nplc::nanofleet::cli {
 
 Fleet open_fleet(const Common& common) {
-    FleetReading reading = read_fleet(command_line::read_whole(common.fleet),
+    FleetReading reading = read_fleet(command_line::read_text(common.fleet),
                                       std::filesystem::path(common.fleet).parent_path().string());
     if (!reading.error.empty()) throw UserError(fmt::format("{}:{}", common.fleet, reading.error));
     return std::move(reading.fleet);

@@ -24,6 +24,7 @@ struct Program {
     std::string name;  ///< for messages
     std::string before;
     std::string after;
+    bool is_standard_input = false;
     int exit_code = kOk;  ///< not kOk: why was printed
 };
 
@@ -33,9 +34,10 @@ bool is_standard_input(const std::string& file) {
 
 Program read_and_format(const std::string& file) {
     Program program;
-    program.name = is_standard_input(file) ? "<stdin>" : file;
+    program.is_standard_input = is_standard_input(file);
+    program.name = program.is_standard_input ? "<stdin>" : file;
     whole_files::FileText text =
-        is_standard_input(file) ? whole_files::read_standard_input() : whole_files::read_text(file);
+        program.is_standard_input ? whole_files::read_standard_input() : whole_files::read_text(file);
     if (!text.error.empty()) {
         program.exit_code = file_problem(text.error);
         return program;
@@ -56,13 +58,19 @@ Program read_and_format(const std::string& file) {
     return program;
 }
 
+/// A byte order mark or CR LF is no part of what was read, but of the file.
+bool is_formatted(const Program& program) {
+    if (program.before != program.after || program.is_standard_input) return program.before == program.after;
+    return whole_files::read_file(program.name).text == program.after;
+}
+
 int rewrite(const Program& program) {
-    if (program.before == program.after) return kOk;
+    if (is_formatted(program)) return kOk;
     return print_or_write(program.after, program.name);
 }
 
 int list_if_different(const Program& program) {
-    if (program.before == program.after) return kOk;
+    if (is_formatted(program)) return kOk;
     fmt::print("{}\n", program.name);
     return kProgramHasErrors;
 }

@@ -37,14 +37,6 @@ void compile_into(Input& input, const std::string& text) {
     input.program = std::move(compilation);
 }
 
-/// A table has zeros, of its end term at least.
-bool is_text(const std::string& text) {
-    return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-        const auto byte = static_cast<unsigned char>(c);
-        return byte == '\t' || byte == '\r' || byte == '\n' || (byte >= ' ' && byte != 0x7F);
-    });
-}
-
 /// The bytes up to and including the end term; nothing if there is none.
 std::size_t table_length(std::span<const std::uint8_t> bytes) {
     for (std::size_t at = 0; at + kTermBytes <= bytes.size(); at += kTermBytes) {
@@ -53,25 +45,15 @@ std::size_t table_length(std::span<const std::uint8_t> bytes) {
     return 0;
 }
 
-/// Whether there are bytes; raw ones are taken as they are.
-bool take_bytes(Input& input, const std::string& text, std::vector<std::uint8_t>& bytes) {
-    bytes.assign(text.begin(), text.end());
-    if (!intel_hex::is_file(input.file, text)) return true;
-    intel_hex::Image image = intel_hex::read(text);
-    bytes = std::move(image.bytes);
-    if (image.error.empty()) return true;
-    input.exit_code = file_problem(fmt::format("{}:{}: {}", input.file, image.line, image.error));
-    return false;
-}
-
 void read_table_into(Input& input, const std::string& text, bool is_whole) {
-    std::vector<std::uint8_t> bytes;
-    if (!take_bytes(input, text, bytes)) return;
-    if (is_text(text) && !intel_hex::is_file(input.file, text)) {
-        input.exit_code = file_problem(
-            fmt::format("{}: is a text and no sequence table; a program's name ends in .seq", input.file));
+    intel_hex::Image image = intel_hex::bytes_in(input.file, text);
+    if (!image.error.empty()) {
+        const std::string place = image.line == 0 ? input.file : fmt::format("{}:{}", input.file, image.line);
+        const char* advice = image.is_text ? "; a program's name ends in .seq" : "";
+        input.exit_code = file_problem(fmt::format("{}: {}{}", place, image.error, advice));
         return;
     }
+    std::vector<std::uint8_t> bytes = std::move(image.bytes);
     const std::size_t length = table_length(bytes);
     if (length == 0) {
         input.exit_code = file_problem(fmt::format(
@@ -101,7 +83,7 @@ void read_symbols_into(Input& input, const std::string& asked_for) {
     const std::string file = asked_for.empty() ? symbol_file_beside(input.file) : asked_for;
     std::error_code ignored;
     if (asked_for.empty() && !std::filesystem::is_regular_file(host::path_of(file), ignored)) return;
-    const whole_files::FileText text = whole_files::read_file(file);
+    const whole_files::FileText text = whole_files::read_text(file);
     const SymbolReading reading = text.error.empty() ? read_symbols(text.text, input.table) : SymbolReading{};
     const std::string error = reading.error.empty() ? text.error : fmt::format("{}: {}", file, reading.error);
     if (error.empty()) {

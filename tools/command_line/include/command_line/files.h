@@ -7,4 +7,7 @@ namespace nplc::command_line {
 /// A file's content; what goes wrong, a folder or more than 4 MiB included, is a UserError.
 std::string read_whole(const std::string& path);
 
+/// The same of a text (`host/text_file.h`).
+std::string read_text(const std::string& path);
+
 }  // namespace nplc::command_line

@@ -20,11 +20,15 @@ struct Image {
     std::vector<std::uint8_t> bytes;
     std::size_t line = 0;  ///< of the mistake, from 1
     std::string error;     ///< why there are no bytes; empty when there are
+    bool is_text = false;  ///< bytes_in: text, but no Intel HEX
 };
 
 /// Takes data records in any order and of any length, with segment or linear addresses, as long as they leave
 /// no gap and never overlap. Start addresses (records 03, 05) are read over; so are blank lines.
 Image read(std::string_view text);
+
+/// What a file holds, raw or as Intel HEX (`is_file`). Other text is an error without a line.
+Image bytes_in(std::string_view file_name, std::string content);
 
 /// Whether a file is to be read as Intel HEX: its name ends in .hex, .ihx or .ihex in any case, or its first
 /// line is a colon and hex digits, which no sequence table begins with in earnest.

@@ -18,9 +18,9 @@ constexpr std::size_t kMostInput = std::size_t{256} * 1024 * 1024;
 
 /// As host::read_file.
 FileText read_file(const std::string& path, std::size_t most = kMostOfAProgram);
-/// The same of a text: bytes that cannot be one are refused.
-FileText read_text(const std::string& path);
-/// No more than kMostInput: what has no end is none of ours.
+/// The same of a text (`host/text_file.h`).
+FileText read_text(const std::string& path, std::size_t most = kMostOfAProgram);
+/// A text too, of no more than kMostInput: what has no end is none of ours.
 FileText read_standard_input();
 
 /// What a chain of symbolic links leads to, there or not: it is written, not the link.
