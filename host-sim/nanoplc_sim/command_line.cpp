@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "arguments/arguments.h"
+#include "arguments/pages.h"
 #include "input_file.h"
 #include "store/settings.h"
 
@@ -100,6 +101,14 @@ std::string all_models() {
             text += fmt::format(", or of {} {}", family->name(), listed(names));
     }
     return text;
+}
+
+std::vector<std::string> model_names() {
+    std::vector<std::string> names;
+    for (const registers::DriveFamily* family : registers::families()) {
+        for (const registers::DriveModel& model : family->models()) names.emplace_back(model.name);
+    }
+    return names;
 }
 
 /// For programs outside.
@@ -295,10 +304,21 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     FmuCommand fmu;
     add_scan(app, scan);
     add_fmu(app, fmu);
+    std::string page;
+    arguments::add_pages(
+        app,
+        {.version = NPLC_VERSION,
+         .title = "the NanoPLC gateway's firmware on a simulated board",
+         .file_commands = {"run", "scan"},
+         .file_options = {"--symbols", "--scenario", "--plant", "--trace", "--vcd", "--junit", "--flash",
+                          "--stimulus", "-o", "--output", "--with-gateway", "--windows"},
+         .option_words = {{"--motor", model_names()}, {"--midi", {"v24", "can"}}, {"--fmi", {"3", "2"}}}},
+        [&page](const std::string& text) { page = text; });
     const arguments::ParseResult outcome = app.parse(argc, argv);
     if (outcome.kind == arguments::ParseResult::Kind::told) return NothingToDo{};
     if (outcome.kind == arguments::ParseResult::Kind::wrong)
-        throw InputError(fmt::format("nanoplc-sim: {}; see nanoplc-sim --help", outcome.error));
+        throw InputError(fmt::format("nanoplc-sim: {} (see nanoplc-sim --help)", outcome.error));
+    if (!page.empty()) return Page{page};
     if (app.got_subcommand("scan")) return scan;
     if (app.got_subcommand("fmu")) return fmu;
     check_run(run);

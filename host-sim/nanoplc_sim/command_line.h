@@ -17,7 +17,12 @@ struct ScanOptions {
 /// Help or version has been asked for and printed.
 struct NothingToDo {};
 
-using CommandLine = std::variant<RunOptions, ScanOptions, FmuCommand, NothingToDo>;
+/// To be printed.
+struct Page {
+    std::string text;
+};
+
+using CommandLine = std::variant<RunOptions, ScanOptions, FmuCommand, Page, NothingToDo>;
 
 /// Throws InputError.
 CommandLine parse_command_line(int argc, const char* const* argv);

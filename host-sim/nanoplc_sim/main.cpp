@@ -30,6 +30,10 @@ int run_command_line(int argc, const char* const* argv) {
         write_fmu(*fmu);
         return 0;
     }
+    if (const auto* page = std::get_if<Page>(&command)) {
+        fmt::print("{}", page->text);
+        return 0;
+    }
     const auto* options = std::get_if<RunOptions>(&command);
     if (options == nullptr) return 0;
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(signal, on_signal);

@@ -160,9 +160,53 @@ TEST(Arguments, ACommandsWorkIsDoneAndWhatItThrowsComesThrough) {
     EXPECT_THROW(parsed(app, {"fail"}), std::out_of_range);
     const ParseResult unknown = parsed(app, {"walk"});
     EXPECT_EQ(unknown.kind, Kind::wrong);
-    EXPECT_EQ(unknown.rest, Words{"walk"});
+    EXPECT_EQ(unknown.error, "'walk' is no command");
+    EXPECT_EQ(parsed(app, {"rnu"}).error, "'rnu' is no command; did you mean 'run'?");
+    EXPECT_EQ(parsed(app, {}).error, "a command is missing: run, fail");
+    EXPECT_EQ(parsed(app, {"run", "--jsno"}).error, "'--jsno' is no option here; did you mean '--json'?");
     expect_wrong(app, {"run", "--bo\r\ngus"}, "--bo");
     EXPECT_EQ(runs, 1);
+}
+
+TEST(Arguments, AnEmptyValueIsWrongUsage) {
+    App app("A program");
+    std::string text;
+    std::optional<std::string> perhaps;
+    Words list;
+    app.add_option("-o,--output", text, "");
+    app.add_option("--perhaps", perhaps, "");
+    app.add_option("--list", list, "");
+    app.add_option_function(
+        "--taken", [](const std::string&) {}, "");
+    std::string argument = "untouched";
+    app.add_option("argument", argument, "");
+    for (const char* option : {"--output", "--perhaps", "--list", "--taken"})
+        expect_wrong(app, {option, ""}, option);
+    expect_wrong(app, {"-o", ""}, "--output: its value is empty");
+    EXPECT_EQ(parsed(app, {""}).kind, Kind::done);
+    EXPECT_EQ(argument, "");
+}
+
+TEST(Arguments, HelpOfACommandIsWhatItSaysWithHelp) {
+    App app("What it is for", "program");
+    app.require_subcommand(1);
+    app.add_help_command();
+    std::string file;
+    App& group = *app.add_subcommand("group", "Of a group");
+    group.add_subcommand("inner", "Of the inner one")->add_option("file", file, "")->required();
+    const auto help = [&](const Words& words) {
+        testing::internal::CaptureStdout();
+        const ParseResult outcome = parsed(app, words);
+        EXPECT_EQ(outcome.kind, Kind::told) << outcome.error;
+        return testing::internal::GetCapturedStdout();
+    };
+    EXPECT_EQ(help({"help"}), help({"--help"}));
+    EXPECT_NE(help({"help"}).find("help  "), std::string::npos);
+    EXPECT_EQ(help({"help", "group"}), help({"group", "--help"}));
+    EXPECT_EQ(help({"help", "group", "inner"}), help({"group", "inner", "--help"}));
+    EXPECT_NE(help({"help", "group", "inner"}).find("Of the inner one"), std::string::npos);
+    EXPECT_EQ(parsed(app, {"help", "gruop"}).error, "'gruop' is no command; did you mean 'group'?");
+    EXPECT_EQ(parsed(app, {"help", "group", "iner"}).error, "'iner' is no command; did you mean 'inner'?");
 }
 
 TEST(Arguments, TheEnvironmentStandsInForAnOption) {

@@ -103,7 +103,7 @@ MODULES = [
     Module("tools/whole_files", "whole_files", ("host",)),
     Module("tools/intel_hex", "intel_hex", ("host",)),
     Module("tools/proof", "proof", ("digest",)),
-    Module("tools/arguments", "arguments", ()),
+    Module("tools/arguments", "arguments", ("spelling",)),
     Module("tools/mactalk_client", "mactalk_client", ("base", "protocol", "host")),
     Module("tools/midi_client", "midi_client", ("base", "ports", "protocol", "registers", "host", "mactalk_client")),
     Module("tools/command_line", "command_line", ("arguments", "base", "host", "mactalk_client", "registers")),

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "arguments/commit.h"
+#include "spelling/edit_distance.h"
 
 namespace nplc::arguments {
 namespace {
@@ -26,6 +27,52 @@ OptionText text_of(const CLI::Option& option) {
             .positional = option.get_positional() ? option.get_name(true) : std::string(),
             .description = option.get_description(),
             .has_value = option.get_items_expected_max() != 0};
+}
+
+/// An option that names a file or the like; what is left out has no name.
+CLI::Option* never_empty(CLI::Option* option) {
+    if (option->get_positional()) return option;
+    return option->check(CLI::Validator(
+        [](const std::string& text) {
+            return std::string(text.empty() ? "its value is empty: write one, or leave the option out" : "");
+        },
+        ""));
+}
+
+std::string guess(const std::string& word, const std::vector<std::string>& known) {
+    const auto best = spelling::nearest(word, {known.begin(), known.end()});
+    return best.empty() ? std::string() : "; did you mean '" + std::string(best) + "'?";
+}
+
+std::vector<std::string> commands_of(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    return names;
+}
+
+std::vector<std::string> flags_of(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    return names;
+}
+
+/// The command that was read last, or the program.
+const CLI::App& innermost(const CLI::App& app) {
+    const auto read = app.get_subcommands();
+    return read.empty() ? app : innermost(*read.back());
+}
+
+std::string listed(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+    return text;
+}
+
+std::string no_command(const std::string& word, const CLI::App& app) {
+    return "'" + word + "' is no command" + guess(word, commands_of(app));
 }
 
 /// Prints help or version.
@@ -112,6 +159,7 @@ Option* Option::excludes(const std::string& other) {
 struct App::Parts {
     std::unique_ptr<CLI::App> own;  ///< of the program; a command's belongs to CLI11
     CLI::App* app;
+    bool help = false;  ///< has the command
     std::vector<std::unique_ptr<Option>> options{};
     std::vector<std::unique_ptr<App>> commands{};
 };
@@ -130,17 +178,17 @@ Option* App::kept(void* option) {
 }
 
 Option* App::add_option(const std::string& name, std::string& variable, const std::string& description) {
-    return kept(parts_->app->add_option(name, variable, description));
+    return kept(never_empty(parts_->app->add_option(name, variable, description)));
 }
 
 Option* App::add_option(const std::string& name, std::optional<std::string>& variable,
                         const std::string& description) {
-    return kept(parts_->app->add_option(name, variable, description));
+    return kept(never_empty(parts_->app->add_option(name, variable, description)));
 }
 
 Option* App::add_option(const std::string& name, std::vector<std::string>& variable,
                         const std::string& description) {
-    return kept(parts_->app->add_option(name, variable, description));
+    return kept(never_empty(parts_->app->add_option(name, variable, description)));
 }
 
 Option* App::add_option(const std::string& name, int& variable, const std::string& description) {
@@ -160,12 +208,12 @@ Option* App::add_option(const std::string& name, double& variable, const std::st
 }
 
 Option* App::add_option(const std::string& name, const std::string& description) {
-    return kept(parts_->app->add_option(name, description));
+    return kept(never_empty(parts_->app->add_option(name, description)));
 }
 
 Option* App::add_option_function(const std::string& name, const std::function<void(const std::string&)>& take,
                                  const std::string& description) {
-    return kept(parts_->app->add_option_function<std::string>(name, take, description));
+    return kept(never_empty(parts_->app->add_option_function<std::string>(name, take, description)));
 }
 
 Option* App::add_flag(const std::string& name, bool& variable, const std::string& description) {
@@ -198,14 +246,52 @@ void App::footer(const std::string& text) {
     parts_->app->footer(text);
 }
 
+void App::add_help_command() {
+    App& help = *add_subcommand("help", "Say what --help says of a command");
+    parts_->help = true;
+    help.parts_->app->add_option("command", "Its name");
+}
+
+ParseResult App::help_of(const std::vector<std::string>& commands) {
+    std::vector<std::string> words = commands;
+    const CLI::App* app = parts_->app;
+    for (const std::string& name : commands) {
+        const auto inner = app->get_subcommands([&](const CLI::App* one) { return one->check_name(name); });
+        if (inner.empty()) return {.kind = ParseResult::Kind::wrong, .error = no_command(name, *app)};
+        app = inner.front();
+    }
+    words.emplace_back("--help");
+    std::reverse(words.begin(), words.end());
+    try {
+        parts_->app->parse(words);
+    } catch (const CLI::ParseError& error) {
+        return told(*parts_->app, error);
+    }
+    return {};
+}
+
+/// The library says of an unknown command only that there is none.
+std::string App::what_is_wrong(const std::string& error) const {
+    const std::vector<std::string> rest = parts_->app->remaining(true);
+    const CLI::App& last = innermost(*parts_->app);
+    const bool lacks_command = error.find("ubcommand is required") != std::string::npos;
+    if (rest.empty()) return lacks_command ? "a command is missing: " + listed(commands_of(last)) : error;
+    const std::string& word = rest.front();
+    if (lacks_command && !word.starts_with('-')) return no_command(word, last);
+    if (!word.starts_with("--")) return error;
+    std::vector<std::string> known = flags_of(last);
+    for (const std::string& flag : flags_of(*parts_->app)) known.push_back(flag);
+    return "'" + word + "' is no option here" + guess(word, known);
+}
+
 ParseResult App::parse(int argc, const char* const* argv) {
+    if (parts_->help && argc > 1 && std::string_view(argv[1]) == "help")
+        return help_of({argv + 2, argv + argc});
     try {
         parts_->app->parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return told(*parts_->app, error);
-        return {.kind = ParseResult::Kind::wrong,
-                .error = one_line(error.what()),
-                .rest = parts_->app->remaining(true)};
+        return {.kind = ParseResult::Kind::wrong, .error = one_line(what_is_wrong(error.what()))};
     }
     return {};
 }

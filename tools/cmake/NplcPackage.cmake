@@ -4,7 +4,8 @@
 #
 # nplc_package_manual(PACKAGE PROGRAM)
 #
-# Installs a manual page of what the program says with --help; target PROGRAM_manual makes it.
+# Installs a manual page of what the program says with --help, and the completions that it prints; target PROGRAM_manual
+# makes them.
 #
 # nplc_debian_package(TARGET PACKAGE CONFIG FILE FOLDER DIR PROGRAMS usr/bin/P... [EMBEDDED usr/bin/P=LIBRARY]
 #                     [NPM INSIDE=FOLDER NOTICE INPUTS])
@@ -29,11 +30,17 @@ function(nplc_package_manual package program)
   endif()
   set(page "${CMAKE_CURRENT_BINARY_DIR}/generated/${program}.1.gz")
   file(MAKE_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}/generated")
-  add_custom_command(OUTPUT "${page}"
+  set(bash "${CMAKE_CURRENT_BINARY_DIR}/generated/${program}")
+  set(zsh "${CMAKE_CURRENT_BINARY_DIR}/generated/_${program}")
+  add_custom_command(OUTPUT "${page}" "${bash}" "${zsh}"
+    COMMAND ${program} completion bash > "${bash}"
+    COMMAND ${program} completion zsh > "${zsh}"
     COMMAND Python3::Interpreter -B "${PROJECT_SOURCE_DIR}/tools/packing/man_of_help" "$<TARGET_FILE:${program}>" "${page}"
     DEPENDS ${program} "${PROJECT_SOURCE_DIR}/tools/packing/man_of_help" VERBATIM)
   add_custom_target(${program}_manual DEPENDS "${page}")
   install(FILES "${page}" DESTINATION share/man/man1 COMPONENT ${package})
+  install(FILES "${bash}" DESTINATION share/bash-completion/completions COMPONENT ${package})
+  install(FILES "${zsh}" DESTINATION share/zsh/site-functions COMPONENT ${package})
 endfunction()
 
 function(nplc_debian_package target package)

@@ -25,13 +25,6 @@ std::string variable(const Common& common, const std::string& what) {
     return name;
 }
 
-/// The library says of an unknown command only that there is none.
-std::string wrong_usage(const arguments::ParseResult& outcome) {
-    if (outcome.error.find("subcommand is required") == std::string::npos || outcome.rest.empty())
-        return outcome.error;
-    return fmt::format("'{}' is no command", outcome.rest.front());
-}
-
 /// What was read from a file or a line may stand in a message: nothing that would upset a terminal, and no
 /// endless line.
 std::string shown(const std::string& text) {
@@ -114,7 +107,7 @@ int run(arguments::App& app, Common& common, int argc, char** argv) {
     if (outcome.kind == arguments::ParseResult::Kind::wrong) {
         // What stands behind the mistake may not have been read.
         common.json = std::find(argv, argv + argc, std::string_view("--json")) != argv + argc;
-        fail(common, kUsageOrFile, fmt::format("{} (see {} --help)", wrong_usage(outcome), common.program));
+        fail(common, kUsageOrFile, fmt::format("{} (see {} --help)", outcome.error, common.program));
     }
     return common.exit_code;
 }

@@ -7,6 +7,8 @@
 namespace nplc::spelling {
 namespace {
 
+constexpr std::size_t kLongestName = 64;
+
 char upper(char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
@@ -33,6 +35,23 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
         }
     }
     return row[b.size()];
+}
+
+std::string_view nearest(std::string_view name, const std::vector<std::string_view>& candidates) {
+    if (name.empty() || name.size() > kLongestName) return {};
+    std::string_view best;
+    std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;
+    for (std::string_view candidate : candidates) {
+        const std::size_t longer = std::max(candidate.size(), name.size());
+        const std::size_t shorter = std::min(candidate.size(), name.size());
+        if (candidate.size() > kLongestName || longer - shorter >= best_distance) continue;
+        const std::size_t d = edit_distance(name, candidate);
+        if (d < best_distance && d < candidate.size()) {
+            best = candidate;
+            best_distance = d;
+        }
+    }
+    return best;
 }
 
 }  // namespace nplc::spelling

@@ -8,8 +8,10 @@
 #include <system_error>
 
 #include "arguments/arguments.h"
+#include "arguments/pages.h"
 #include "cli/common.h"
 #include "cli/subcommands.h"
+#include "diagnostics/explanations.h"
 #include "host/terminal.h"
 
 namespace {
@@ -26,13 +28,30 @@ void add_colour_option(nplc::arguments::App& app) {
         ->one_of({"auto", "always", "never"});
 }
 
+nplc::arguments::About about() {
+    nplc::arguments::About about{
+        .version = NPLC_VERSION,
+        .title = "compiles sequence programs for a NanoPLC gateway",
+        .file_commands = {"build", "check", "dap", "decompile", "diff", "disasm", "fmt", "graph", "report",
+                          "verify"},
+        .file_options = {"-o", "--output", "--symbols", "--listing", "--property", "--junit", "--scenario",
+                         "--trace", "--set-points", "--proof"},
+        .option_words = {{"--color", {"auto", "always", "never"}},
+                         {"--assume", {"driver", "any"}},
+                         {"--emit", {"promela", "smt2"}}}};
+    for (const nplc::seqc::Explanation& info : nplc::seqc::explanations())
+        about.words["explain"].emplace_back(info.code);
+    return about;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     using namespace nplc::seqc::cli;
     nplc::host::prepare_streams();
     nplc::arguments::App app(
-        "Compiles sequence programs into tables for a NanoPLC gateway, and tables back into programs.");
+        "Compiles sequence programs into tables for a NanoPLC gateway, and tables back into programs.",
+        "seqc");
     app.require_subcommand(1);
     app.set_version_flag("--version", std::string("seqc ") + NPLC_VERSION);
     app.footer(
@@ -54,6 +73,8 @@ int main(int argc, char** argv) {
     add_lsp(app, exit_code);
     add_report(app, exit_code);
     add_verify(app, exit_code);
+    nplc::arguments::add_pages(
+        app, about(), [&exit_code](const std::string& text) { exit_code = print_or_write(text, {}); });
     try {
         using Kind = nplc::arguments::ParseResult::Kind;
         const auto outcome = app.parse(argc, argv);

@@ -9,8 +9,6 @@
 namespace nplc::seqc {
 namespace {
 
-constexpr std::size_t kLongestName = 64;
-
 char upper_char(char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
@@ -35,20 +33,7 @@ bool is_identifier(std::string_view text) {
 }
 
 std::string_view nearest(std::string_view name, const std::vector<std::string_view>& candidates) {
-    if (name.empty() || name.size() > kLongestName) return {};
-    std::string_view best;
-    std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;
-    for (std::string_view candidate : candidates) {
-        const std::size_t longer = std::max(candidate.size(), name.size());
-        const std::size_t shorter = std::min(candidate.size(), name.size());
-        if (candidate.size() > kLongestName || longer - shorter >= best_distance) continue;
-        const std::size_t d = spelling::edit_distance(name, candidate);
-        if (d < best_distance && d < candidate.size()) {
-            best = candidate;
-            best_distance = d;
-        }
-    }
-    return best;
+    return spelling::nearest(name, candidates);
 }
 
 std::string_view numbered_timer(std::string_view name) {

@@ -58,9 +58,8 @@ struct ParseResult {
         wrong,  ///< see `error`
     };
     Kind kind = Kind::done;
-    int exit_code = 0;                ///< when `told`
-    std::string error{};              ///< one line
-    std::vector<std::string> rest{};  ///< with `wrong`: words that nobody took
+    int exit_code = 0;    ///< when `told`
+    std::string error{};  ///< one line
 };
 
 /// A program's command line, or one of its commands. Variables must live as long as it.
@@ -71,6 +70,7 @@ class App {
     App(const App&) = delete;
     App& operator=(const App&) = delete;
 
+    /// An option's text, here and below, is never empty: `-o ""` is wrong usage.
     Option* add_option(const std::string& name, std::string& variable, const std::string& description);
     Option* add_option(const std::string& name, std::optional<std::string>& variable,
                        const std::string& description);
@@ -90,12 +90,15 @@ class App {
 
     App* add_subcommand(const std::string& name, const std::string& description);
     void require_subcommand(unsigned count);
+    /// `help [COMMAND]`: what --help says of it.
+    void add_help_command();
     /// Options that a command does not know are looked for in the App above it.
     void fallthrough();
     void callback(const std::function<void()>& work);
     void footer(const std::string& text);
 
-    /// Prints help or version when asked to. What a callback throws comes through.
+    /// Prints help or version when asked to. An unknown command or option is answered with a guess. What a
+    /// callback throws comes through.
     ParseResult parse(int argc, const char* const* argv);
     bool got_subcommand(const std::string& name) const;
 
@@ -109,6 +112,8 @@ class App {
     struct Parts;
     explicit App(std::unique_ptr<Parts> parts);
     Option* kept(void* option);
+    ParseResult help_of(const std::vector<std::string>& commands);
+    std::string what_is_wrong(const std::string& error) const;
 
     std::unique_ptr<Parts> parts_;
 };
