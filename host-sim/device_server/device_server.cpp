@@ -9,6 +9,7 @@
 #include <string_view>
 #include <thread>
 
+#include "host/printable.h"
 #include "host/terminal.h"
 
 namespace nplc::sim {
@@ -91,7 +92,7 @@ std::string Endpoint::described(const std::string& label) const {
 }
 
 int fail(const std::string& program, const std::string& message) {
-    fmt::print(stderr, "{}: {}\n", program, message);
+    host::complain(program + ": " + message);
     return kFailed;
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "host/printable.h"
 #include "input_file.h"
 #include "program.h"
 #include "sim/axis.h"
@@ -29,14 +30,16 @@ void take_program(fmu::FmuOptions& options, const FmuCommand& command) {
     check_output(command, command.program, "program");
     check_output(command, symbols_of(command.program, command.symbols), "symbol file");
     for (const std::string& told : {program.nameless, program.remark})
-        if (!told.empty()) fmt::print(stderr, "{}\n", told);
+        if (!told.empty()) host::complain(fmt::format("{}", told));
     if (command.motor && *command.motor != program.names.motor && !program.names.steps.empty()) {
-        fmt::print(stderr, "{}: was compiled for {} and runs on {}; its register values may not fit\n",
-                   program.file, registers::name_of(program.names.motor), registers::name_of(*command.motor));
+        host::complain(fmt::format("{}: was compiled for {} and runs on {}; its register values may not fit",
+                                   program.file, registers::name_of(program.names.motor),
+                                   registers::name_of(*command.motor)));
     }
     if (program.drive != nullptr && !command.motor) {
-        fmt::print(stderr, "{}: a {} stands in for the {} drive, of which there are no FMUs\n", program.file,
-                   registers::name_of(program.names.motor), program.drive->family->name());
+        host::complain(fmt::format("{}: a {} stands in for the {} drive, of which there are no FMUs",
+                                   program.file, registers::name_of(program.names.motor),
+                                   program.drive->family->name()));
     }
     options.setup.motor = command.motor.value_or(program.names.motor);
     options.setup.table = program.content();

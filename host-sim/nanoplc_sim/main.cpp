@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "command_line.h"
+#include "host/printable.h"
 #include "input_file.h"
 #include "run_command.h"
 #include "scan_command.h"
@@ -48,11 +49,11 @@ int main(int argc, char** argv) {
         code = run_command_line(argc, argv);
     } catch (const std::exception& error) {
         std::fflush(stdout);
-        fmt::print(stderr, "{}\n", error.what());
+        nplc::host::complain(error.what());
         return kBadInput;
     }
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-        fmt::print(stderr, "standard output: cannot be written; the output is not complete\n");
+        nplc::host::complain("standard output: cannot be written; the output is not complete");
         return kBadInput;
     }
     return code;

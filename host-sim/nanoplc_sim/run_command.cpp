@@ -16,6 +16,7 @@
 #include "hal_linux/connections.h"
 #include "hal_linux/file_storage.h"
 #include "hal_linux/key_reader.h"
+#include "host/printable.h"
 #include "host/terminal.h"
 #include "input_file.h"
 #include "listener/exchange.h"
@@ -232,8 +233,9 @@ std::unique_ptr<hal_linux::FileStorage> open_flash(const RunOptions& options) {
 void tell_stand_in(const RunOptions& options, const Program& program) {
     if (program.drive == nullptr || options.drive != nullptr || options.motor) return;
     const std::string_view drive = program.drive->name;
-    fmt::print(stderr, "{}: a {} stands in for the {} drive; --motor {} takes the drive\n", program.file,
-               registers::name_of(program.names.motor), program.drive->family->name(), drive);
+    host::complain(fmt::format("{}: a {} stands in for the {} drive; --motor {} takes the drive",
+                               program.file, registers::name_of(program.names.motor),
+                               program.drive->family->name(), drive));
 }
 
 Program stored_program() {
@@ -271,10 +273,11 @@ int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted
     check_outputs(options);
     Program program =
         options.program.empty() ? stored_program() : load_program(options.program, options.symbols);
-    if (!program.nameless.empty()) fmt::print(stderr, "{}\n", program.nameless);
+    if (!program.nameless.empty()) host::complain(program.nameless);
     if (options.motor && *options.motor != program.names.motor && !program.names.steps.empty()) {
-        fmt::print(stderr, "{}: was compiled for {} and runs on {}; its register values may not fit\n",
-                   program.file, registers::name_of(program.names.motor), registers::name_of(*options.motor));
+        host::complain(fmt::format("{}: was compiled for {} and runs on {}; its register values may not fit",
+                                   program.file, registers::name_of(program.names.motor),
+                                   registers::name_of(*options.motor)));
     }
     if (options.motor) program.names.motor = *options.motor;
     program.names.drive = options.drive;
@@ -284,7 +287,7 @@ int run(const RunOptions& options, const volatile std::sig_atomic_t& interrupted
                         "for MAC140",
                         program.file, options.drive->family->name()));
     const Scenario scenario = load_scenario(options, program.names);
-    if (!program.remark.empty()) fmt::print(stderr, "{}\n", program.remark);
+    if (!program.remark.empty()) host::complain(program.remark);
     tell_stand_in(options, program);
     const auto flash = open_flash(options);
     SimFaces faces;

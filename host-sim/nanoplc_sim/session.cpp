@@ -9,6 +9,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "host/printable.h"
 #include "input_file.h"
 #include "junit.h"
 #include "sim/axis.h"
@@ -153,7 +154,7 @@ Session::Session(const RunOptions& options, const Program& program, const Scenar
     if (options.vcd) vcd_.emplace(*options.vcd, program.names, identity(program));
     if (options.junit) junit_.emplace(*options.junit);
     if (!length_ && !options.realtime && !scenario.can_end()) length_ = kDefaultLength;
-    world_.on_log([this](const std::string& text) { timeline_.remark('"' + text + '"'); });
+    world_.on_log([this](const std::string& text) { timeline_.remark('"' + host::printable(text) + '"'); });
     runner_.on_failure([this](const ExpectationResult& outcome, Time) {
         timeline_.alarm(fmt::format("FAILED {}:{}: {}", scenario_.file, outcome.line, outcome.expectation));
     });
@@ -211,8 +212,8 @@ void Session::heading() const {
         options_.faults == LineFaults{} ? "" : fmt::format(", faults with seed {}", options_.seed);
     const std::string names =
         program_.symbols.empty() ? "" : fmt::format(", names from {}", program_.symbols);
-    say(fmt::format("{}: {} terms, {}{}{}", program_.file, world_.gateway().table().size(), motor_in_words(),
-                    seed, names));
+    say(fmt::format("{}: {} terms, {}{}{}", host::printable(program_.file), world_.gateway().table().size(),
+                    motor_in_words(), seed, names));
     fmt::print("\n");
     if (!options_.quiet) timeline_.heading();
 }
@@ -395,8 +396,8 @@ void Session::judgements() const {
                failed != 0 ? palette_.bad : "", failed, palette_.plain);
     for (const ExpectationResult& outcome : runner_.outcomes()) {
         if (outcome.passed) continue;
-        say(fmt::format("{}:{}: expected: {}; seen: {}", scenario_.file, outcome.line, outcome.expectation,
-                        outcome.seen),
+        say(fmt::format("{}:{}: expected: {}; seen: {}", scenario_.file, outcome.line,
+                        host::printable(outcome.expectation), outcome.seen),
             2);
     }
 }

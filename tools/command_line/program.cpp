@@ -11,6 +11,7 @@
 
 #include "host/endpoint.h"
 #include "host/interruption.h"
+#include "host/printable.h"
 #include "host/terminal.h"
 #include "mactalk_client/master.h"
 
@@ -25,26 +26,6 @@ std::string variable(const Common& common, const std::string& what) {
     return name;
 }
 
-/// What was read from a file or a line may stand in a message: nothing that would upset a terminal, and no
-/// endless line.
-std::string shown(const std::string& text) {
-    constexpr std::size_t kLongestLine = 1000;
-    std::string result;
-    std::size_t length = 0;
-    bool was_c2 = false;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        length = c == '\n' ? 0 : length + 1;
-        if (length == kLongestLine) result += "...";
-        if (length >= kLongestLine) continue;
-        const bool control = (byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7F ||
-                             (was_c2 && byte >= 0x80 && byte < 0xA0);
-        result += control ? '?' : c;
-        was_c2 = byte == 0xC2;
-    }
-    return result;
-}
-
 /// Tells what went wrong, with --json as a document too.
 void fail(Common& common, int exit_code, const std::string& text, const Json& details = Json::object()) {
     common.exit_code = exit_code;
@@ -53,7 +34,7 @@ void fail(Common& common, int exit_code, const std::string& text, const Json& de
         whole.update(details);
         fmt::print("{}\n", one_line(whole));
     }
-    fmt::print(stderr, "{}: {}\n", common.program, shown(text));
+    host::complain(common.program + ": " + text);
 }
 
 void try_to(Common& common, const std::function<void()>& what) {
@@ -136,10 +117,10 @@ void guard(Common& common, const std::function<void()>& what) {
         if (common.baud == 0) throw UserError("--baud 0: no line has that speed; 19200 is the motors' own");
         what();
     });
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-        fmt::print(stderr, "{}: cannot write to standard output\n", common.program);
-        common.exit_code = kUsageOrFile;
-    }
+    const bool is_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    if (is_written || !host::output_has_reader()) return;  // `| head -1` has seen enough
+    host::complain(common.program + ": cannot write to standard output");
+    common.exit_code = kUsageOrFile;
 }
 
 void tell(const Common& common, const std::string& text, const Json& document) {

@@ -8,6 +8,7 @@
 #include "command_line/generated.h"
 #include "config.h"
 #include "exit_codes.h"
+#include "host/printable.h"
 #include "host/text_file.h"
 #include "plant_part.h"
 #include "service.h"
@@ -58,15 +59,15 @@ struct Loaded {
 void print(const std::string& file, const std::vector<Mistake>& mistakes) {
     for (const Mistake& mistake : mistakes) {
         const std::string key = mistake.key.empty() ? "" : mistake.key + ": ";
-        fmt::print(stderr, "{}:{}: {}{}\n", file, mistake.line, key, mistake.text);
+        host::complain(fmt::format("{}:{}: {}{}", file, mistake.line, key, mistake.text));
     }
 }
 
 Loaded load(const std::string& file) {
     const host::FileContent content = host::read_text(file, kMostOfAConfig);
     if (!content.problem.empty()) {
-        fmt::print(stderr, "{}: cannot be read: {}; name a configuration with --config\n", file,
-                   content.problem);
+        host::complain(
+            fmt::format("{}: cannot be read: {}; name a configuration with --config", file, content.problem));
         return {};
     }
     ReadConfig read = read_config(content.bytes);
@@ -165,7 +166,7 @@ int main(int argc, char** argv) {
     const arguments::ParseResult outcome = app.parse(argc, argv);
     if (outcome.kind == arguments::ParseResult::Kind::told) return outcome.exit_code;
     if (outcome.kind == arguments::ParseResult::Kind::wrong) {
-        fmt::print(stderr, "nanoplc: {} (see nanoplc --help)\n", outcome.error);
+        host::complain(fmt::format("nanoplc: {} (see nanoplc --help)", outcome.error));
         return kWrong;
     }
     if (app.got_subcommand("check-config")) return check(options);

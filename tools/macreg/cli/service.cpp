@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/session.h"
+#include "host/printable.h"
 #include "macreg/change.h"
 #include "macreg/values.h"
 
@@ -107,8 +108,8 @@ void put_back(Motor& motor, const registers::Register& reg, std::int64_t raw) {
     try {
         static_cast<void>(change(motor, reg, raw));
     } catch (const mactalk_client::LineError&) {
-        fmt::print(stderr, "macreg: {} could not be put back: it has another value in memory, not in flash\n",
-                   reg.name);
+        host::complain(fmt::format(
+            "macreg: {} could not be put back: it has another value in memory, not in flash", reg.name));
     }
 }
 

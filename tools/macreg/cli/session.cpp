@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "host/printable.h"
 #include "host/terminal.h"
 #include "macreg/values.h"
 #include "registers/gateway.h"
@@ -146,7 +147,7 @@ std::string Session::model_name() const {
 }
 
 void remark(const Common& common, const std::string& text) {
-    if (!common.json) fmt::print(stderr, "{}: {}\n", common.program, text);
+    if (!common.json) host::complain(common.program + ": " + text);
 }
 
 void ask(const Common& common, const std::string& what) {

@@ -9,6 +9,7 @@
 #include "command_line/files.h"
 #include "host/clock.h"
 #include "host/endpoint.h"
+#include "host/printable.h"
 #include "nanoctl/reconnecting.h"
 #include "nanoctl/stopping.h"
 #include "seqc/symbol_file.h"
@@ -90,7 +91,8 @@ const Names& Session::names() {
     try {
         return right_names();
     } catch (const UserError& error) {
-        fmt::print(stderr, "{}: {}; steps and signals have their numbers\n", common_.program, error.what());
+        host::complain(
+            fmt::format("{}: {}; steps and signals have their numbers", common_.program, error.what()));
         return names_.emplace();
     }
 }

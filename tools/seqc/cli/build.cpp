@@ -9,6 +9,7 @@
 #include "cli/common.h"
 #include "cli/json.h"
 #include "cli/subcommands.h"
+#include "host/printable.h"
 #include "whole_files/whole_files.h"
 
 namespace nplc::seqc::cli {
@@ -51,7 +52,7 @@ int build(const BuildOptions& options) {
         return problem(options, unwritten);
     }
     const int exit_code = report(options, compilation, sources);
-    if (exit_code == kOk && !options.quiet && !options.json) fmt::print("{}", summary(targets, compilation));
+    if (exit_code == kOk && !options.quiet && !options.json) fmt::print("{}", host::printable_lines(summary(targets, compilation)));
     return std::fflush(stdout) == 0 ? exit_code : file_problem("cannot write to standard output");
 }
 

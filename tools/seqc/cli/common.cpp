@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "host/paths.h"
+#include "host/printable.h"
 #include "host/terminal.h"
 #include "whole_files/whole_files.h"
 
@@ -33,12 +34,12 @@ std::string painted(std::FILE* stream, std::string_view code, std::string_view t
 }
 
 int file_problem(const std::string& message) {
-    fmt::print(stderr, "seqc: {}\n", message);
+    host::complain("seqc: " + message);
     return kUsageOrFile;
 }
 
 void print_diagnostics(const Compilation& compilation, const Sources& sources) {
-    fmt::print(stderr, "{}", render_all(compilation, sources, colour_of(stderr)));
+    std::fputs(render_all(compilation, sources, colour_of(stderr)).c_str(), stderr);
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {

@@ -7,6 +7,8 @@
 
 #include "cli/common.h"
 #include "cli/subcommands.h"
+#include "host/printable.h"
+#include "host/terminal.h"
 #include "seqc/format.h"
 #include "whole_files/whole_files.h"
 
@@ -69,6 +71,12 @@ int rewrite(const Program& program) {
     return print_or_write(program.after, program.name);
 }
 
+/// What stands in comments must not upset a terminal.
+int show(const std::string& text, const std::string& output) {
+    const bool to_terminal = (output.empty() || output == "-") && host::is_terminal(stdout);
+    return print_or_write(to_terminal ? host::printable_lines(text) : text, output);
+}
+
 int list_if_different(const Program& program) {
     if (is_formatted(program)) return kOk;
     fmt::print("{}\n", program.name);
@@ -98,7 +106,7 @@ int format_files(const FmtArguments& options) {
         if (own == kOk && options.check) {
             own = list_if_different(program);
         } else if (own == kOk) {
-            own = options.in_place ? rewrite(program) : print_or_write(program.after, options.output);
+            own = options.in_place ? rewrite(program) : show(program.after, options.output);
         }
         exit_code = std::max(exit_code, own);
     }

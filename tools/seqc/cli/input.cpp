@@ -7,6 +7,7 @@
 #include <span>
 
 #include "host/paths.h"
+#include "host/printable.h"
 #include "intel_hex/intel_hex.h"
 #include "seqc/symbol_file.h"
 #include "sequencer/table.h"
@@ -71,8 +72,8 @@ void read_table_into(Input& input, const std::string& text, bool is_whole) {
         return;
     }
     if (length < bytes.size()) {
-        fmt::print(stderr, "seqc: {}: {} bytes after the end of the table are left out\n", input.file,
-                   bytes.size() - length);
+        host::complain(fmt::format("seqc: {}: {} bytes after the end of the table are left out", input.file,
+                                   bytes.size() - length));
         bytes.resize(length);
     }
     input.table = std::move(bytes);
@@ -89,7 +90,7 @@ void read_symbols_into(Input& input, const std::string& asked_for) {
     if (error.empty()) {
         input.symbols = reading.file.symbols;
     } else if (asked_for.empty()) {
-        fmt::print(stderr, "seqc: {}; names are left out\n", error);
+        host::complain(fmt::format("seqc: {}; names are left out", error));
     } else {
         input.table.clear();
         input.exit_code = file_problem(error);

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <set>
 
+#include "host/printable.h"
 #include "verify/emit.h"
 
 namespace nplc::seqc::cli {
@@ -38,8 +39,8 @@ int emit_question(const std::string& language, const Input& input,
                         promela ? ": ALWAYS POSSIBLE can in smt2" : ": WHILE .. FOR can in promela"));
     }
     if (!emission.left_out.empty()) {
-        fmt::print(stderr, "seqc: left out, since {} cannot state them: {}\n", language,
-                   fmt::join(emission.left_out, ", "));
+        host::complain(fmt::format("seqc: left out, since {} cannot state them: {}", language,
+                                   fmt::join(emission.left_out, ", ")));
     }
     return print_or_write(emission.text, output);
 }

@@ -6,6 +6,7 @@
 
 #include "digest/digest.h"
 #include "host/paths.h"
+#include "host/printable.h"
 #include "proof/certificate.h"
 #include "whole_files/whole_files.h"
 
@@ -51,7 +52,7 @@ int write_certificate(const std::string& file, const verify::Report& report, boo
         return file_problem(
             fmt::format("{}: there is nothing to prove: name properties with --property", file));
     if (!all_proved || !report.complete) {
-        fmt::print(stderr, "seqc: {} is not written, for not all is proved\n", file);
+        host::complain(fmt::format("seqc: {} is not written, for not all is proved", file));
         return kOk;
     }
     const std::string text = proof::to_text(certificate_of(report, input, assume, assumption));

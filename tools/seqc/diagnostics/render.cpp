@@ -5,8 +5,12 @@
 
 #include <algorithm>
 
+#include "host/printable.h"
+
 namespace nplc::seqc {
 namespace {
+
+using host::printable;
 
 constexpr std::size_t kShown = 100;
 constexpr std::size_t kShownBefore = 40;
@@ -46,39 +50,6 @@ Line line_at(std::string_view source, std::size_t offset) {
     if (end == std::string_view::npos) end = source.size();
     if (end > start && source[end - 1] == '\r') --end;
     return {source.substr(start, end - start), start};
-}
-
-/// Bytes of the UTF-8 character that `text` begins with; 0 if it begins with none.
-std::size_t character_length(std::string_view text) {
-    const auto lead = static_cast<unsigned char>(text[0]);
-    const std::size_t length = lead < 0x80                   ? 1
-                               : lead >= 0xC2 && lead < 0xE0 ? 2
-                               : lead >= 0xE0 && lead < 0xF0 ? 3
-                               : lead >= 0xF0 && lead < 0xF5 ? 4
-                                                             : 0;
-    if (length > text.size()) return 0;
-    for (std::size_t i = 1; i < length; ++i) {
-        if (!continues_character(text[i])) return 0;
-    }
-    return length;
-}
-
-/// What would upset a terminal, one '?' for each.
-std::string printable(std::string_view text) {
-    std::string result;
-    while (!text.empty()) {
-        const std::size_t length = character_length(text);
-        const auto first = static_cast<unsigned char>(text[0]);
-        const bool control = (first < 0x20 && first != '\t') || first == 0x7F ||
-                             (length == 2 && first == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0);
-        if (length == 0 || control) {
-            result += '?';
-        } else {
-            result += text.substr(0, length);
-        }
-        text.remove_prefix(std::max<std::size_t>(length, 1));
-    }
-    return result;
 }
 
 /// A terminal's colours, or nothing.
@@ -187,15 +158,15 @@ std::string render_with(const Diagnostic& diagnostic, const Locate& locate, Colo
     const bool is_error = diagnostic.severity == Severity::error;
     const std::string_view shade = is_error ? kError : kWarning;
     const std::string what = fmt::format("{} {}", is_error ? "error" : "warning", diagnostic.code);
-    std::string text = fmt::format("{}:{}:{}: {}: {}\n", place.file_name, at.line, at.column,
+    std::string text = fmt::format("{}:{}:{}: {}: {}\n", printable(place.file_name), at.line, at.column,
                                    paint(shade, what), paint(kBold, bounded(diagnostic.message)));
     text += excerpt(place.source, place.span, paint, shade);
     if (!diagnostic.help.empty())
         text += fmt::format("  {}: {}\n", paint(kHelp, "help"), bounded(diagnostic.help));
     for (const Note& note : diagnostic.notes) {
         const Located other = locate(note.span);
-        text += fmt::format("  {}: {}:{}:{}: {}\n", paint(kNote, "note"), other.file_name, other.at().line,
-                            other.at().column, bounded(note.message));
+        text += fmt::format("  {}: {}:{}:{}: {}\n", paint(kNote, "note"), printable(other.file_name),
+                            other.at().line, other.at().column, bounded(note.message));
         text += excerpt(other.source, other.span, paint, kNote);
     }
     return text;

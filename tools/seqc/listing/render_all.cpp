@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/printable.h"
 #include "seqc/seqc.h"
 
 namespace nplc::seqc {
@@ -12,7 +13,7 @@ std::string render_all(const Compilation& compilation, std::string_view source, 
 }
 
 std::string render_all(const Compilation& compilation, const Sources& sources, Colour colour) {
-    const std::string& file_name = sources.program().name;
+    const std::string file_name = host::printable(sources.program().name);
     const std::vector<Diagnostic>& all = compilation.diagnostics;
     if (all.empty()) return {};
     std::string text;
