@@ -118,10 +118,7 @@ class RackService final : public VirtualDevices {
         if (!content.problem.empty())
             return fmt::format("{}: cannot be opened: {}; name a scenario", file, content.problem);
         ParsedScenario parsed = parse_scenario(content.bytes, file, names_);
-        if (!parsed.mistakes.empty()) {
-            const Mistake& first = parsed.mistakes.front();
-            return fmt::format("{}:{}: {}", file, first.place(), first.message);
-        }
+        if (!parsed.mistakes.empty()) return in_words(file, parsed.mistakes);
         scenario_ = std::move(parsed.scenario);
         return {};
     }

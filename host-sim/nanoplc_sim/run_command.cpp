@@ -90,12 +90,7 @@ Scenario load_scenario(const RunOptions& options, const Names& names) {
     if (!options.scenario) return {};
     const std::string& file = *options.scenario;
     ParsedScenario parsed = parse_scenario(read_input(file, "a scenario"), file, names);
-    if (!parsed.mistakes.empty()) {
-        const std::size_t more = parsed.mistakes.size() - 1;
-        throw InputError(
-            fmt::format("{}:{}: {}{}", file, parsed.mistakes.front().place(), parsed.mistakes.front().message,
-                        more == 0 ? "" : fmt::format(" (and {} more mistakes in this file)", more)));
-    }
+    if (!parsed.mistakes.empty()) throw InputError(in_words(file, parsed.mistakes));
     if (!parsed.scenario.can_end() && !options.length && !options.realtime) {
         throw InputError(
             fmt::format("{}: the scenario has no end; write such as `end at 10 s`, or use --for 10s", file));

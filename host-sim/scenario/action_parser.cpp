@@ -8,6 +8,7 @@
 #include "registers/convert.h"
 #include "registers/details.h"
 #include "registers/midi.h"
+#include "spelling/edit_distance.h"
 
 namespace nplc::sim {
 namespace {
@@ -262,14 +263,25 @@ StoredRegister ActionParser::stored_parameter() {
     reader_.refuse(fmt::format("a MIDI drive has no parameter {}; write one of {}", name.text, known));
 }
 
+namespace {
+
+std::string register_meant(registers::Model model, std::string_view name) {
+    std::vector<std::string_view> known;
+    for (const registers::Register& reg : registers::map_of(model)) known.push_back(reg.name);
+    const std::string_view meant = spelling::nearest(name, known);
+    return meant.empty() ? "registers are called as in the manual" : fmt::format("did you mean {}?", meant);
+}
+
+}  // namespace
+
 StoredRegister ActionParser::stored_register() {
     if (conditions_.names().drive != nullptr) return stored_parameter();
     const registers::Model model = conditions_.names().motor;
     const Token name = reader_.next();
     const registers::Register* reg = registers::find(model, name.text);
     if (reg == nullptr)
-        reader_.refuse(fmt::format("a {} has no register {}; registers are called as in the manual",
-                                   registers::name_of(model), name.text));
+        reader_.refuse(fmt::format("a {} has no register {}; {}", registers::name_of(model), name.text,
+                                   register_meant(model, name.text)));
     if (reg->access != registers::Access::read_write)
         reader_.refuse(fmt::format("{} is what the motor itself counts or shows; its flash does not hold it",
                                    reg->name));

@@ -1,14 +1,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "parser.h"
 #include "sim/scenario.h"
+#include "spelling/edit_distance.h"
 
 namespace nplc::sim {
 namespace {
 
 constexpr std::size_t kLongestLine = 1'000'000;
+constexpr std::size_t kMostMistakes = 1000;  // a file with more is something else
 
 /// Statements of one line. Throws LineMistake.
 class LineParser {
@@ -210,6 +213,33 @@ int column_of(std::string_view line, std::size_t byte) {
     return 1 + static_cast<int>(std::count_if(before.begin(), before.end(), begins));
 }
 
+bool is_of_word(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+std::string_view letters_at(std::string_view text, std::size_t at) {
+    const std::string_view rest = text.substr(std::min(at, text.size()));
+    return rest.substr(
+        0, static_cast<std::size_t>(std::find_if_not(rest.begin(), rest.end(), is_of_word) - rest.begin()));
+}
+
+/// Of the words that a message offers, the one that was meant takes the place of the list.
+std::string with_guess(std::string_view line, const LineMistake& mistake) {
+    constexpr std::string_view kOffer = "; write ";
+    constexpr std::size_t kShortest = 3;
+    const std::string_view wrong = letters_at(line, mistake.at);
+    const std::size_t offer = mistake.message.find(kOffer);
+    if (wrong.size() < kShortest || offer == std::string::npos) return mistake.message;
+    const std::string_view offered = std::string_view(mistake.message).substr(offer + kOffer.size());
+    std::vector<std::string_view> words;
+    for (std::size_t at = 0; at < offered.size(); at += std::max<std::size_t>(words.back().size(), 1))
+        words.push_back(letters_at(offered, at));
+    const std::string_view meant = spelling::nearest(wrong, words);
+    const bool is_numbered = std::isdigit(static_cast<unsigned char>(wrong.back())) != 0;  // a signal
+    if (meant.empty() || same_name(meant, wrong) || is_numbered) return mistake.message;
+    return fmt::format("{}; did you mean {}?", mistake.message.substr(0, offer), meant);
+}
+
 bool has_end(const Actions& actions) {
     return std::any_of(actions.begin(), actions.end(),
                        [](const Action& action) { return std::holds_alternative<action::End>(action.what); });
@@ -230,6 +260,18 @@ std::string Mistake::place() const {
     return column == 0 ? fmt::format("{}", line) : fmt::format("{}:{}", line, column);
 }
 
+std::string in_words(const std::string& file, const std::vector<Mistake>& mistakes) {
+    constexpr std::size_t kMostShown = 20;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(mistakes.size(), kMostShown); ++i)
+        text +=
+            fmt::format("{}{}:{}: {}", i == 0 ? "" : "\n", file, mistakes[i].place(), mistakes[i].message);
+    if (mistakes.size() > kMostShown)
+        text += fmt::format("\n{}: {}{} more mistakes", file, mistakes.size() - kMostShown,
+                            mistakes.size() == kMostMistakes ? " or" : "");
+    return text;
+}
+
 ParsedScenario parse_scenario(std::string_view text, const std::string& file, const Names& names) {
     ParsedScenario parsed;
     parsed.scenario.file = file;
@@ -246,7 +288,8 @@ ParsedScenario parse_scenario(std::string_view text, const std::string& file, co
             }
             LineParser(line, number, names, parsed.scenario).parse();
         } catch (const LineMistake& mistake) {
-            parsed.mistakes.push_back({number, column_of(line, mistake.at), mistake.message});
+            parsed.mistakes.push_back({number, column_of(line, mistake.at), with_guess(line, mistake)});
+            if (parsed.mistakes.size() == kMostMistakes) return parsed;
         }
         text.remove_prefix(std::min(length + 1, text.size()));
     }

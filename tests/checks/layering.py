@@ -77,6 +77,7 @@ MODULES = [
     Module("firmware/faces/mqtt", "mqtt", ("base", "broker", "registers", "faces", "set_points", "causes", "deployment", "orders", "hal_linux"), os=True),
     Module("firmware/faces/metrics", "metrics", ("base", "registers", "faces", "set_points", "causes", "hal_linux"), os=True),
     Module("host-sim", "sim", ("base", "ports", "protocol", "registers", "set_points"), os=True),
+    Module("host-sim/scenario", "sim", ("base", "registers", "set_points", "spelling")),
     Module("host-sim/axis", "sim", ("host", "plant_file", "registers")),
     Module("host-sim/board", "sim", ANY, os=True, clock=True),
     Module(

@@ -222,7 +222,6 @@ class Run(Case):
             "end at 1 s\nexpect step = Idle\n": "s.scn:2:15: \"Idle\": this program has no step names",
             "at 1 s IN0 := 1\n": "s.scn: the scenario has no end",
             "end at 1 s\nwhen IN0 rises IN0 := 0\nwhen not IN0 IN0 := 1\n": "",
-            "foo\nbar\nbaz\n": "(and 2 more mistakes in this file)",
             "\x00\xff\n": "it is no text, for it holds zeros",
             "end at 1 s\nexpect " + "(" * 10000 + "IN0" + ")" * 10000 + "\n": "s.scn:2:108: parentheses and NOTs are more",
             "expect " + "not " * 40000 + "IN0\n": "s.scn:1:408: parentheses and NOTs are more",
@@ -237,6 +236,18 @@ class Run(Case):
                     self.assertEqual(done.returncode, 2)
                     self.assertIn(b"set each other off without end", done.stderr)
         self.refused("run", self.table, "--scenario", self.path("no.scn"), says="no.scn: cannot be opened")
+
+    def test_all_mistakes_of_a_scenario_are_told(self):
+        scenario = self.write("s.scn", "att 1 s IN0 := 1\nexpect stp = 3\nend at 1 s\nat 1 s pulze IN0 50 ms\n")
+        done = self.call("run", self.table, "--scenario", scenario)
+        self.assertEqual((done.returncode, done.stdout), (2, b""))
+        places = [line.split(": ", 1)[0].rsplit("/", 1)[1] for line in done.stderr.decode().splitlines()]
+        self.assertEqual(places, ["s.scn:1:1", "s.scn:2:8", "s.scn:4:8"])
+        self.assertIn(b"did you mean pulse?", done.stderr)
+        many = self.write("s.scn", "a=\n" * 1_000_000)
+        done = self.call("run", self.table, "--scenario", many)
+        self.assertEqual(done.stderr.count(b"\n"), 21)
+        self.assertTrue(done.stderr.endswith(b"980 or more mistakes\n"), done.stderr)
 
     def test_trace_format(self):
         done = self.run_with("at 1003 ms IN0 := 1\nend at 2 s\n", "--trace", self.path("t.csv"))

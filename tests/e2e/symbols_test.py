@@ -71,10 +71,10 @@ class Case(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return done
 
-    def refused(self, program, *options, says):
+    def refused(self, program, *options, says, lines=1):
         done = self.run_sim(program, *options)
         self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
-        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertEqual(done.stderr.count("\n"), lines, done.stderr)
         self.assertIn(says, done.stderr)
 
 
@@ -99,7 +99,7 @@ class Names(Case):
     def test_symbols_by_name(self):
         self.build("-o", "t.bin", "--symbols", "names.json")
         self.assertFalse(os.path.exists(self.path("t.sym")))
-        self.refused("t.bin", says="blink.scn:1:17: ")
+        self.refused("t.bin", says="blink.scn:1:17: ", lines=4)
         self.runs("t.bin", "--symbols", "names.json")
         self.refused("t.bin", "--symbols", "no.sym", says="no.sym: cannot be opened")
         self.refused("t.bin", "--symbols", "blink.scn", says="blink.scn: this is not JSON, from line 1, column 1 on")

@@ -91,9 +91,11 @@ TEST(ScenarioDrive, WhatTheFlashHoldsIsGivenFromTheStart) {
     EXPECT_EQ(stored("motor HW_SETUP := 16#30").bits, 0x30U);
     EXPECT_EQ(stored("motor hw_setup := 48").bits, 48U);
     EXPECT_EQ(stored("motor FLWERRMAX := 0.5 rev", "MAC140").bits, 2048U);
+    EXPECT_EQ(said_of("motor HW_SETUP := XPRIMP", "MAC800"),
+              "\"XPRIMP\" is no bit of HW_SETUP; did you mean XPRINP?");
     EXPECT_EQ(
-        said_of("motor HW_SETUP := XPRIMP", "MAC800"),
-        "\"XPRIMP\" is no bit of HW_SETUP; write some of DIRAWR, DIRBWR, PULSEOUT, XSEL1, XPRINP, NOFILT, "
+        said_of("motor HW_SETUP := OTHER_BIT", "MAC800"),
+        "\"OTHER_BIT\" is no bit of HW_SETUP; write some of DIRAWR, DIRBWR, PULSEOUT, XSEL1, XPRINP, NOFILT, "
         "INVXDIR, or a number");
     EXPECT_EQ(stored("motor END_STOPS := 9", "MAC34-1").number, 0x03);  // 003 §VII
     EXPECT_EQ(stored("motor END_STOPS := 9", "MAC34-1").bits, 9U);

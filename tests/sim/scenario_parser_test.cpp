@@ -32,6 +32,37 @@ std::string mistake(const std::string& line, std::string_view motor = "MAC140") 
     return parsed.mistakes.size() == 1 ? parsed.mistakes.front().message : "(no mistake)";
 }
 
+TEST(Scenario, WhatMayHaveBeenMeantStandsInPlaceOfTheList) {
+    Names names;
+    names.inputs[0] = "Start";
+    names.outputs[1] = "Grip";
+    names.steps[2] = "Travel";
+    names.times["Dwell"] = 100;
+    const auto message = [&](const std::string& line) {
+        const auto parsed = parse_scenario(line, "x.scn", names);
+        return parsed.mistakes.size() == 1 ? parsed.mistakes.front().message : "(no mistake)";
+    };
+    EXPECT_EQ(message("att 10 ms Start := 1"), "\"att\" is not known here; did you mean at?");
+    EXPECT_EQ(message("at 1 s pulze IN0 50 ms"), "\"pulze\" is not known here; did you mean pulse?");
+    EXPECT_EQ(message("at 1 s Strat := 1"), "\"Strat\" is no input; did you mean Start?");
+    EXPECT_EQ(message("when Grpi rises Start := 1"), "\"Grpi\" is not known; did you mean Grip?");
+    EXPECT_EQ(message("expect step = Travle"), "the program has no step \"Travle\"; did you mean Travel?");
+    EXPECT_EQ(message("at 1 s motor laod 5"), "\"laod\" is out of place; did you mean load?");
+    EXPECT_EQ(message("motor P_SOL := 5"), "a MAC140 has no register P_SOL; did you mean P_SOLL?");
+    EXPECT_NE(message("at 1 s elephant").find("; write at, every, when"), std::string::npos);
+}
+
+TEST(Scenario, OfAThousandMistakesTheFirstTwentyAreTold) {
+    std::string text;
+    for (int i = 0; i < 2000; ++i) text += "a=\n";
+    const auto parsed = parse_scenario(text, "x.scn", Names{});
+    EXPECT_EQ(parsed.mistakes.size(), 1000U);
+    const std::string told = in_words("x.scn", parsed.mistakes);
+    EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 20);
+    EXPECT_TRUE(told.ends_with("x.scn: 980 or more mistakes")) << told;
+    EXPECT_EQ(in_words("x.scn", {parsed.mistakes[0]}), "x.scn:1:1: " + parsed.mistakes[0].message);
+}
+
 TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
     const ParsedScenario parsed = parse(R"scn(
         # comment
@@ -258,7 +289,7 @@ TEST(ScenarioParser, ExpectationsKeepTheirText) {
 TEST(ScenarioParser, MistakesSayWhatIsWrongAndWhatToWrite) {
     EXPECT_EQ(mistake("at 5 IN0 := 1"),
               "\"5 IN0\" is not a time; write a number with us, ms, s or min, such as 250 ms");
-    EXPECT_EQ(mistake("at 5 s Strat := 1"), "\"Strat\" is no input; write one of Start, Guard, IN0..IN5");
+    EXPECT_EQ(mistake("at 5 s Clamp := 1"), "\"Clamp\" is no input; write one of Start, Guard, IN0..IN5");
     EXPECT_EQ(mistake("at 5 s Grip := 1"),
               "Grip is an output: the sequence sets it, a scenario can only watch it; name an input");
     EXPECT_EQ(mistake("at 5 s Start := 2"), "\"2\" is out of place; write 0 or 1");
@@ -281,8 +312,8 @@ TEST(ScenarioParser, MistakesSayWhatIsWrongAndWhatToWrite) {
     EXPECT_EQ(mistake("expect P_IST > 5 +- 1"), "a tolerance (+-) goes with = only");
     EXPECT_EQ(mistake("motor power"), "the line ends too early; write motor power off, or motor power on");
     EXPECT_EQ(
-        mistake("motor stpo none"),
-        "\"stpo\" is out of place; write motor error, motor load, motor brake, motor power, motor stop, "
+        mistake("motor elephant none"),
+        "\"elephant\" is out of place; write motor error, motor load, motor brake, motor power, motor stop, "
         "motor sensor, motor analogue, motor pulses, motor steps, motor supply, motor logic, motor "
         "temperature, motor encoder, motor upper_stop, motor lower_stop, motor reference or motor security");
     EXPECT_EQ(mistake("motor supply 20"),
@@ -336,8 +367,8 @@ TEST(ScenarioParser, MistakesSayWhatIsWrongAndWhatToWrite) {
 TEST(ScenarioParser, AMisspeltStatementIsNamed) {
     EXPECT_TRUE(
         mistake("wenn Grip IN0 := 1").starts_with("\"wenn\" is not known here; write at, every, when"));
-    EXPECT_TRUE(mistake("expect Gripp")
-                    .starts_with("\"Gripp\" is not known; write one of Start, Guard, Grip, Lamp, IN0"));
+    EXPECT_TRUE(mistake("expect elephant")
+                    .starts_with("\"elephant\" is not known; write one of Start, Guard, Grip, Lamp, IN0"));
 }
 
 TEST(ScenarioParser, StepNamesNeedAProgramThatHasThem) {

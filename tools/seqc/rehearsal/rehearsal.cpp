@@ -148,9 +148,7 @@ Rehearsal::Opened Rehearsal::open(const seqc::Compilation& program, const Option
     sim::Scenario scenario;
     if (!options.scenario.empty()) {
         sim::ParsedScenario parsed = sim::parse_scenario(options.scenario, options.scenario_file, names);
-        if (!parsed.mistakes.empty())
-            return {nullptr, options.scenario_file + ":" + parsed.mistakes.front().place() + ": " +
-                                 parsed.mistakes.front().message};
+        if (!parsed.mistakes.empty()) return {nullptr, sim::in_words(options.scenario_file, parsed.mistakes)};
         scenario = std::move(parsed.scenario);
     }
     world.registers = scenario.registers;

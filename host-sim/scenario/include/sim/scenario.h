@@ -211,8 +211,11 @@ struct Mistake {
 
 struct ParsedScenario {
     Scenario scenario;
-    std::vector<Mistake> mistakes;  ///< the scenario is of use only without any
+    std::vector<Mistake> mistakes;  ///< the first 1000; the scenario is of use only without any
 };
+
+/// A line each, the first twenty, and how many more.
+std::string in_words(const std::string& file, const std::vector<Mistake>& mistakes);
 
 /// The language: this folder's README. `file` is for messages only.
 ParsedScenario parse_scenario(std::string_view text, const std::string& file, const Names& names);
