@@ -64,6 +64,13 @@ double rpm_of(std::int32_t v_ist, registers::Model motor) {
     return v_ist * scale.samples_per_second * 60 / scale.counts_per_rev;
 }
 
+/// A signal may be called as what stands beside it in the dump.
+std::string signal_name(const std::string& name, const std::string& number) {
+    return name == "step" || name == "step_name" || name == "timer" || name == "counter" || name == "command"
+               ? name + "_" + number
+               : name;
+}
+
 }  // namespace
 
 CsvTrace::CsvTrace(const std::string& path) : file_(path) {
@@ -123,8 +130,10 @@ void VcdTrace::header(const std::string& comment) {
     declare("string", 1, id(kStepName), "step_name");
     declare("wire", 16, id(kTimer), "timer");
     declare("wire", 16, id(kCounter), "counter");
-    for (unsigned i = 0; i < kInputs; ++i) declare("wire", 1, code(kFirstInput, i), names_.input(i));
-    for (unsigned i = 0; i < kOutputs; ++i) declare("wire", 1, code(kFirstOutput, i), names_.output(i));
+    for (unsigned i = 0; i < kInputs; ++i)
+        declare("wire", 1, code(kFirstInput, i), signal_name(names_.input(i), fmt::format("IN{}", i)));
+    for (unsigned i = 0; i < kOutputs; ++i)
+        declare("wire", 1, code(kFirstOutput, i), signal_name(names_.output(i), fmt::format("OUT{}", i)));
     declare("string", 1, id(kCommand), "command");
     text += "$upscope $end\n$scope module motor $end\n";
     declare("wire", 1, id(kInPos), "in_position");

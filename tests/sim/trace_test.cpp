@@ -203,6 +203,24 @@ TEST_F(Trace, VcdCanBeReadBack) {
     EXPECT_EQ(dump.changes.at("OUT3"), (Changes{{0, "0"}}));
 }
 
+TEST_F(Trace, SignalsCalledAsTheDumpsOwnAreToldFromThem) {
+    Names names;
+    names.inputs[1] = "command";
+    names.outputs[2] = "step_name";
+    VcdTrace trace(path("t.vcd"), names);
+    Snapshot s;
+    s.inputs = 2;
+    s.step = 3;
+    trace.observe(s);
+    trace.finish(10ms);
+    const Dump dump(lines(path("t.vcd")));
+    using Changes = std::vector<std::pair<long, std::string>>;
+    EXPECT_EQ(dump.changes.at("command"), (Changes{{0, "s-"}}));
+    EXPECT_EQ(dump.changes.at("command_IN1"), (Changes{{0, "1"}}));
+    EXPECT_EQ(dump.changes.at("step_name"), (Changes{{0, "s3"}}));
+    EXPECT_EQ(dump.changes.at("step_name_OUT2"), (Changes{{0, "0"}}));
+}
+
 TEST(Words, CommandsReadAsInAProgram) {
     const auto mac = registers::Model::mac140;
     EXPECT_EQ(in_words({.command = 0x41}, mac), "POSITION(P2)");  // 10 00001
