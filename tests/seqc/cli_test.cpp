@@ -39,6 +39,21 @@ TEST_F(Cli, CheckWritesNothing) {
     EXPECT_FALSE(exists("a.bin"));
 }
 
+TEST_F(Cli, CheckTakesSeveralPrograms) {
+    write("a.seq", kShortProgram);
+    write("b.seq", "PROGRAM P STEP S: OWN ERROR; NEXT := Q; END_STEP END_PROGRAM\n");
+    EXPECT_EQ(run("check a.seq a.seq"), 0);
+    EXPECT_EQ(run("check b.seq a.seq"), 1);
+    EXPECT_NE(read("err").find("b.seq:1:38: error E021"), std::string::npos) << read("err");
+    EXPECT_EQ(run("check b.seq none.seq b.seq"), 2);
+    EXPECT_NE(read("err").find("none.seq"), std::string::npos) << read("err");
+    EXPECT_EQ(run("check --json a.seq b.seq none.seq"), 2);
+    const std::string json = read("out");
+    EXPECT_EQ(json.front(), '[');
+    for (const char* part : {"\"file\": \"a.seq\"", "\"file\": \"b.seq\"", "\"code\": \"E021\"", "none.seq"})
+        EXPECT_NE(json.find(part), std::string::npos) << part << json;
+}
+
 TEST_F(Cli, FileAndUsageProblemsAreTwo) {
     write("a.seq", kShortProgram);
     write("short.bin", "\x3F");

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "cli/build_targets.h"
 #include "cli/common.h"
@@ -14,6 +16,8 @@
 
 namespace nplc::seqc::cli {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 constexpr const char* kJsonHelp = "Print the diagnostics as JSON on standard output";
 
@@ -52,15 +56,35 @@ int build(const BuildOptions& options) {
         return problem(options, unwritten);
     }
     const int exit_code = report(options, compilation, sources);
-    if (exit_code == kOk && !options.quiet && !options.json) fmt::print("{}", host::printable_lines(summary(targets, compilation)));
+    if (exit_code == kOk && !options.quiet && !options.json)
+        fmt::print("{}", host::printable_lines(summary(targets, compilation)));
     return std::fflush(stdout) == 0 ? exit_code : file_problem("cannot write to standard output");
 }
 
-int check(const BuildOptions& options) {
-    const auto source = whole_files::read_text(options.source);
-    if (!source.error.empty()) return problem(options, source.error);
-    const Sources sources = read_sources(options.source, source.text);
-    return report(options, compile(sources), sources);
+struct CheckOptions {
+    std::vector<std::string> programs;
+    bool json = false;
+};
+
+int check(const CheckOptions& options) {
+    int exit_code = kOk;
+    Json documents = Json::array();
+    for (const std::string& program : options.programs) {
+        const auto source = whole_files::read_text(program);
+        if (!source.error.empty()) {
+            exit_code = kUsageOrFile;
+            options.json ? documents.push_back(problem_document(program, source.error))
+                         : static_cast<void>(file_problem(source.error));
+            continue;
+        }
+        const Sources sources = read_sources(program, source.text);
+        const Compilation compilation = compile(sources);
+        exit_code = std::max<int>(exit_code, compilation.ok ? kOk : kProgramHasErrors);
+        options.json ? documents.push_back(diagnostics_document(compilation, sources))
+                     : print_diagnostics(compilation, sources);
+    }
+    if (!options.json) return exit_code;
+    return print_json(documents.size() == 1 ? documents[0] : documents, exit_code);
 }
 
 }  // namespace
@@ -85,10 +109,10 @@ void add_build(arguments::App& app, int& exit_code) {
 }
 
 void add_check(arguments::App& app, int& exit_code) {
-    const auto options = std::make_shared<BuildOptions>();
+    const auto options = std::make_shared<CheckOptions>();
     arguments::App& command = *app.add_subcommand("check", "Report errors and warnings, write nothing");
-    command.add_option("program", options->source, "The program, F.seq")->required();
-    command.add_flag("--json", options->json, kJsonHelp);
+    command.add_option("programs", options->programs, "The programs, F.seq")->required();
+    command.add_flag("--json", options->json, fmt::format("{}; of several programs a list", kJsonHelp));
     command.callback([options, &exit_code] { exit_code = check(*options); });
 }
 
