@@ -21,6 +21,7 @@ using Json = nlohmann::json;
 constexpr std::int64_t kMostLines = 0x7FFF'FFFF;
 constexpr std::int64_t kMostBytes = 0x7FFF'FFFF;
 constexpr std::int64_t kLastRegister = 127;
+constexpr int kDeepest = 16;  // nothing in the file is nested as deep
 
 /// What is wrong with the file, and where.
 struct Wrong {
@@ -271,7 +272,8 @@ SymbolFile read(const Node& root) {
 
 SymbolReading read_symbols(std::string_view text) {
     try {
-        const Json json = Json::parse(text);
+        const Json json =
+            Json::parse(text, [](int depth, Json::parse_event_t, const Json&) { return depth <= kDeepest; });
         return {read(Node(json, "")), {}};
     } catch (const Json::parse_error& error) {
         const std::size_t before = error.byte == 0 ? 0 : error.byte - 1;
