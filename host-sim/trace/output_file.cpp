@@ -43,6 +43,7 @@ std::vector<fs::path> OutputFile::written_for(const std::string& path) {
 OutputFile::OutputFile(const std::string& path) : path_(path) {
     std::error_code error;
     if (fs::is_directory(path, error)) fail(path, "it is a folder");
+    if (error == std::errc::too_many_symbolic_link_levels) fail(path, error.message());
     const auto files = written_for(path);
     if (files.empty()) {
         stream_.open(path);

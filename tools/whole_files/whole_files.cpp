@@ -84,6 +84,13 @@ FileText as_text(FileText file, const std::string& name) {
 
 }  // namespace
 
+std::string why_endless(const std::string& path) {
+    std::error_code error;
+    static_cast<void>(fs::status(path_of(path), error));
+    if (error != std::errc::too_many_symbolic_link_levels) return {};
+    return fmt::format("cannot write '{}': {}", path, error.message());
+}
+
 std::string behind_links(const std::string& path) {
     constexpr int kMostLinks = 40;
     std::error_code error;
@@ -129,6 +136,7 @@ FileText read_standard_input() {
 
 std::string why_not_made(const std::string& path) {
     if (is_special(path)) return {};
+    if (const std::string why = why_endless(path); !why.empty()) return why;
     const std::string probe = temporary_name(behind_links(path));
     std::FILE* const file = create_anew(probe);
     if (file == nullptr) return fmt::format("cannot write '{}': {}", path, reason());
@@ -143,6 +151,9 @@ std::string write_files(const std::vector<OutputFile>& named) {
         if (!is_special(file.path)) file.path = behind_links(file.path);
     }
     std::string problem;
+    for (const OutputFile& file : named) {
+        if (problem.empty()) problem = why_endless(file.path);
+    }
     for (const OutputFile& file : files) {
         std::error_code error;
         if (problem.empty() && fs::is_directory(path_of(file.path), error)) {

@@ -54,6 +54,7 @@ class DumpFile {
   public:
     explicit DumpFile(const std::string& path) : path_(path) {
         if (path.empty()) return;
+        if (const std::string why = whole_files::why_endless(path); !why.empty()) throw UserError(why);
         if (whole_files::is_special(path)) {
             written_ = path;
             file_ = std::fopen(path.c_str(), "wb");

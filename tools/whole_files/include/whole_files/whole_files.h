@@ -26,6 +26,9 @@ FileText read_standard_input();
 /// What a chain of symbolic links leads to, there or not: it is written, not the link.
 std::string behind_links(const std::string& path);
 
+/// Why nothing can be written there, if symbolic links lead in a circle; nothing if they do not.
+std::string why_endless(const std::string& path);
+
 /// A new file in the place of one that may be there. Null, and errno, if it cannot be made.
 std::FILE* create_anew(const std::string& path);
 
