@@ -7,6 +7,7 @@ namespace {
 
 constexpr std::string_view kMark = "\xEF\xBB\xBF";
 constexpr const char* kUtf16 = "it is text in UTF-16; save it as UTF-8";
+constexpr const char* kZeros = "it is no text, for it holds zeros";
 constexpr char kEndOfText = 0x1A;
 
 bool has_utf16_mark(std::string_view bytes) {
@@ -22,6 +23,11 @@ bool is_unmarked_utf16(std::string_view bytes) {
     return bytes.size() >= 4 &&
            ((is_letter_and_zero(bytes[0], bytes[1]) && is_letter_and_zero(bytes[2], bytes[3])) ||
             (is_letter_and_zero(bytes[1], bytes[0]) && is_letter_and_zero(bytes[3], bytes[2])));
+}
+
+std::string why_no_text(std::string_view bytes) {
+    if (has_utf16_mark(bytes) || is_unmarked_utf16(bytes)) return kUtf16;
+    return bytes.find('\0') == bytes.npos ? "" : kZeros;
 }
 
 /// Drops the CRs of CR LF. A CR within a line stays what it is, unless no LF ends any line.
@@ -48,12 +54,63 @@ bool is_marked_utf16(std::string_view bytes) {
 }
 
 std::string make_text(std::string& bytes) {
-    if (has_utf16_mark(bytes) || is_unmarked_utf16(bytes)) return kUtf16;
-    if (bytes.find('\0') != std::string::npos) return "it is no text, for it holds zeros";
+    if (std::string why = why_no_text(bytes); !why.empty()) return why;
     while (bytes.ends_with(kEndOfText)) bytes.pop_back();
     if (bytes.starts_with(kMark)) bytes.erase(0, kMark.size());
     end_lines_with_lf(bytes);
     return {};
+}
+
+bool TextPieces::add(std::string_view block) {
+    constexpr std::size_t kLookedAt = 4;  // tell whether it is text
+    held_ += block;
+    if (!has_begun_ && held_.size() < kLookedAt) return true;
+    if (!has_begun_) begin();
+    if (problem_.empty() && block.find('\0') != block.npos) problem_ = kZeros;
+    if (problem_.empty()) give_lines();
+    return problem_.empty() && !has_enough_;
+}
+
+void TextPieces::finish() {
+    if (!has_begun_) begin();
+    while (held_.ends_with(kEndOfText)) held_.pop_back();
+    if (!problem_.empty() || held_.empty()) return;
+    const bool is_ended = held_.ends_with('\r') && line_ends_.empty();  // by a CR that nothing followed
+    give(is_ended ? std::string_view(held_).substr(0, held_.size() - 1) : held_, true);
+}
+
+void TextPieces::begin() {
+    has_begun_ = true;
+    problem_ = why_no_text(held_);
+    if (held_.starts_with(kMark)) held_.erase(0, kMark.size());
+}
+
+void TextPieces::give(std::string_view piece, bool ends_line) {
+    if (ends_line && piece.ends_with('\r')) piece.remove_suffix(1);
+    if (!has_enough_) has_enough_ = !take_(piece, ends_line);
+}
+
+/// CR alone ends lines where it does so before any LF. False: what comes next tells.
+bool TextPieces::knows_line_end() {
+    if (!line_ends_.empty()) return true;
+    const std::size_t end = held_.find_first_of("\r\n");
+    if (end == held_.npos || (held_[end] == '\r' && end + 1 == held_.size())) return false;
+    line_ends_ = held_[end] == '\r' && held_[end + 1] != '\n' ? "\r\n" : "\n";
+    return true;
+}
+
+void TextPieces::give_lines() {
+    std::string_view rest = held_;
+    if (knows_line_end()) {
+        for (std::size_t end = 0; (end = rest.find_first_of(line_ends_)) != rest.npos;
+             rest.remove_prefix(end + 1))
+            give(rest.substr(0, end), true);
+    }
+    while (rest.size() > kLongestPiece) {  // the last character may be the CR of its end
+        give(rest.substr(0, kLongestPiece), false);
+        rest.remove_prefix(kLongestPiece);
+    }
+    held_.erase(0, held_.size() - rest.size());
 }
 
 FileContent read_text(const std::string& name, std::size_t most) {

@@ -16,12 +16,10 @@ namespace {
 
 constexpr std::size_t kMostOfADevice = std::size_t{4} * 1024 * 1024;
 
-FileContent refused(const std::string& problem) {
-    return {{}, problem};
-}
+using Take = std::function<bool(std::string_view block)>;
 
-FileContent too_long(std::size_t most) {
-    return refused("it has more than " + std::to_string(most) + " bytes");
+std::string too_long(std::size_t most) {
+    return "it has more than " + std::to_string(most) + " bytes";
 }
 
 /// Until there is something to read, or the end.
@@ -30,33 +28,36 @@ bool await(int descriptor) {
     return ::poll(&state, 1, -1) > 0;
 }
 
-FileContent read_to_end(int descriptor, std::size_t most) {
-    FileContent content;
+/// Counts what was read.
+std::string read_to_end(int descriptor, std::size_t most, std::size_t& read, const Take& take) {
     std::array<char, 65'536> block{};
     for (;;) {
         const ssize_t count = ::read(descriptor, block.data(), block.size());
-        if (count == 0) return content;
+        if (count == 0) return {};
         if (count < 0 && errno == EAGAIN && await(descriptor)) continue;
-        if (count < 0) return refused(std::strerror(errno));
-        content.bytes.append(block.data(), static_cast<std::size_t>(count));
-        if (content.bytes.size() > most) return too_long(most);
+        if (count < 0) return std::strerror(errno);
+        read += static_cast<std::size_t>(count);
+        if (read > most) return too_long(most);
+        if (!take({block.data(), static_cast<std::size_t>(count)})) return {};
     }
 }
 
 }  // namespace
 
-FileContent read_file(const std::string& name, std::size_t most) {
+std::string read_blocks(const std::string& name, std::size_t most, const Take& take) {
     // Opening a pipe without a writer would wait for one.
     const hal_linux::FileDescriptor file(::open(name.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
     struct stat status {};
-    if (!file || ::fstat(file.get(), &status) != 0) return refused(std::strerror(errno));
-    if (S_ISDIR(status.st_mode)) return refused("it is a folder");
+    if (!file || ::fstat(file.get(), &status) != 0) return std::strerror(errno);
+    if (S_ISDIR(status.st_mode)) return "it is a folder";
     if (S_ISREG(status.st_mode) && status.st_size > static_cast<off_t>(most)) return too_long(most);
     const bool has_end = S_ISREG(status.st_mode) || S_ISFIFO(status.st_mode);
-    FileContent content = read_to_end(file.get(), has_end ? most : std::min(most, kMostOfADevice));
-    if (S_ISFIFO(status.st_mode) && content.bytes.empty() && content.problem.empty())
-        return refused("it is a pipe, and nobody writes to it");
-    return content;
+    std::size_t read = 0;
+    std::string problem =
+        read_to_end(file.get(), has_end ? most : std::min(most, kMostOfADevice), read, take);
+    if (S_ISFIFO(status.st_mode) && read == 0 && problem.empty())
+        return "it is a pipe, and nobody writes to it";
+    return problem;
 }
 
 std::FILE* create_file(const std::string& name) {

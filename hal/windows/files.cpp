@@ -14,21 +14,22 @@
 
 namespace nplc::host {
 
-FileContent read_file(const std::string& name, std::size_t most) {
+std::string read_blocks(const std::string& name, std::size_t most,
+                        const std::function<bool(std::string_view block)>& take) {
     std::error_code error;
     const std::filesystem::path path = path_of(name);
-    if (std::filesystem::is_directory(path, error)) return {{}, "it is a folder"};
+    if (std::filesystem::is_directory(path, error)) return "it is a folder";
     errno = 0;
     std::ifstream file(path, std::ios::binary);
-    if (!file) return {{}, std::strerror(errno)};
-    FileContent content;
+    if (!file) return std::strerror(errno);
     std::array<char, 65'536> block{};
+    std::size_t read = 0;
     while (file.read(block.data(), block.size()), file.gcount() > 0) {
-        content.bytes.append(block.data(), static_cast<std::size_t>(file.gcount()));
-        if (content.bytes.size() > most) return {{}, "it has more than " + std::to_string(most) + " bytes"};
+        read += static_cast<std::size_t>(file.gcount());
+        if (read > most) return "it has more than " + std::to_string(most) + " bytes";
+        if (!take({block.data(), static_cast<std::size_t>(file.gcount())})) return {};
     }
-    if (file.bad()) return {{}, std::strerror(errno)};
-    return content;
+    return file.bad() ? std::strerror(errno) : std::string();
 }
 
 std::FILE* create_file(const std::string& name) {

@@ -50,5 +50,62 @@ TEST(TextFile, ATableThatBeginsAsTheMarkDoesIsNoText) {
         EXPECT_FALSE(is_marked_utf16(bytes));
 }
 
+/// What a text is in lines, in whichever blocks it comes.
+std::vector<std::string> lines_in(const std::string& bytes, std::size_t block) {
+    std::vector<std::string> lines{""};
+    TextPieces pieces([&](std::string_view piece, bool ends_line) {
+        lines.back() += piece;
+        if (ends_line) lines.emplace_back();
+        return true;
+    });
+    for (std::size_t at = 0; at < bytes.size() && pieces.add(std::string_view(bytes).substr(at, block));)
+        at += block;
+    pieces.finish();
+    if (!pieces.problem().empty()) return {"refused: " + pieces.problem()};
+    lines.pop_back();
+    return lines;
+}
+
+TEST(TextPieces, AreTheSameInAllBlocks) {
+    using Lines = std::vector<std::string>;
+    const std::string utf16_text = "\xFF\xFE" + utf16("PROGRAM", false);
+    for (const std::size_t block : {1U, 2U, 3U, 5U, 7U, 1000U}) {
+        EXPECT_EQ(lines_in("\xEF\xBB\xBF"
+                           "a\r\n\r\nbc\rd\r\n\x1A\x1A",
+                           block),
+                  (Lines{"a", "", "bc\rd"}))
+            << block;
+        EXPECT_EQ(lines_in("ab\ncd", block), (Lines{"ab", "cd"})) << block;
+        EXPECT_EQ(lines_in("", block), Lines{}) << block;
+        EXPECT_EQ(lines_in(utf16_text, block), Lines{kUtf16}) << block;
+        EXPECT_EQ(lines_in(std::string("abcdefg\0", 8), block),
+                  Lines{"refused: it is no text, for it holds zeros"});
+    }
+    EXPECT_EQ(lines_in("a\rb\r\rc", 100), (Lines{"a", "b", "", "c"}));
+}
+
+TEST(TextPieces, ALineWithoutEndComesInPieces) {
+    std::size_t longest = 0;
+    std::size_t whole = 0;
+    TextPieces pieces([&](std::string_view piece, bool) {
+        longest = std::max(longest, piece.size());
+        whole += piece.size();
+        return true;
+    });
+    const std::string block(10'000, 'x');
+    for (int i = 0; i < 100; ++i) EXPECT_TRUE(pieces.add(block));
+    pieces.finish();
+    EXPECT_EQ(whole, 1'000'000U);
+    EXPECT_LE(longest, TextPieces::kLongestPiece + block.size());
+}
+
+TEST(TextPieces, EndWhereNobodyWantsMore) {
+    int taken = 0;
+    TextPieces pieces([&](std::string_view, bool) { return ++taken < 2; });
+    EXPECT_FALSE(pieces.add("a\nb\nc\nd\n"));
+    pieces.finish();
+    EXPECT_EQ(taken, 2);
+}
+
 }  // namespace
 }  // namespace nplc::host

@@ -12,7 +12,6 @@
 #include "host/files.h"
 #include "host/paths.h"
 #include "host/process.h"
-#include "host/text_file.h"
 
 namespace nplc::whole_files {
 namespace {
@@ -61,17 +60,27 @@ void remove_temporaries(const std::vector<OutputFile>& files) {
     for (const OutputFile& file : files) remove_file(temporary_name(file.path));
 }
 
-FileText all_of_standard_input() {
+std::string read_standard_input_in_blocks(const std::function<bool(std::string_view block)>& take) {
     errno = 0;
-    FileText result;
+    std::size_t read = 0;
     std::array<char, 65'536> some{};
     while (std::cin.read(some.data(), some.size()), std::cin.gcount() > 0) {
-        result.text.append(some.data(), static_cast<std::size_t>(std::cin.gcount()));
-        if (result.text.size() > kMostInput)
-            return {{}, "standard input has more than 256 MiB; has it no end?"};
+        const auto count = static_cast<std::size_t>(std::cin.gcount());
+        read += count;
+        if (read > kMostInput) return "standard input has more than 256 MiB; has it no end?";
+        if (!take({some.data(), count})) return {};
     }
-    if (std::cin.bad() || std::ferror(stdin) != 0)
-        return {{}, fmt::format("cannot read standard input: {}", reason())};
+    const bool is_bad = std::cin.bad() || std::ferror(stdin) != 0;
+    return is_bad ? fmt::format("cannot read standard input: {}", reason()) : std::string();
+}
+
+FileText all_of_standard_input() {
+    FileText result;
+    result.error = read_standard_input_in_blocks([&](std::string_view block) {
+        result.text.append(block);
+        return true;
+    });
+    if (!result.error.empty()) result.text.clear();
     return result;
 }
 
@@ -132,6 +141,22 @@ FileText read_text(const std::string& path, std::size_t most) {
 
 FileText read_standard_input() {
     return as_text(all_of_standard_input(), "standard input");
+}
+
+std::string read_in_pieces(const std::string& path, const host::TextPieces::Take& take) {
+    host::TextPieces pieces(take);
+    const auto add = [&](std::string_view block) { return pieces.add(block); };
+    const bool standard = path == "-";
+    const std::string name = standard ? "standard input" : fmt::format("'{}'", path);
+    std::string problem =
+        standard ? read_standard_input_in_blocks(add) : host::read_blocks(path, kMostInput, add);
+    if (problem.empty()) {
+        pieces.finish();
+        problem = pieces.problem();
+    } else if (standard) {
+        return problem;
+    }
+    return problem.empty() ? problem : fmt::format("cannot read {}: {}", name, problem);
 }
 
 std::string why_not_made(const std::string& path) {

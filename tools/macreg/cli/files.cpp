@@ -218,7 +218,30 @@ Input read_input(const std::string& path) {
         standard ? whole_files::read_standard_input() : whole_files::read_text(path, whole_files::kMostInput);
     host::note_interruptions();
     if (!input.error.empty()) throw UserError(input.error);
-    return {standard ? "standard input" : path, std::move(input.text)};
+    return {name_of_input(path), std::move(input.text)};
+}
+
+std::string name_of_input(const std::string& path) {
+    return path == "-" ? "standard input" : path;
+}
+
+void read_pieces(const std::string& path, const host::TextPieces::Take& take) {
+    if (path == "-") host::end_at_interruptions();
+    const std::string problem = whole_files::read_in_pieces(path, take);
+    host::note_interruptions();
+    if (!problem.empty()) throw UserError(problem);
+}
+
+Recording read_recording(const std::string& path) {
+    RecordingReader reader(name_of_input(path));
+    read_pieces(path, [&](std::string_view line, bool is_whole) {
+        if (is_whole) return reader.take(line);
+        reader.refuse_line();
+        return false;
+    });
+    RecordingReading reading = reader.finish();
+    if (!reading.error.empty()) throw UserError(reading.error);
+    return std::move(reading.recording);
 }
 
 std::string model_words(const ParameterSet& set) {

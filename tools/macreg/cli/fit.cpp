@@ -33,10 +33,8 @@ struct Material {
 };
 
 void take(Material& to, const std::string& path, const Common& common) {
-    const auto [name, text] = read_input(path);
-    const RecordingReading reading = from_csv(text, name);
-    if (!reading.error.empty()) throw UserError(reading.error);
-    SeriesReading series = series_of(reading.recording, name, model_option(common));
+    const std::string name = name_of_input(path);
+    SeriesReading series = series_of(read_recording(path), name, model_option(common));
     if (!series.error.empty()) throw UserError(series.error);
     if (!to.all.empty() && to.motor != series.motor)
         throw UserError(fmt::format("{}: is of a {}, and {} of a {}; name recordings of one axis", name,

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cctype>
+#include <cstdio>
+#include <functional>
 #include <memory>
 
 #include "cli/session.h"
@@ -97,7 +99,10 @@ class Teller {
                 if (!event.sent.empty()) line += "   > " + hex_words(event.sent);
                 if (!event.received.empty()) line += "   < " + hex_words(event.received);
             }
-            command_line::tell(common_, line, document(event, start));
+            if (common_.json)
+                command_line::tell(common_, line, document(event, start));
+            else
+                fmt::print("{}\n", line);
         }
     }
 
@@ -121,35 +126,64 @@ class Teller {
 };
 
 /// `50 50`, `505050`, `0x50`, or as the manuals write `50h,50h,50h - 08h,F7h`; # and what follows it in a
-/// line is a remark.
-std::vector<std::uint8_t> read_hex(const std::string& text, const std::string& name) {
-    std::vector<std::uint8_t> bytes;
-    std::size_t line = 1;
-    std::string word;
-    const auto end_word = [&] {
-        std::string digits = word.starts_with("0x") || word.starts_with("0X") ? word.substr(2) : word;
-        if (!digits.empty() && (digits.back() == 'h' || digits.back() == 'H')) digits.pop_back();
-        const bool hex =
-            std::all_of(digits.begin(), digits.end(), [](unsigned char c) { return std::isxdigit(c) != 0; });
-        if (!hex || digits.size() % 2 != 0)
-            throw UserError(
-                fmt::format("{}:{}: '{}' is no byte in hex; write two digits a byte", name, line, word));
-        for (std::size_t i = 0; i < digits.size(); i += 2)
-            bytes.push_back(static_cast<std::uint8_t>(std::stoi(digits.substr(i, 2), nullptr, 16)));
-        word.clear();
-    };
-    bool remark = false;
-    for (const char c : text + "\n") {
-        remark = c != '\n' && (remark || c == '#');
-        if (!remark && std::isspace(static_cast<unsigned char>(c)) == 0 && c != ',' && c != '-') {
-            word += c;
-            continue;
-        }
+/// line is a remark. A file is read piece by piece, and so is a word without end.
+class HexReader {
+  public:
+    using Take = std::function<void(std::uint8_t byte)>;
+    HexReader(std::string name, Take take) : name_(std::move(name)), take_(std::move(take)) {}
+
+    void add(std::string_view piece, bool ends_line) {
+        for (const char c : piece) add(c);
+        if (!ends_line) return;
         end_word();
-        if (c == '\n') ++line;
+        remark_ = false;
+        ++line_;
     }
-    return bytes;
-}
+
+  private:
+    static bool is_digit(char c) { return std::isxdigit(static_cast<unsigned char>(c)) != 0; }
+
+    void add(char c) {
+        constexpr std::size_t kLongestHeld = 64;  // an even number
+        remark_ = remark_ || c == '#';
+        if (remark_ || std::isspace(static_cast<unsigned char>(c)) != 0 || c == ',' || c == '-')
+            return end_word();
+        if (word_.size() > kLongestHeld) {
+            const std::size_t prefix = length_of_prefix();
+            give(std::string_view(word_).substr(prefix, kLongestHeld - prefix));
+            word_.erase(0, kLongestHeld);
+            is_open_ = true;
+        }
+        word_ += c;
+    }
+
+    std::size_t length_of_prefix() const {
+        return !is_open_ && (word_.starts_with("0x") || word_.starts_with("0X")) ? 2 : 0;
+    }
+
+    void give(std::string_view digits) {
+        if (digits.size() % 2 != 0 || !std::all_of(digits.begin(), digits.end(), is_digit))
+            throw UserError(
+                fmt::format("{}:{}: '{}' is no byte in hex; write two digits a byte", name_, line_, word_));
+        for (std::size_t i = 0; i < digits.size(); i += 2)
+            take_(static_cast<std::uint8_t>(std::stoi(std::string(digits.substr(i, 2)), nullptr, 16)));
+    }
+
+    void end_word() {
+        std::string_view digits = std::string_view(word_).substr(length_of_prefix());
+        if (digits.ends_with('h') || digits.ends_with('H')) digits.remove_suffix(1);
+        give(digits);
+        word_.clear();
+        is_open_ = false;
+    }
+
+    std::string name_;
+    Take take_;
+    std::string word_;
+    std::size_t line_ = 1;
+    bool remark_ = false;
+    bool is_open_ = false;  ///< the word has begun before what is held of it
+};
 
 bool is_midi(const MonitorArguments& options) {
     return options.protocol == "midi";
@@ -192,18 +226,22 @@ Side side_of(const MonitorArguments& options) {
 void replay(const Common& common, const MonitorArguments& options) {
     const auto monitor = make(common, options);
     const Side side = side_of(options);
-    const auto [name, text] = read_input(options.replay);
-    const auto bytes = read_hex(text, name);
-    if (bytes.empty()) throw UserError(name + ": there are no bytes in it; write two hex digits a byte");
+    const std::string name = name_of_input(options.replay);
     // A character takes ten bits; a file holds no times.
     const base::Microseconds character{10'000'000 / common.baud};
     base::Instant now{};
     Teller teller(common, options);
-    for (const std::uint8_t byte : bytes) {
+    HexReader reader(name, [&](std::uint8_t byte) {
         monitor->receive(side, byte, now);
         now += character;
         teller.tell(*monitor, {});
-    }
+    });
+    read_pieces(options.replay, [&](std::string_view piece, bool ends_line) {
+        reader.add(piece, ends_line);
+        return goes_on();
+    });
+    if (now == base::Instant{})
+        throw UserError(name + ": there are no bytes in it; write two hex digits a byte");
     monitor->finish();
     teller.tell(*monitor, {});
 }
@@ -241,6 +279,7 @@ void listen(const Common& common, const MonitorArguments& options) {
             monitor->pass(now);
         }
         teller.tell(*monitor, start);
+        std::fflush(stdout);
     }
     monitor->finish();
     teller.tell(*monitor, start);

@@ -293,19 +293,17 @@ void plot_file(Common& common, const PlotArguments& options) {
     const bool png = options.output.ends_with(".png");
     if (!png && !options.output.ends_with(".svg"))
         throw UserError(fmt::format("-o {}: the name must end with .svg or .png", options.output));
-    const auto [name, text] = read_input(options.recording);
-    const RecordingReading reading = from_csv(text, name);
-    if (!reading.error.empty()) throw UserError(reading.error);
+    const Recording recording = read_recording(options.recording);
     PlotOptions how = options.how;
-    if (how.title.empty()) how.title = usual_title(reading.recording, options.recording);
-    const Plotted plotted = plot(reading.recording, how);
+    if (how.title.empty()) how.title = usual_title(recording, options.recording);
+    const Plotted plotted = plot(recording, how);
     if (!plotted.error.empty()) throw UserError(fmt::format("{}: {}", options.recording, plotted.error));
     write_file(options.output, png ? to_png(plotted.picture) : to_svg(plotted.picture));
     command_line::tell(common,
-                       fmt::format("{}: {} samples, {} by {} pixels", options.output,
-                                   reading.recording.size(), plotted.picture.width, plotted.picture.height),
+                       fmt::format("{}: {} samples, {} by {} pixels", options.output, recording.size(),
+                                   plotted.picture.width, plotted.picture.height),
                        {{"file", options.output},
-                        {"samples", reading.recording.size()},
+                        {"samples", recording.size()},
                         {"width", plotted.picture.width},
                         {"height", plotted.picture.height}});
 }

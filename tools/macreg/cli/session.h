@@ -11,9 +11,11 @@
 #include <vector>
 
 #include "command_line/program.h"
+#include "host/text_file.h"
 #include "macreg/causes.h"
 #include "macreg/motor.h"
 #include "macreg/parameters.h"
+#include "macreg/recording.h"
 
 namespace nplc::macreg::cli {
 
@@ -93,6 +95,10 @@ struct Input {
     std::string text;
 };
 Input read_input(const std::string& path);
+std::string name_of_input(const std::string& path);
+/// The same piece by piece.
+void read_pieces(const std::string& path, const host::TextPieces::Take& take);
+Recording read_recording(const std::string& path);
 
 /// "a MAC800", "one of MAC50 to MAC141"
 std::string model_words(const ParameterSet& set);

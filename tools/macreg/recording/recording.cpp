@@ -30,111 +30,9 @@ std::optional<double> number(std::string_view text) {
     return value;
 }
 
-class Reader {
-  public:
-    Reader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
-
-    RecordingReading read() {
-        while (result_.error.empty() && !text_.empty()) {
-            const std::size_t end = std::min(text_.find('\n'), text_.size());
-            take(trimmed(text_.substr(0, end)));
-            text_.remove_prefix(std::min(end + 1, text_.size()));
-        }
-        if (result_.error.empty() && !header_)
-            fail("there is no header; a recording of `macreg record` has one that begins with time_s", 1);
-        if (result_.error.empty() && result_.recording.size() == 0)
-            fail("there are no samples; record again", line_);
-        if (!result_.error.empty()) result_.recording = {};
-        return std::move(result_);
-    }
-
-  private:
-    void take(std::string_view line) {
-        ++line_;
-        if (base::is_blank_row(line)) return;
-        if (line.front() == '#') return comment(trimmed(line.substr(1)));
-        if (header_)
-            row(line);
-        else
-            header(line);
-    }
-
-    void comment(std::string_view line) {
-        const auto starts = [&](std::string_view key) {
-            if (!line.starts_with(key)) return false;
-            line = trimmed(line.substr(key.size()));
-            return true;
-        };
-        Recording& to = result_.recording;
-        if (starts("model ")) {
-            to.model = line;
-        } else if (starts("address ")) {
-            to.address = static_cast<unsigned>(number(line).value_or(0));
-        } else if (starts("rate ")) {
-            to.rate_hz = number(line.substr(0, line.find(' '))).value_or(0);
-        } else if (starts("start ")) {
-            to.start = line;
-        } else if (starts("incomplete: ")) {
-            to.incomplete = line;
-        }
-    }
-
-    void header(std::string_view line) {
-        const auto names = split(line, ',');
-        if (names.front() != kTime)
-            return fail(
-                fmt::format("the header begins with '{}' and not with time_s; name a recording of "
-                            "`macreg record`, or mend the header",
-                            names.front()));
-        if (names.size() < 2) return fail("the header names no register behind time_s");
-        if (names.size() > kMostColumns)
-            return fail(fmt::format("{} columns are more than {}", names.size(), kMostColumns));
-        for (std::size_t i = 1; i < names.size(); ++i) {
-            const std::size_t open = names[i].find('[');
-            std::string_view unit;
-            if (open != std::string_view::npos) {
-                if (names[i].back() != ']')
-                    return fail(fmt::format("'{}': the unit's ] is missing", names[i]));
-                unit = names[i].substr(open + 1, names[i].size() - open - 2);
-            }
-            const std::string_view name = trimmed(names[i].substr(0, open));
-            if (name.empty()) return fail(fmt::format("column {} has no name", i + 1));
-            result_.recording.columns.push_back({std::string(name), std::string(unit), {}});
-        }
-        header_ = true;
-    }
-
-    void row(std::string_view line) {
-        const auto fields = split(line, ',');
-        Recording& to = result_.recording;
-        if (fields.size() != to.columns.size() + 1)
-            return fail(fmt::format("{} fields where the header has {}; the file is damaged or was cut off",
-                                    fields.size(), to.columns.size() + 1));
-        for (std::size_t i = 0; i < fields.size(); ++i) {
-            const auto value = number(fields[i]);
-            if (!value) return fail(fmt::format("'{}' in column {} is no number", fields[i], i + 1));
-            if (i > 0) {
-                to.columns[i - 1].values.push_back(*value);
-                continue;
-            }
-            if (!to.time_s.empty() && *value <= to.time_s.back())
-                return fail(
-                    fmt::format("the time {} is not after {} of the row before", *value, to.time_s.back()));
-            to.time_s.push_back(*value);
-        }
-    }
-
-    void fail(const std::string& what) { fail(what, line_); }
-    void fail(const std::string& what, std::size_t line) {
-        result_.error = fmt::format("{}:{}: {}", name_, line, what);
-    }
-
-    std::string_view text_;
-    const std::string& name_;
-    std::size_t line_ = 0;
-    bool header_ = false;
-    RecordingReading result_;
-};
+std::size_t fields_in(std::string_view line) {
+    return 1 + static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
+}
 
 }  // namespace
 
@@ -169,8 +67,111 @@ std::string to_csv(const Recording& recording) {
     return out;
 }
 
+bool RecordingReader::take(std::string_view line) {
+    ++line_;
+    line = trimmed(line);
+    if (base::is_blank_row(line)) return true;
+    if (line.front() == '#')
+        comment(trimmed(line.substr(1)));
+    else if (header_)
+        row(line);
+    else
+        header(line);
+    return result_.error.empty();
+}
+
+void RecordingReader::refuse_line() {
+    ++line_;
+    fail("the line has no end; name a recording of `macreg record`");
+}
+
+RecordingReading RecordingReader::finish() {
+    if (result_.error.empty() && !header_)
+        fail("there is no header; a recording of `macreg record` has one that begins with time_s", 1);
+    if (result_.error.empty() && result_.recording.size() == 0)
+        fail("there are no samples; record again", line_);
+    if (!result_.error.empty()) result_.recording = {};
+    return std::move(result_);
+}
+
+void RecordingReader::comment(std::string_view line) {
+    const auto starts = [&](std::string_view key) {
+        if (!line.starts_with(key)) return false;
+        line = trimmed(line.substr(key.size()));
+        return true;
+    };
+    Recording& to = result_.recording;
+    if (starts("model ")) {
+        to.model = line;
+    } else if (starts("address ")) {
+        to.address = static_cast<unsigned>(number(line).value_or(0));
+    } else if (starts("rate ")) {
+        to.rate_hz = number(line.substr(0, line.find(' '))).value_or(0);
+    } else if (starts("start ")) {
+        to.start = line;
+    } else if (starts("incomplete: ")) {
+        to.incomplete = line;
+    }
+}
+
+void RecordingReader::header(std::string_view line) {
+    if (const std::size_t count = fields_in(line); count > kMostColumns)
+        return fail(fmt::format("{} columns are more than {}", count, kMostColumns));
+    const auto names = split(line, ',');
+    if (names.front() != kTime)
+        return fail(
+            fmt::format("the header begins with '{}' and not with time_s; name a recording of "
+                        "`macreg record`, or mend the header",
+                        names.front()));
+    if (names.size() < 2) return fail("the header names no register behind time_s");
+    for (std::size_t i = 1; i < names.size(); ++i) {
+        const std::size_t open = names[i].find('[');
+        std::string_view unit;
+        if (open != std::string_view::npos) {
+            if (names[i].back() != ']') return fail(fmt::format("'{}': the unit's ] is missing", names[i]));
+            unit = names[i].substr(open + 1, names[i].size() - open - 2);
+        }
+        const std::string_view name = trimmed(names[i].substr(0, open));
+        if (name.empty()) return fail(fmt::format("column {} has no name", i + 1));
+        result_.recording.columns.push_back({std::string(name), std::string(unit), {}});
+    }
+    header_ = true;
+}
+
+void RecordingReader::row(std::string_view line) {
+    Recording& to = result_.recording;
+    const std::size_t count = fields_in(line);
+    if (count != to.columns.size() + 1)
+        return fail(fmt::format("{} fields where the header has {}; the file is damaged or was cut off",
+                                count, to.columns.size() + 1));
+    const auto fields = split(line, ',');
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        const auto value = number(fields[i]);
+        if (!value) return fail(fmt::format("'{}' in column {} is no number", fields[i], i + 1));
+        if (i > 0) {
+            to.columns[i - 1].values.push_back(*value);
+            continue;
+        }
+        if (!to.time_s.empty() && *value <= to.time_s.back())
+            return fail(
+                fmt::format("the time {} is not after {} of the row before", *value, to.time_s.back()));
+        to.time_s.push_back(*value);
+    }
+}
+
+void RecordingReader::fail(const std::string& what, std::size_t line) {
+    result_.error = fmt::format("{}:{}: {}", name_, line, what);
+}
+
 RecordingReading from_csv(std::string_view text, const std::string& name) {
-    return Reader(text, name).read();
+    RecordingReader reader(name);
+    bool goes_on = true;
+    while (goes_on && !text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        goes_on = reader.take(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return reader.finish();
 }
 
 }  // namespace nplc::macreg

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "host/text_file.h"
+
 namespace nplc::whole_files {
 
 struct FileText {
@@ -22,6 +24,10 @@ FileText read_file(const std::string& path, std::size_t most = kMostOfAProgram);
 FileText read_text(const std::string& path, std::size_t most = kMostOfAProgram);
 /// A text too, of no more than kMostInput: what has no end is none of ours.
 FileText read_standard_input();
+
+/// A text file, or standard input (`-`), of up to kMostInput: in lines, see host::TextPieces. Answers what is
+/// wrong, or nothing.
+std::string read_in_pieces(const std::string& path, const host::TextPieces::Take& take);
 
 /// What a chain of symbolic links leads to, there or not: it is written, not the link.
 std::string behind_links(const std::string& path);

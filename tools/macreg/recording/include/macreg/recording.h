@@ -46,4 +46,28 @@ struct RecordingReading {
 /// file's, for messages.
 RecordingReading from_csv(std::string_view text, const std::string& name);
 
+/// The same, line by line.
+class RecordingReader {
+  public:
+    explicit RecordingReader(std::string name) : name_(std::move(name)) {}
+
+    /// False once something is wrong.
+    bool take(std::string_view line);
+    /// A line without end.
+    void refuse_line();
+    RecordingReading finish();
+
+  private:
+    void comment(std::string_view line);
+    void header(std::string_view line);
+    void row(std::string_view line);
+    void fail(const std::string& what) { fail(what, line_); }
+    void fail(const std::string& what, std::size_t line);
+
+    std::string name_;
+    std::size_t line_ = 0;
+    bool header_ = false;
+    RecordingReading result_{};
+};
+
 }  // namespace nplc::macreg
