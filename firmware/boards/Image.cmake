@@ -4,6 +4,7 @@
 #
 # BUDGETS are options of sizes.py. STACK is what the linker script sets aside, less what the painting leaves out. Of the
 # RAM the table and the event log, which are data, are not counted; the stack is counted as computed.
+include(NplcPython)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 include(NplcCommit)
 set(NPLC_BOARDS "${CMAKE_CURRENT_LIST_DIR}")

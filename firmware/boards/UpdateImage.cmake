@@ -6,6 +6,7 @@
 #
 # The slots are linked by slot_0.ld and slot_1.ld. ADDRESSES are those of the slots in the chip.
 include_guard(GLOBAL)
+include(NplcPython)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 include(NplcCommit)
 set(NPLC_UPDATE_KEY "" CACHE FILEPATH "Private key that signs the firmware (openssl genpkey -algorithm ed25519); a new one without")

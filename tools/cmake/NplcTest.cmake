@@ -12,6 +12,7 @@ set(NPLC_CORE 1)
 set(NPLC_PARTS 2)  # of a test program with sanitizers
 set(NPLC_ALL_PLACES ${cores})
 
+include(NplcPython)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 
 execute_process(COMMAND "${Python3_EXECUTABLE}" -B "${PROJECT_SOURCE_DIR}/tools/cmake/real_time.py" "${PROJECT_SOURCE_DIR}/tests"
