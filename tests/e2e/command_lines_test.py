@@ -135,7 +135,8 @@ class Outputs(FolderCase):
         """100 MB of commas, of which 200 MB and more were held. A forked Python counts as some 46 MiB."""
         commas = self.path("commas")
         with open(commas, "wb") as written:
-            written.write(b"," * 100_000_000)
+            for _ in range(100):
+                written.write(b"," * 1_000_000)
         for command in (("macreg", "monitor", "--replay", commas), ("macreg", "plot", commas, "-o", self.path("o.svg")),
                         ("macreg", "fit", commas)):
             with self.subTest(command), subprocess.Popen([os.path.join(BIN, command[0]), *command[1:]], stdout=subprocess.DEVNULL,

@@ -14,8 +14,8 @@ std::string printable(std::string_view text);
 /// The same, and line ends stay.
 std::string printable_lines(std::string_view text);
 
-/// A message, of several lines perhaps, on standard error: printable, and no line without end. That it cannot
-/// be written is nobody's matter any more.
+/// Writes a message, of several lines perhaps, to standard error: printable, lines of over 1,000 bytes cut
+/// off. A failure to write is ignored.
 void complain(std::string_view message);
 
 }  // namespace nplc::host
