@@ -3,6 +3,8 @@
 import os
 import subprocess
 
+KEY = ("-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1")  # made at once, unlike one of RSA
+
 
 def make(folder):
     """ca.pem has signed the certificates broker.pem, stranger.pem (for another name) and expired.pem; other.pem has signed none. User
@@ -11,9 +13,9 @@ def make(folder):
         subprocess.run(["openssl", *arguments], check=True, capture_output=True, cwd=folder)
 
     for name in ("ca", "other"):
-        run("req", "-x509", "-newkey", "rsa:2048", "-nodes", "-keyout", f"{name}.key", "-out", f"{name}.pem", "-days", "2", "-subj",
+        run("req", "-x509", *KEY, "-nodes", "-keyout", f"{name}.key", "-out", f"{name}.pem", "-days", "2", "-subj",
             f"/CN={name}")
-    run("req", "-newkey", "rsa:2048", "-nodes", "-keyout", "broker.key", "-out", "broker.csr", "-subj", "/CN=127.0.0.1")
+    run("req", *KEY, "-nodes", "-keyout", "broker.key", "-out", "broker.csr", "-subj", "/CN=127.0.0.1")
     for name, names, days in (("broker", "IP:127.0.0.1,DNS:localhost", "2"), ("stranger", "IP:127.0.0.2,DNS:stranger", "2"),
                               ("expired", "IP:127.0.0.1,DNS:localhost", "-1")):
         with open(f"{folder}/names", "w", encoding="utf-8") as file:

@@ -17,6 +17,7 @@ import simulator
 
 MACREG = MACSIM = ""
 LONG = 240  # timeout in seconds of what must come
+RECORDING = 2_000  # milliseconds of patience where a gateway is asked for
 
 
 class Case(unittest.TestCase):
@@ -50,11 +51,12 @@ class Case(unittest.TestCase):
                                 text=True, check=check, env={**os.environ, "LC_ALL": "C.UTF-8"})
         return result.stdout
 
-    def start(self, columns=80, rows=24, locale="C.UTF-8", term="screen-256color", keys=None):
+    def start(self, columns=80, rows=24, locale="C.UTF-8", term="screen-256color", keys=None, patience=20_000):
         """The screen within a shell that tells how it ended and how it found the terminal. A motor that is there answers some
-        day; how long a slow machine takes is not what is tested."""
+        day; how long a slow machine takes is not what is tested. A recording first asks whether a gateway is there, and
+        nobody answers: that takes two patiences."""
         script = (f"stty -g > {self.path('before')}; LC_ALL={locale} TERM={term} {MACREG} --port {self.path('m')} "
-                  f"--patience 20000 ui; echo ended with $?; stty -g > {self.path('after')}; echo all done; sleep 600")
+                  f"--patience {patience} ui; echo ended with $?; stty -g > {self.path('after')}; echo all done; sleep 600")
         self.tmux("new-session", "-d", "-x", str(columns), "-y", str(rows), "sh -c " + shlex.quote(script))
         if keys is not None:
             self.keys(keys)
@@ -174,7 +176,7 @@ class Screen(Case):
         self.assert_ended(0)
 
     def test_records_and_shows_a_curve(self):
-        self.start()
+        self.start(patience=RECORDING)
         self.keys("s")
         self.until("slow or fast): P_IST,V_IST slow")
         self.keys("Enter")
@@ -214,7 +216,7 @@ class Screen(Case):
         self.assert_ended(0)
 
     def test_samples_as_numbers(self):
-        self.start()
+        self.start(patience=RECORDING)
         self.keys("s")
         self.until("slow or fast): P_IST,V_IST slow")
         self.keys("Enter")
@@ -228,7 +230,7 @@ class Screen(Case):
         self.assert_ended(0)
 
     def test_without_colours_and_braille(self):
-        self.start(locale="C", term="vt100")
+        self.start(locale="C", term="vt100", patience=RECORDING)
         self.keys("s")
         self.until("slow or fast): P_IST,V_IST slow")
         self.keys("Enter")
@@ -281,7 +283,7 @@ class Ends(Case):
     def test_a_signal_in_a_recording_leaves_the_motor_as_it_was(self):
         self.stop_motor()
         self.start_motor(speed=1)  # reads for 20 s, so that the signal comes before the end
-        self.start()
+        self.start(patience=RECORDING)
         self.keys("s")
         self.until("slow or fast): ")
         self.keys("Enter")
