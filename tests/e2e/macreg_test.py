@@ -484,15 +484,14 @@ class Gateway(Case):
 
     def test_registers_of_the_motor_behind_a_gateway(self):
         self.gateway()
-        self.assertEqual(self.value("T_SOLL", patience=1000), 1023)
-        refused = self.reg("set", "P8", "4711", exit_code=1, patience=1000)
+        self.assertEqual(self.value("T_SOLL"), 1023)
+        refused = self.reg("set", "P8", "4711", exit_code=1)
         self.assertIn("sequence runs", refused["reason"])
-        refused = self.reg("--yes", "record", "P_IST", "--poll", "--samples", "3", "--move", "P_SOLL=+10", exit_code=1,
-                           patience=1000)
+        refused = self.reg("--yes", "record", "P_IST", "--poll", "--samples", "3", "--move", "P_SOLL=+10", exit_code=1)
         self.assertIn("P_SOLL was not written: the gateway refuses it while its sequence runs", refused["error"])
-        found = [one["code"] for one in self.reg("why", patience=1000)["findings"]]
+        found = [one["code"] for one in self.reg("why")["findings"]]
         self.assertIn("gateway_runs", found)
-        self.refused(3, "gateway's, not a motor's", "--address", "128", "get", "1", patience=1000)
+        self.refused(3, "gateway's, not a motor's", "--address", "128", "get", "1")
 
 
 if __name__ == "__main__":

@@ -77,9 +77,13 @@ class Names(program_case.ProgramCase):
             for program in self.commands("none"):
                 yield kind, program, self.path(f"{kind[:-1]}-{program}")
 
-    def refusal(self, name, command):
+    def ask(self, command):
+        # pylint: disable-next=consider-using-with
+        return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def refusal(self, name, second):
         """What it says; nanoplc stays, with that axis stopped, and tries again."""
-        with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as second:
+        with second:
             said = ""
             while name == "nanoplc" and "already serves" not in said:
                 said += second.stderr.readline()
@@ -93,10 +97,12 @@ class Names(program_case.ProgramCase):
         for kind, program, place in self.kinds():
             first = self.serve(self.commands(kind + place)[program], place)
             before = identity(place)
-            for name, second in self.commands(kind + place, 2).items():
+            # At once: each waits half a second for the name, and nanoplc two at its end for a motor.
+            asked = {name: self.ask(second) for name, second in self.commands(kind + place, 2).items()}
+            for name, second in asked.items():
                 self.assertIn(f"{kind}{place}: {program} (process {first.pid}) already serves there; end it, or name another path",
                               self.refusal(name, second))
-                self.assertEqual(identity(place), before, second)
+                self.assertEqual(identity(place), before, name)
             self.assertIsNone(first.poll())
             first.send_signal(signal.SIGTERM)
             self.assertEqual(first.wait(LONG), 0)

@@ -57,7 +57,8 @@ class Case(ProgramCase):
             capture_output=True, text=True, timeout=4 * LONG, check=False)
 
     def ctl(self, *arguments, exit_code=0, **options):
-        result = self.call("--json", *arguments, **options)
+        """What is refused is refused by silence: then patience is time, and what is read afterwards is asked for ten times."""
+        result = self.call("--json", *arguments, **{"patience": 500 if exit_code else 2000, **options})
         self.assertEqual(result.returncode, exit_code, f"{arguments}: {result.stdout} {result.stderr}")
         answer = json.loads(result.stdout.splitlines()[-1])
         self.assertEqual(answer["ok"], exit_code == 0)

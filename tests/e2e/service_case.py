@@ -113,8 +113,9 @@ class ServiceCase(unittest.TestCase):
             time.sleep(0.02)
 
     def ctl(self, *arguments, port="x", exit_code=0):
+        """What is refused is refused by silence: then patience is time, and what is read afterwards is asked for ten times."""
         endpoint = port if port.startswith("/") else "unix:" + self.path(port)
-        result = subprocess.run([NANOCTL, "--port", endpoint, "--patience", "2000", "--json", *arguments],
+        result = subprocess.run([NANOCTL, "--port", endpoint, "--patience", "500" if exit_code else "2000", "--json", *arguments],
                                 capture_output=True, text=True, timeout=4 * LONG, check=False)
         self.assertEqual(result.returncode, exit_code, f"{arguments}: {result.stdout} {result.stderr}")
         return json.loads(result.stdout.splitlines()[-1])

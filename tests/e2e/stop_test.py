@@ -27,7 +27,7 @@ GATEWAY = 128
 STATUS, SCANS, COMMAND = 16, 25, 48
 RUN, STOP, HOLD = 1, 2, 6
 WITHIN = 1.0  # seconds in which a stop takes effect
-HALTED = 3.0  # seconds, longer than a command may wait to be read
+HALTED = 1.5  # seconds, longer than the 1 s that a command may wait to be read
 
 
 def order(command):
