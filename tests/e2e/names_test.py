@@ -18,7 +18,11 @@ MACSIM = MIDISIM = NANOPLC_SIM = NANOPLC = ""
 
 
 def identity(place):
-    status = os.lstat(place)
+    """None if nothing is there: a program may be taking it over."""
+    try:
+        status = os.lstat(place)
+    except FileNotFoundError:
+        return None
     return status.st_ino, status.st_ctime_ns
 
 
@@ -58,7 +62,7 @@ class Names(program_case.ProgramCase):
     def serve(self, command, place, before=None):
         """Until it has made its name."""
         process = self.begin(command)
-        self.until(lambda: process.poll() is not None or (os.path.lexists(place) and identity(place) != before))
+        self.until(lambda: process.poll() is not None or identity(place) not in (None, before))
         self.assertIsNone(process.poll(), f"{command}: {self.log()}")
         return process
 
@@ -94,19 +98,26 @@ class Names(program_case.ProgramCase):
             return said + rest
 
     def test_a_second_program_is_refused_and_the_first_stays(self):
-        for kind, program, place in self.kinds():
-            first = self.serve(self.commands(kind + place)[program], place)
-            before = identity(place)
-            # At once: each waits half a second for the name, and nanoplc two at its end for a motor.
-            asked = {name: self.ask(second) for name, second in self.commands(kind + place, 2).items()}
-            for name, second in asked.items():
-                self.assertIn(f"{kind}{place}: {program} (process {first.pid}) already serves there; end it, or name another path",
-                              self.refusal(name, second))
-                self.assertEqual(identity(place), before, name)
-            self.assertIsNone(first.poll())
-            first.send_signal(signal.SIGTERM)
-            self.assertEqual(first.wait(LONG), 0)
-            self.assertEqual([name for name in os.listdir(self.folder.name) if os.path.basename(place) in name], [], program)
+        """All seconds at once: each waits half a second for the name, and nanoplc two for a motor at its end."""
+        for program in self.commands("none"):
+            asked = []
+            firsts = []
+            for number, kind in enumerate(("pty:", "unix:")):
+                place = self.path(f"{kind[:-1]}-{program}")
+                first = self.serve(self.commands(kind + place, number)[program], place)
+                firsts.append((first, place))
+                for name, second in self.commands(kind + place, number + 2).items():
+                    asked.append((name, self.ask(second), f"{kind}{place}: {program} (process {first.pid})"))
+            before = [identity(place) for _, place in firsts]
+            for name, second, who in asked:
+                self.assertIn(f"{who} already serves there; end it, or name another path", self.refusal(name, second))
+                self.assertEqual([identity(place) for _, place in firsts], before, name)
+            for first, _ in firsts:
+                self.assertIsNone(first.poll())
+                first.send_signal(signal.SIGTERM)
+            for first, place in firsts:
+                self.assertEqual(first.wait(LONG), 0)
+                self.assertEqual([name for name in os.listdir(self.folder.name) if os.path.basename(place) in name], [], program)
 
     def test_the_name_of_a_killed_program_is_taken_over(self):
         for kind, program, place in self.kinds():
