@@ -23,6 +23,7 @@ PARTS = {
     "gate": ((), "release"),
     "thorough": ((), "release"),
     "realtime": ((), "release"),
+    "terminals": ((), "release"),
     "sanitizers": (("dev",), "dev"),
     "sanitized-realtime": (("dev",), "dev"),
     "tidy": ((), "release"),
@@ -34,8 +35,8 @@ PARTS = {
     "browser": ((), "release"),
     "plant": ((), "release"),
 }
-LABELS = {"sanitizers": "gate|thorough", "sanitized-realtime": "realtime"}
-ONCE_MORE = {"realtime", "sanitized-realtime"}
+LABELS = {"sanitizers": "gate|thorough", "sanitized-realtime": "realtime|terminals"}
+ONCE_MORE = {"realtime", "terminals", "sanitized-realtime"}
 TOO_LONG = 900  # seconds of the gate's tests: a warning
 SLOWEST = 10
 

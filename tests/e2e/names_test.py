@@ -85,17 +85,20 @@ class Names(program_case.ProgramCase):
         # pylint: disable-next=consider-using-with
         return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
-    def refusal(self, name, second):
-        """What it says; nanoplc stays, with that axis stopped, and tries again."""
+    def ended(self, name, second):
+        """nanoplc stays, with that axis stopped, and tries again: it is told to end. What it has said until then."""
+        said = ""
+        while name == "nanoplc" and "already serves" not in said:
+            said += second.stderr.readline()
+        if name == "nanoplc":
+            second.send_signal(signal.SIGTERM)
+        return said
+
+    def refusal(self, name, second, said):
         with second:
-            said = ""
-            while name == "nanoplc" and "already serves" not in said:
-                said += second.stderr.readline()
-            if name == "nanoplc":
-                second.send_signal(signal.SIGTERM)
-            rest = second.communicate(timeout=LONG)[1]
-            self.assertIn(second.returncode, (0,) if name == "nanoplc" else (2, 3), said + rest)
-            return said + rest
+            said += second.communicate(timeout=LONG)[1]
+            self.assertIn(second.returncode, (0,) if name == "nanoplc" else (2, 3), said)
+            return said
 
     def test_a_second_program_is_refused_and_the_first_stays(self):
         """All seconds at once: each waits half a second for the name, and nanoplc two for a motor at its end."""
@@ -109,8 +112,9 @@ class Names(program_case.ProgramCase):
                 for name, second in self.commands(kind + place, number + 2).items():
                     asked.append((name, self.ask(second), f"{kind}{place}: {program} (process {first.pid})"))
             before = [identity(place) for _, place in firsts]
-            for name, second, who in asked:
-                self.assertIn(f"{who} already serves there; end it, or name another path", self.refusal(name, second))
+            heard = [self.ended(name, second) for name, second, _ in asked]
+            for (name, second, who), said in zip(asked, heard):
+                self.assertIn(f"{who} already serves there; end it, or name another path", self.refusal(name, second, said))
                 self.assertEqual([identity(place) for _, place in firsts], before, name)
             for first, _ in firsts:
                 self.assertIsNone(first.poll())

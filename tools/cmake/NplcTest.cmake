@@ -36,12 +36,13 @@ endfunction()
 
 # nplc_properties_of_part(RESULT PART)
 #
-# The verdict of the gate must not depend on speed: its limit ends what hangs, nothing else. Tests in real time run one at a time.
+# The verdict of the gate must not depend on speed: its limit ends what hangs, nothing else. Tests in real time, which are in two
+# parts, run one at a time.
 function(nplc_properties_of_part result part)
   set(properties LABELS ${part} TIMEOUT 900)
   if(part STREQUAL "gate" OR part STREQUAL "thorough")
     set(properties LABELS ${part} TIMEOUT 1800)
-  elseif(part STREQUAL "realtime")
+  elseif(part MATCHES "^(realtime|terminals)$")
     set(properties LABELS ${part} TIMEOUT 900 RESOURCE_LOCK real_time)
   elseif(part STREQUAL "long")
     set(properties LABELS ${part} TIMEOUT 7200)
