@@ -30,10 +30,11 @@ def changed(number):
 
 
 class Values(Stored):
-    def begin(self, kind="unix", slow=False):
+    def begin(self, kind="unix", slow=0):
+        """With a disk that takes so many milliseconds for every write."""
         self.kind = kind
         config = self.write(self.axis(port=f"{kind}:{self.path('x')}"))
-        more = {"LD_PRELOAD": SLOW_DISK, "ASAN_OPTIONS": "verify_asan_link_order=0"} if slow else {}
+        more = {"LD_PRELOAD": SLOW_DISK, "SLOW_DISK_MS": str(slow), "ASAN_OPTIONS": "verify_asan_link_order=0"} if slow else {}
         service = self.start(config, **more)
         self.upload_first()
         return config, service
@@ -199,7 +200,7 @@ class SlowDisk(Values):
     """It takes 300 ms for every write, so some eight seconds for a change: longer than any answer is waited for."""
 
     def test_the_answer_is_the_real_end_and_others_go_on(self):
-        self.begin(slow=True)
+        self.begin(slow=300)
         begun = time.monotonic()
         client = self.nanoctl(*self.changing(1))
         while time.monotonic() < begun + 1:
@@ -217,8 +218,8 @@ class SlowDisk(Values):
         self.assertIn("Beside", self.recipes())
 
     def test_a_service_that_is_killed_meanwhile_has_the_old_or_the_new_set(self):
-        config, service = self.begin(slow=True)
-        for number, wait in enumerate((0.2, 1, 2, 3, 5, 8), 1):
+        config, service = self.begin(slow=100)  # a change takes a third as long
+        for number, wait in enumerate((0.2, 0.4, 0.7, 1, 1.7, 2.7), 1):
             before = self.values()
             client = self.nanoctl(*self.changing(number))
             time.sleep(wait)
@@ -237,7 +238,7 @@ class SlowDisk(Values):
                 self.assertEqual(after, changed(number))
             self.ask(*self.changing(40))
             self.end(service)
-            _, service = self.begin(slow=True)
+            _, service = self.begin(slow=100)
 
 
 class Damaged(Values):
