@@ -27,10 +27,12 @@ class Diagnostics(Case):
 
     def test_a_word_half_written_leaves_the_rest_useful(self):
         text = example("pick_and_place.seq")
-        uri = self.open(text.replace("IF INPOS THEN NEXT := Idle;", "IF INP"))
+        whole = "IF NOT Guard AND TIMER.Q THEN NEXT := Return;"
+        self.assertIn(whole, text)
+        uri = self.open(text.replace(whole, "IF INP"))
         told = self.client.diagnostics(uri)
         self.assertTrue(told)
-        line = text[: text.index("IF INPOS THEN NEXT := Idle;")].count("\n")
+        line = text[: text.index(whole)].count("\n")
         self.assertTrue(all(abs(d["range"]["start"]["line"] - line) <= 2 for d in told), told)
         self.assertEqual(len(self.client.request("textDocument/documentSymbol", {"textDocument": {"uri": uri}})[0]["children"]), 21)
 
@@ -41,7 +43,7 @@ class Diagnostics(Case):
         self.assertEqual(told[0]["range"]["start"], {"line": 1, "character": 37})
 
     def test_versions_are_those_of_the_text(self):
-        uri = self.open("PROGRAM P\nSTEP S: OWN ERROR; END_STEP\nEND_PROGRAM\n")
+        uri = self.open("PROGRAM P MOTOR MAC140;\nSTEP S: OWN ERROR; END_STEP\nEND_PROGRAM\n")
         self.assertEqual(self.codes(uri, 1), [])
         self.client.change(uri, 2, [{"range": {"start": {"line": 1, "character": 8}, "end": {"line": 1, "character": 18}}, "text": ""}])
         self.assertEqual(self.codes(uri, 2), ["E080"])
@@ -157,7 +159,8 @@ class Navigation(Case):
         self.assertIn("Travel", [s["name"] for s in symbols[0]["children"]])
         folds = self.client.request("textDocument/foldingRange", {"textDocument": {"uri": self.uri}})
         travel = place_of(self.text, "STEP Travel:")["line"]
-        self.assertIn((travel, travel + 7), [(f["startLine"], f["endLine"]) for f in folds])
+        end = travel + self.text[self.text.index("STEP Travel:"):].split("END_STEP")[0].count("\n")
+        self.assertIn((travel, end), [(f["startLine"], f["endLine"]) for f in folds])
         nested = self.client.request("textDocument/selectionRange", {"textDocument": {"uri": self.uri}, "positions": [place_of(self.text, "T#500ms")]})[0]
         depth = 0
         while "parent" in nested:

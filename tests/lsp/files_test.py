@@ -37,7 +37,9 @@ class OtherFiles(Case):
     def fixed(self, text, name):
         uri = self.open(text, name)
         context = {"diagnostics": self.client.diagnostics(uri)}
-        for action in self.ask("codeAction", uri, range=ALL, context=context):
+        preferred = [a for a in self.ask("codeAction", uri, range=ALL, context=context) if a["isPreferred"]]
+        self.assertEqual(len(preferred), len(context["diagnostics"]))
+        for action in preferred:
             text = edited(text, action["edit"]["changes"][uri])  # of one length each, so that places stay
         return text
 

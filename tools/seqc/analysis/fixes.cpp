@@ -254,47 +254,10 @@ class Fixer {
     std::vector<Fix> fixes_;
 };
 
-/// IN0, OUT3, %IX0.1, moving.
-bool is_word_of_properties(std::string_view name) {
-    const bool numbered = name.size() >= 3 && name.back() >= '0' && name.back() <= '5';
-    return same_name(name, "moving") || name.starts_with('%') ||
-           (numbered && (same_name(name.substr(0, name.size() - 1), "IN") ||
-                         same_name(name.substr(0, name.size() - 1), "OUT")));
-}
-
 }  // namespace
 
 std::vector<Fix> fixes_for(const Program& program, const Diagnostic& diagnostic) {
     return Fixer(program, diagnostic).find();
-}
-
-std::vector<Span> unknown_in_properties(const Program& program) {
-    std::vector<Span> unknown;
-    for (const Reference& reference : program.references()) {
-        const bool names = reference.role == ast::Role::tested || reference.role == ast::Role::step;
-        if (names && reference.definition == Reference::kNone && program.in_property(reference.span.offset) &&
-            !is_word_of_properties(program.text(reference.span)))
-            unknown.push_back(reference.span);
-    }
-    return unknown;
-}
-
-std::vector<Fix> fixes_for_properties(const Program& program, Span range) {
-    std::vector<Fix> fixes;
-    for (const Span span : unknown_in_properties(program)) {
-        if (span.offset > end_of(range) || end_of(span) < range.offset) continue;
-        const Reference* reference = program.reference_at(span.offset);
-        const bool is_step = reference != nullptr && reference->role == ast::Role::step;
-        std::vector<std::string_view> names;
-        for (const Definition& definition : program.definitions()) {
-            const bool signal = definition.kind == Kind::input || definition.kind == Kind::output;
-            if (is_step ? definition.kind == Kind::step : signal) names.push_back(definition.name);
-        }
-        const std::string_view meant = nearest(program.text(span), names);
-        if (!meant.empty())
-            fixes.push_back({fmt::format("Write '{}'", meant), {{span, std::string(meant)}}, true});
-    }
-    return fixes;
 }
 
 std::vector<Fix> allow_in(const Program& program, Span step_name, std::string_view code) {

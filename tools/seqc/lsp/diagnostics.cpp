@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "analysis/fixes.h"
 #include "lsp/features.h"
 #include "rehearsal/scenario_text.h"
 #include "views/verify_question.h"
@@ -72,14 +71,8 @@ Json property_diagnostics(Workspace& workspace, const Document& document) {
     const verify::PropertyReading reading =
         verify::read_properties(document.text(), verify_names(compiled.symbols));
     if (reading.error.empty()) return list;
-    Json told =
-        line_diagnostic(workspace, document.lines(), static_cast<int>(reading.line), 0, reading.error);
-    for (const Span span : analysis::unknown_in_properties(*view.program)) {  // at the name, if it is one
-        if (!view.in_property_file(span.offset)) continue;
-        const Json range = workspace.range_json(view, span);
-        if (range["start"]["line"] == told["range"]["start"]["line"]) told["range"] = range;
-    }
-    list.push_back(std::move(told));
+    list.push_back(
+        line_diagnostic(workspace, document.lines(), static_cast<int>(reading.line), 0, reading.error));
     return list;
 }
 

@@ -222,10 +222,6 @@ Json code_actions(Workspace& workspace, const Json& params) {
     if (at.document.language() == Language::scenario)
         return wanted(params, "quickfix") ? scenario_fixes(workspace, at, params) : actions;
     const Span range = range_of(workspace, at, params);
-    if (wanted(params, "quickfix")) {
-        for (const analysis::Fix& fix : analysis::fixes_for_properties(at.program(), range))
-            actions.push_back(action_json(workspace, at, fix, Json()));
-    }
     const Json told = params.value("/context/diagnostics"_json_pointer, Json::array());
     for (const Diagnostic& diagnostic : at.program().compiled().diagnostics) {
         if (!at.program().is_own(diagnostic.span)) continue;
