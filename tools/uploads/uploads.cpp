@@ -57,7 +57,7 @@ set_points::Record read_record(const std::string& table_file, const std::string&
 
 digest::Digest certificate_for(const std::string& path, std::span<const std::uint8_t> table) {
     if (!digest::is_available()) throw UserError(fmt::format("{}: {}", path, digest::kNotAvailable));
-    const std::string text = command_line::read_text(path);
+    const std::string text = command_line::read_whole(path);
     const proof::CertificateReading reading = proof::read_certificate(text);
     std::string wrong = reading.error;
     if (wrong.empty()) wrong = proof::why_not_of(reading.certificate, table);
