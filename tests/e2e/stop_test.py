@@ -24,7 +24,7 @@ from service_case import LONG, ServiceCase
 
 SIM = ""
 GATEWAY = 128
-STATUS, SCANS, COMMAND = 16, 25, 48
+OPERATOR, STATUS, SCANS, RESULT, COMMAND = 12, 16, 25, 31, 48
 RUN, STOP, HOLD = 1, 2, 6
 WITHIN = 1.0  # seconds in which a stop takes effect
 HALTED = 1.5  # seconds, longer than the 1 s that a command may wait to be read
@@ -387,12 +387,15 @@ class OnASerialLine(ServiceCase):
         self.addCleanup(lambda: self.service.send_signal(signal.SIGCONT))
         self.until(lambda: self.state() == 2)
 
-    def state(self):
-        os.write(self.master, read_request(GATEWAY, STATUS))
+    def read(self, register):
+        os.write(self.master, read_request(GATEWAY, register))
         answer = b""
         while len(answer) < 19:
             answer = (answer + os.read(self.master, 64)).lstrip(b"\x11")
-        return value_in(answer) & 7
+        return value_in(answer)
+
+    def state(self):
+        return self.read(STATUS) & 7
 
     def sent_while_halted(self, data):
         self.service.send_signal(signal.SIGSTOP)
@@ -406,8 +409,14 @@ class OnASerialLine(ServiceCase):
         self.until(lambda: self.state() == 0)
         self.sent_while_halted(order(RUN) + refused_write() + order(RUN))
         self.assertEqual(self.state(), 0)
+        self.assertEqual(self.read(RESULT) & 0xFFFF, 19 | COMMAND << 8, "too_late")
         os.write(self.master, order(RUN))
         self.until(lambda: self.state() == 2)
+
+    def test_who_is_there_is_one_operator(self):
+        self.assertEqual(self.read(OPERATOR), 0)
+        os.write(self.master, order(RUN))
+        self.until(lambda: self.read(OPERATOR) == 4 | 1 << 8)
 
     def test_a_stop_among_what_waited_too_long(self):
         self.sent_while_halted(b"\x52\x52" + order(STOP) + order(RUN))

@@ -122,7 +122,7 @@ void Axis::start(base::Instant now) {
     pins_.inputs().look();
     gateway::Controller::Ports ports{pins_.inputs(), pins_.outputs(), watchdog_,
                                      motor_.start(settings_->values()), store_.storage()};
-    ports.user_line = user_.start();
+    user_.start();
     if (mactalk_port_) ports.motor_mactalk_line = &mactalk_port_->uart();
     ports.set_points = &kSetPointArea;
     controller_.emplace(ports, kTableArea, table_memory_, *settings_,

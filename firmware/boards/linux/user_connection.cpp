@@ -8,6 +8,7 @@
 #include "host/endpoint.h"
 #include "registers/gateway.h"
 #include "seat/secret.h"
+#include "user_line.h"
 
 namespace nplc::boards {
 namespace {
@@ -21,10 +22,15 @@ std::string UserConnection::open(const AxisConfig& config, std::uint32_t stored_
     if (!config.user_port.is_there()) return {};
     std::string error;
     if (!is_endpoint(config.user_port.text)) {
-        line_.reset();
+        server_.reset();
         error = open_serial_port(config, stored_baud);
-        if (!error.empty()) uart_.reset();
-        return error;
+        if (!error.empty()) {
+            uart_.reset();
+            return error;
+        }
+        server_.emplace().serve(std::make_unique<UserLine>(uart_->uart(), config.user_port.text), &operators,
+                                {});
+        return {};
     }
     if (server_) return {};
     error = open_server(config, at_once, operators);
@@ -58,16 +64,14 @@ std::string UserConnection::open_serial_port(const AxisConfig& config, std::uint
     return {};
 }
 
-ports::SerialPort* UserConnection::start() {
+void UserConnection::start() {
     readable_ = true;
-    if (uart_) return &line_.emplace(uart_->uart());
     if (server_) server_->restarted();
-    return nullptr;
 }
 
 void UserConnection::watch_server(hal_linux::EventLoop& loop, std::uint32_t mark) {
     using Wakes = hal_linux::EventLoop::Wakes;
-    if (server_)
+    if (server_ && !uart_)
         loop.watch(server_->descriptor(), mark, is_terminal_ ? Wakes::at_news : Wakes::while_readable);
 }
 
@@ -77,9 +81,8 @@ void UserConnection::watch_serial_port(hal_linux::EventLoop& loop, std::uint32_t
 
 void UserConnection::look(gateway::Controller& controller, const Listener::Addresses& addresses,
                           base::Instant now) {
-    if (server_ && (std::exchange(readable_, false) || server_->next(now) <= now))
-        server_->bring(controller, addresses, now);
-    if (line_) line_->look(now, addresses.gateway);
+    const bool has_news = std::exchange(readable_, false) || uart_;
+    if (server_ && (has_news || server_->next(now) <= now)) server_->bring(controller, addresses, now);
 }
 
 void UserConnection::answer(gateway::Controller& controller, base::Instant now) {
@@ -107,8 +110,8 @@ bool UserConnection::look_for_serial_port(base::Instant now) {
 }
 
 base::Instant UserConnection::next_look(base::Instant now) const {
-    if (server_) return server_->next(now);
-    return uart_ ? std::min(uart_->next_look(), line_->next_look()) : base::kNever;
+    const base::Instant next = server_ ? server_->next(now) : base::kNever;
+    return uart_ ? std::min(next, uart_->next_look()) : next;
 }
 
 }  // namespace nplc::boards

@@ -21,8 +21,8 @@ class UserConnection {
     /// `operators`: who may operate, of all clients.
     std::string open(const AxisConfig& config, std::uint32_t stored_baud, bool at_once,
                      faces::Seat& operators);
-    /// For a new controller: the line, or none where there is a server or no port.
-    ports::SerialPort* start();
+    /// For a new controller.
+    void start();
 
     void watch_server(hal_linux::EventLoop& loop, std::uint32_t mark);
     void watch_serial_port(hal_linux::EventLoop& loop, std::uint32_t mark);
@@ -43,8 +43,7 @@ class UserConnection {
 
     AxisJournal& journal_;
     std::optional<ReopenedUart> uart_;
-    std::optional<TimelyPort> line_;  ///< on uart_
-    std::optional<UserServer> server_;
+    std::optional<UserServer> server_;  ///< on uart_ where there is one
     unsigned told_wrong_passwords_ = 0;
     unsigned told_turned_away_ = 0;
     base::Instant tell_again_{};

@@ -7,12 +7,18 @@ namespace nplc::boards {
 std::string UserServer::open(const std::string& endpoint, const hal_linux::ByteServer::Settings& settings,
                              faces::Seat* operators, const std::string& password) {
     auto opened = hal_linux::Connections::open(endpoint, settings);
-    connections_ = std::move(opened.connections);
-    if (!connections_) return opened.error;
+    if (!opened.connections) return opened.error;
+    serve(std::move(opened.connections), operators, password);
+    return {};
+}
+
+void UserServer::serve(std::unique_ptr<hal_linux::Connections> connections, faces::Seat* operators,
+                       const std::string& password) {
+    exchange_.reset();
+    connections_ = std::move(connections);
     listener_ = std::make_unique<Listener>(
         Listener::Options{.name = connections_->name(), .operators = operators, .password = password});
     exchange_.emplace(*connections_, *listener_);
-    return {};
 }
 
 void UserServer::bring(gateway::Controller& controller, const Listener::Addresses& addresses,

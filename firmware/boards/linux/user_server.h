@@ -12,13 +12,15 @@
 
 namespace nplc::boards {
 
-/// The user's port as a socket or a pseudo-terminal, for many clients.
+/// The user's port: a socket, a terminal or a serial line, for all clients that it can have.
 class UserServer {
   public:
     /// Empty, or one line. `operators`: who may operate, of all clients. `password`: empty, none is asked
     /// for.
     std::string open(const std::string& endpoint, const hal_linux::ByteServer::Settings& settings,
                      faces::Seat* operators, const std::string& password);
+    void serve(std::unique_ptr<hal_linux::Connections> connections, faces::Seat* operators,
+               const std::string& password);
     const std::string& name() const { return connections_->name(); }
     int descriptor() const { return connections_->descriptor(); }
     unsigned wrong_passwords() const { return listener_->wrong_passwords(); }

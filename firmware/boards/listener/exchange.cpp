@@ -37,9 +37,11 @@ faces::Sitter sitter_of(const Connections::Peer& peer, const std::string& port) 
                                    peer.number >> 8 & 0xFF, peer.number & 0xFF, peer.port, port);
             return who;
         case Connections::Peer::Kind::terminal:
+        case Connections::Peer::Kind::serial_line:
             break;
     }
-    who.way = OperatorWay::terminal;
+    const bool is_serial = peer.kind == Connections::Peer::Kind::serial_line;
+    who.way = is_serial ? OperatorWay::serial_line : OperatorWay::terminal;
     who.name = "client of " + port;
     return who;
 }
@@ -69,8 +71,14 @@ void Exchange::hear(Connections::Id client, base::Instant now) {
     const std::size_t wanted = std::min(bytes.size(), listener_.readable(client, now));
     connections_.listen_to(client, wanted != 0);
     if (wanted == 0) return;
-    const auto got = connections_.read(client, std::span(bytes).first(wanted));
-    listener_.received(client, std::span(bytes).first(got.count), got.count < wanted, now);
+    Connections::Got got;
+    std::size_t count = 0;
+    do {
+        got = connections_.read(client, std::span(bytes).first(wanted - count));
+        count += got.count + (got.is_damaged ? 1U : 0U);
+        listener_.received(client, std::span(bytes).first(got.count), !got.is_damaged && count < wanted, now);
+        if (got.is_damaged) listener_.damaged(client);
+    } while (got.is_damaged && count < wanted);
     if (got.state == Connections::State::hears) listener_.left(client);
     if (got.state == Connections::State::gone) listener_.gone(client, now);
 }

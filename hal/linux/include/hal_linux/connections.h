@@ -35,7 +35,7 @@ class Connections {
     };
     /// As far as the system tells.
     struct Peer {
-        enum class Kind : std::uint8_t { user, address, terminal };
+        enum class Kind : std::uint8_t { user, address, terminal, serial_line };
         Kind kind = Kind::terminal;
         std::uint32_t number = 0;  ///< the user's; an IPv4 address, its first number in bits 31..24
         std::uint16_t port = 0;    ///< of an address
@@ -43,6 +43,7 @@ class Connections {
     struct Got {
         std::size_t count = 0;
         State state = State::open;
+        bool is_damaged = false;  ///< the next character was, and is left out; there may be more behind it
     };
 
     /// As a client would be told: the endpoint, with the port that the system chose.
