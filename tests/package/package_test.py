@@ -57,7 +57,7 @@ class Package(unittest.TestCase):
     def test_what_is_in_it(self):
         self.unpack()
         for name in ("usr/sbin/nanoplc", "usr/bin/nanoctl", SETTINGS, "lib/systemd/system/nanoplc.service",
-                     "lib/udev/rules.d/70-nanoplc.rules", "usr/share/man/man8/nanoplc.8.gz", "usr/share/man/man1/nanoctl.1.gz",
+                     "lib/udev/rules.d/70-nanoplc.rules", "lib/udev/rules.d/99-nanoplc-brltty.rules", "usr/share/man/man8/nanoplc.8.gz", "usr/share/man/man1/nanoctl.1.gz",
                      "usr/share/bash-completion/completions/nanoplc", "usr/share/zsh/site-functions/_nanoplc",
                      "usr/share/doc/nanoplc/FIRST_START.md"):
             self.assertTrue(os.path.isfile(self.path(name)), name)

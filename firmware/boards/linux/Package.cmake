@@ -3,7 +3,7 @@
 set(package "${CMAKE_CURRENT_LIST_DIR}/package")
 install(FILES "${CMAKE_CURRENT_LIST_DIR}/nanoplc.toml" DESTINATION /etc/nanoplc COMPONENT nanoplc)
 install(FILES "${package}/nanoplc.service" DESTINATION /lib/systemd/system COMPONENT nanoplc)
-install(FILES "${package}/70-nanoplc.rules" DESTINATION /lib/udev/rules.d COMPONENT nanoplc)
+install(FILES "${package}/70-nanoplc.rules" "${package}/99-nanoplc-brltty.rules" DESTINATION /lib/udev/rules.d COMPONENT nanoplc)
 install(FILES "${CMAKE_CURRENT_LIST_DIR}/nanoplc.toml" DESTINATION share/doc/nanoplc/examples COMPONENT nanoplc)
 install(FILES "${package}/lintian-overrides" DESTINATION share/lintian/overrides RENAME nanoplc COMPONENT nanoplc)
 install(FILES "${CMAKE_CURRENT_LIST_DIR}/FIRST_START.md" DESTINATION share/doc/nanoplc COMPONENT nanoplc)
