@@ -431,6 +431,12 @@ class Motorless(Service):
         self.assertEqual(result.returncode, 4, result.stdout)
         self.assertIn("the link to the motor is down", result.stderr)
         self.assertIn("THE MACHINE MAY STILL BE RUNNING", result.stderr)
+        self.assertIn("STOP NOT CONFIRMED", self.nanoctl("status").stdout)
+        given_up = self.nanoctl("give-up-stop")
+        self.assertEqual(given_up.returncode, 0, given_up.stderr)
+        self.assertIn("THE MOTOR MAY BE MOVING", given_up.stdout)
+        self.assertNotIn("STOP NOT CONFIRMED", self.nanoctl("status").stdout)
+        self.assertIn("no stop waits", self.nanoctl("give-up-stop").stdout)
 
 
 class Terminal(Watching):

@@ -36,6 +36,13 @@ void reset(Session& session) {
                  {{"state", name_of(status.run_state)}, {"step", status.step}, {"address", address}});
 }
 
+void give_up_stop(Session& session) {
+    const bool is_wanted = session.status().has(gw::kStopUnconfirmed);
+    if (is_wanted) session.gateway().command(gw::Command::give_up_stop);
+    session.tell(is_wanted ? "the stop is given up; THE MOTOR MAY BE MOVING" : "no stop waits for the motor",
+                 {{"given_up", is_wanted}});
+}
+
 void add_stop(arguments::App& app, Common& common, gw::Command order, const char* text) {
     arguments::App& command = add_command(app, std::string(name_of(order)), text);
     command.callback([order, &common] {
@@ -53,6 +60,9 @@ void add_controls(arguments::App& app, Common& common) {
     add_stop(app, common, gw::Command::safe, "Stop, and end forces, breakpoints and an upload too");
     add_stop(app, common, gw::Command::hold,
              "Hold the sequence at the end of a scan, the motor stopped, outputs as they are");
+    add_command(app, common, "give-up-stop",
+                "Repeat no longer a stop that the motor has not confirmed, so that it can be run again",
+                give_up_stop);
     add_command(app, common, "activate",
                 "Make the stored table the active one; waits 5 s for the motor to stand still", activate);
     add_command(app, common, "reset", "Restart the gateway and wait until it answers; only while stopped",

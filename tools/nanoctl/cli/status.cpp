@@ -55,7 +55,8 @@ std::string line_of(const Status& status, const Names& names) {
     if (status.has(gw::kMotorError)) text += ", ERROR";
     if (status.has(gw::kAtBreakpoint)) text += ", at a breakpoint";
     text += held_remark(status);
-    if (status.has(gw::kStopUnconfirmed)) text += ", STOP NOT CONFIRMED by the motor: it may be moving";
+    if (status.has(gw::kStopUnconfirmed))
+        text += ", STOP NOT CONFIRMED by the motor: it may be moving (mend the line, or give-up-stop)";
     if (status.has(gw::kForcedInputs) || status.has(gw::kForcedOutputs))
         text += fmt::format(", FORCED for {} ms", status.force_left);
     if (status.has(gw::kSafe)) text += fmt::format(", SAFE: {}", name_of(status.safe_reason));
