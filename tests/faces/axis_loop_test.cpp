@@ -210,6 +210,31 @@ TEST(AxisLoop, TheSeatIsTakenAndLeftByName) {
     EXPECT_EQ(bench.result(*bench.plc, bench.order(gw::Command::run)), Result::done);
 }
 
+TEST(AxisLoop, TheSeatIsTakenOverAndItsHolderIsTold) {
+    Bench bench;
+    ASSERT_EQ(bench.result(*bench.plc, bench.order(gw::Command::run)), Result::done);
+    Command seat = bench.order(gw::Command::run);
+    seat.kind = Command::Kind::take_seat;
+    EXPECT_EQ(bench.result(*bench.panel, seat), Result::seat_taken);
+    seat.kind = Command::Kind::take_over_seat;
+    EXPECT_EQ(bench.result(*bench.panel, seat), Result::done);
+    EXPECT_EQ(bench.image().holder, bench.panel->number());
+    const auto refused = bench.tell(*bench.plc, bench.order(gw::Command::run));
+    ASSERT_TRUE(refused);
+    EXPECT_EQ(refused->result, Result::seat_taken);
+    EXPECT_EQ(refused->detail, gw::kSeatTakenOver);
+}
+
+/// Nobody takes over from the other side of the local/remote switch.
+TEST(AxisLoop, TakingOverKeepsToTheSideThatMayOperate) {
+    Bench bench({.remote_input = 5});
+    bench.run(10ms);
+    Command seat = bench.order(gw::Command::run);
+    seat.kind = Command::Kind::take_over_seat;
+    EXPECT_EQ(bench.result(*bench.plc, seat), Result::seat_taken);
+    EXPECT_EQ(bench.result(*bench.panel, seat), Result::done);
+}
+
 TEST(AxisLoop, AnInputSwitchesBetweenPersonsAndThePlant) {
     Bench bench({.remote_input = 5});
     bench.run(10ms);

@@ -71,6 +71,30 @@ test("one operates, the other sees who; the seat is free when the page goes", ()
     await second.waitForFunction(() => document.body.classList.contains("operating"));
   }));
 
+test("who operates is taken over on request, and told so", () =>
+  withPages(2, async (machine, first, second) => {
+    await operate(first, machine.token);
+    await second.click("#mode");
+    await second.fill("#token", machine.token);
+    await second.click("#token-form button[type=submit]");
+    await second.click("#notices button:has-text('Take over')");
+    await second.waitForFunction(() => document.body.classList.contains("operating"));
+    await hasText(first, "#notices", "panel 2 at 127.0.0.1 has taken over; you are watching");
+    await hasText(first, "#seat", "panel 2 at 127.0.0.1 operates");
+    await first.waitForFunction(() => !document.body.classList.contains("operating"));
+  }));
+
+test("a stop that the motor does not confirm says that it may be moving", () =>
+  withPages(1, async (machine, page) => {
+    await operate(page, machine.token);
+    await page.click("#sim-cut");
+    await page.click("#do-stop");
+    await hasText(page, "#link-bar", "has not confirmed it: it may be moving");
+    await state(page, "stop not confirmed: the motor may be moving");
+    await page.click("#sim-cut");
+    await page.waitForFunction(() => document.querySelector("#link-bar").hidden);
+  }));
+
 test("run, step, scan and breakpoints", () =>
   withPages(1, async (machine, page) => {
     await operate(page, machine.token);

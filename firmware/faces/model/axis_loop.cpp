@@ -287,7 +287,9 @@ std::optional<Completion> AxisLoop::refusal() {
     if (wall_ - command.origin > Command::kLongestWait) return Completion{.result = Result::too_late};
     if (command.stops.value_or(image_.stops) != image_.stops) return Completion{.result = Result::too_late};
     if (!command.operates()) return std::nullopt;
-    const Seat::Verdict verdict = seat_.take(work_->client, wall_);
+    const bool takes_over = command.kind == Command::Kind::take_over_seat;
+    const Seat::Verdict verdict =
+        takes_over ? seat_.take_over(work_->client, wall_) : seat_.take(work_->client, wall_);
     if (verdict == Seat::Verdict::granted) return std::nullopt;
     return Completion{.result = Result::seat_taken, .detail = detail_of(verdict)};
 }
@@ -298,6 +300,7 @@ void AxisLoop::begin(gateway::Controller& controller) {
     if (ended_) return;
     switch (command.kind) {
         case Kind::take_seat:
+        case Kind::take_over_seat:
             ended_ = Completion{};
             return;
         case Kind::leave_seat:

@@ -68,6 +68,7 @@ bool Command::operates() const {
         case Kind::write_motor:
         case Kind::reset_error:
         case Kind::take_seat:
+        case Kind::take_over_seat:
             return true;
         case Kind::read_motor:
         case Kind::leave_seat:

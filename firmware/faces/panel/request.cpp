@@ -129,7 +129,9 @@ Asked command_of(const Request& request, registers::Model model, base::Instant n
         return motor_access(request, model, now);
     Command command;
     command.origin = now;
-    command.kind = request.what == "leave" ? Command::Kind::leave_seat : Command::Kind::take_seat;
+    using Kind = Command::Kind;
+    const Kind take = request.flag("take_over") ? Kind::take_over_seat : Kind::take_seat;
+    command.kind = request.what == "leave" ? Kind::leave_seat : take;
     return {command, {}};
 }
 

@@ -21,6 +21,7 @@ struct Command {
         reset_error,  ///< clears the error bits of ERR_STAT, and leaves its settings; of a MIDI drive as 01h
                       ///< does
         take_seat,
+        take_over_seat,  ///< whoever has it
         leave_seat,
     };
     Kind kind = Kind::write_own;

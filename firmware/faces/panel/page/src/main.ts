@@ -138,6 +138,7 @@ function paintLink(age: number): void {
   else if (wire.state === "lost") bar("The connection is lost. What you see is old; the page connects again by itself.");
   else if (wire.state === "connecting") bar("Connecting…");
   else if (current && current.imageAt > 0 && age > kOld) bar(`No news of the axis for ${duration(age)}: what you see is old.`);
+  else if (current?.stopUnconfirmed) bar("The motor was told to stop and has not confirmed it: it may be moving. Look at its supply and its line.");
   else bar("");
 }
 
@@ -148,7 +149,7 @@ function paint(): void {
   if (!axis || axis.imageAt === 0) return;
   const words = axis.stateInWords();
   setText(byId("state-text"), words);
-  const kind = axis.status(6) || axis.error ? (axis.runState === 0 && [1, 2].includes(axis.r.SAFE_REASON) ? "stopped" : "bad") : axis.isRunning ? "run" : "held";
+  const kind = axis.stopUnconfirmed ? "bad" : axis.status(6) || axis.error ? (axis.runState === 0 && [1, 2].includes(axis.r.SAFE_REASON) ? "stopped" : "bad") : axis.isRunning ? "run" : "held";
   setAttribute(byId("state"), "data-kind", kind);
   setAttribute(byId("state"), "title", kReasons[axis.r.SAFE_REASON]?.remedy ?? "");
   paintProgram(axis);

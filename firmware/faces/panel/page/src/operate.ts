@@ -4,6 +4,8 @@ import type { Axis } from "./state";
 import type { Answer, Wire } from "./wire";
 
 const kTokenKey = "nanoplc-token";
+// Of an answer: firmware/gateway/REGISTERS.md.
+const kSeatTaken = 22;
 
 export class Operation {
   operates = false;
@@ -80,8 +82,19 @@ export class Operation {
   async enter(): Promise<void> {
     if (!this.axis) return this.needsPassword ? this.askToken("This panel asks for its password, or for the token to operate.") : undefined;
     if (!this.mayOperate) return this.askToken("Commands move the machine. Give the token that the program printed when it started.");
-    const answer = await this.wire.ask({ do: "seat", axis: this.axis.info.name });
-    if (answer.result !== "done") return this.notice(`Not operating: ${answer.text}${this.axis.seat.holder ? ` (${this.axis.seat.holder} operates)` : ""}`);
+    await this.takeSeat(false);
+  }
+
+  private async takeSeat(takesOver: boolean): Promise<void> {
+    const axis = this.axis;
+    if (!axis) return;
+    const answer = await this.wire.ask({ do: "seat", axis: axis.info.name, take_over: takesOver });
+    if (answer.result !== "done") {
+      const isTaken = !takesOver && answer.code === kSeatTaken && axis.seat.holder !== "";
+      this.notice(`Not operating: ${answer.text}${axis.seat.holder ? ` (${axis.seat.holder} operates)` : ""}`, false, isTaken
+        ? { label: "Take over", act: () => { if (this.axis === axis) void this.takeSeat(true); } } : undefined);
+      return;
+    }
     this.setOperates(true);
     this.notice("You operate this axis now. Commands move the machine.");
   }
@@ -95,7 +108,8 @@ export class Operation {
   lostSeat(): void {
     if (!this.operates) return;
     this.setOperates(false);
-    this.notice("The operator's seat is no longer yours; you are watching.", true);
+    const holder = this.axis?.seat.holder;
+    this.notice(`${holder ? `${holder} has taken over` : "The operator's seat is no longer yours"}; you are watching.`, true);
   }
 
   setOperates(on: boolean): void {
@@ -117,12 +131,13 @@ export class Operation {
     if (this.axis.forcedInputs || this.axis.forcedOutputs) void this.wire.ask({ do: "write", axis, register: "FORCE_LEFT", value: 1 });
   }
 
-  notice(text: string, alarm = false): void {
-    const line = h("div", { class: `notice${alarm ? " alarm" : ""}`, role: alarm ? "alert" : "status" }, text,
+  notice(text: string, alarm = false, offer?: { label: string; act: () => void }): void {
+    const button = offer ? [h("button", { type: "button", onclick: () => { line.remove(); offer.act(); } }, offer.label)] : [];
+    const line: HTMLElement = h("div", { class: `notice${alarm ? " alarm" : ""}`, role: alarm ? "alert" : "status" }, text, ...button,
       h("button", { type: "button", class: "plain", "aria-label": "dismiss", onclick: () => line.remove() }, "×"));
     this.notices.append(line);
     while (this.notices.childElementCount > 4) this.notices.firstElementChild!.remove();
-    setTimeout(() => line.remove(), alarm ? 20_000 : 6_000);
+    setTimeout(() => line.remove(), alarm || offer ? 20_000 : 6_000);
   }
 
   /** Of the axis that is shown; the caller says what was refused. */

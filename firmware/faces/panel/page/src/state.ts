@@ -123,6 +123,8 @@ export class Axis {
     const image = this.inputs | (this.inPosition ? 0x40 : 0) | (this.error ? 0x80 : 0);
     return keyOf(image, this.r.TIMER ?? 0, this.r.COUNTER ?? 0);
   }
+  /** The motor was told to stop and has not confirmed it. */
+  get stopUnconfirmed(): boolean { return this.status(19); }
   get hasTable(): boolean { return this.status(11); }
   get forcedInputs(): number { return ((this.r.FORCE_IN ?? 0) >> 8) & 0x3f; }
   get forcedOutputs(): number { return ((this.r.FORCE_OUT ?? 0) >> 8) & 0xf; }
@@ -186,6 +188,7 @@ export class Axis {
   }
 
   stateInWords(): string {
+    if (this.stopUnconfirmed) return "stop not confirmed: the motor may be moving";
     if (this.status(6) && this.runState !== 2) return `stopped: ${kReasons[this.r.SAFE_REASON]?.short ?? "safe"}`;
     if (this.status(6)) return `outputs safe: ${kReasons[this.r.SAFE_REASON]?.short ?? ""}`;
     if (this.status(10)) return "held at a breakpoint";
