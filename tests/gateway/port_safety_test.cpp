@@ -4,6 +4,7 @@
 #include "base/bytes.h"
 #include "base/crc32.h"
 #include "port_bench.h"
+#include "registers/mac.h"
 
 namespace nplc::gateway {
 namespace {
@@ -169,6 +170,19 @@ TEST_F(PortSafety, WhileItWaitsForTheMotorOrIsAboutToHoldTheMotorIsNotWritten) {
     ASSERT_TRUE(command(Command::hold));
     board.is_settled = false;
     expect_refused(reg::RunState::holding);
+}
+
+TEST_F(PortSafety, AModeOfZeroAtTheMotorsAddressIsAStop) {
+    for (const std::uint32_t allowed : {0U, 2U}) {
+        start({.autostart = false});
+        ASSERT_TRUE(set(store::Setting::motor_writes, allowed));
+        start_table();
+        EXPECT_TRUE(write(registers::MODE_REG, 0, 2, kMotor));
+        EXPECT_EQ(state(), reg::RunState::stopped);
+        EXPECT_EQ(read(reg::SAFE_REASON), static_cast<std::uint32_t>(SafeReason::stop_command));
+        EXPECT_EQ(board.stops, 1);
+        EXPECT_TRUE(write(registers::MODE_REG, 0, 2, kMotor)) << "the motor's own register again";
+    }
 }
 
 TEST_F(PortSafety, ASettingAllowsMotorWritesWhileItRuns) {

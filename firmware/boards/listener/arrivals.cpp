@@ -83,11 +83,8 @@ void Listener::take_byte(Client& client, std::uint8_t byte, base::Instant now) {
     if (!message) return;
     client.heard = ++messages_;
     if (!options_.password.empty() && is_about_password(client, *message, now)) return;
-    Frame frame{*message,
-                purpose_of(*message, addresses_.gateway),
-                needs_seat(*message, addresses_.gateway),
-                client.drained,
-                {}};
+    Frame frame{
+        *message, purpose_of(*message, addresses_), needs_seat(*message, addresses_), client.drained, {}};
     if (message->kind == mactalk::Kind::write) {
         const auto data = client.decoder.data();
         frame.data.assign(data.begin(), data.end());

@@ -1,5 +1,6 @@
 #include "listener/purpose.h"
 
+#include "gateway/user_port.h"
 #include "registers/gateway.h"
 
 namespace nplc::boards {
@@ -7,11 +8,14 @@ namespace nplc::boards {
 namespace gw = registers::gateway;
 using protocol::mactalk::Kind;
 
-Purpose purpose_of(const protocol::mactalk::Request& request, std::uint8_t gateway_address) {
+Purpose purpose_of(const protocol::mactalk::Request& request, const Addresses& addresses) {
     if (request.kind == Kind::read || request.kind == Kind::read_block || request.kind == Kind::read_samples)
         return Purpose::reads;
-    if (request.kind != Kind::write || request.address != gateway_address || request.reg != gw::COMMAND ||
-        request.length > 4)
+    const bool is_own = request.address == addresses.gateway;
+    const bool is_motors =
+        !is_own && (request.address == addresses.motor || request.address == protocol::mactalk::kEveryone);
+    if (is_motors && gateway::UserPort::is_stop(request)) return Purpose::stops;
+    if (request.kind != Kind::write || !is_own || request.reg != gw::COMMAND || request.length > 4)
         return Purpose::operates;
     switch (request.value) {
         case static_cast<std::uint32_t>(gw::Command::stop):
@@ -23,10 +27,10 @@ Purpose purpose_of(const protocol::mactalk::Request& request, std::uint8_t gatew
     }
 }
 
-bool needs_seat(const protocol::mactalk::Request& request, std::uint8_t gateway_address) {
-    const bool is_free = request.kind == Kind::write && request.address == gateway_address &&
+bool needs_seat(const protocol::mactalk::Request& request, const Addresses& addresses) {
+    const bool is_free = request.kind == Kind::write && request.address == addresses.gateway &&
                          gw::is_for_everybody(request.reg, request.value);
-    return !is_free && purpose_of(request, gateway_address) == Purpose::operates;
+    return !is_free && purpose_of(request, addresses) == Purpose::operates;
 }
 
 }  // namespace nplc::boards

@@ -8,6 +8,11 @@
 #include "gateway/own_registers.h"
 #include "ports/serial.h"
 #include "protocol/mactalk.h"
+#include "registers/mac.h"
+
+#ifndef NPLC_MODE_STOPS  // 0 in an image that has no room for it
+#define NPLC_MODE_STOPS 1
+#endif
 
 namespace nplc::gateway {
 
@@ -16,6 +21,12 @@ namespace nplc::gateway {
 /// answer to the one before. Refused messages get no answer.
 class UserPort {
   public:
+    /// Of a message to the motor: MODE_REG := 0, passive. While a sequence runs it is the command stop, too.
+    static constexpr bool is_stop(const protocol::mactalk::Request& request) {
+        return request.kind == protocol::mactalk::Kind::write && request.reg == registers::MODE_REG &&
+               request.length <= 4 && request.value == 0;
+    }
+
     /// `line`: null where messages come decoded, by submit(), or nobody is served. `motor_line`: the motor's
     /// own MacTalk port if it is wired, for what FlexMAC cannot carry; or null.
     UserPort(ports::SerialPort* line, ports::SerialPort* motor_line, Gateway& gateway, motor::Motor& motor,

@@ -45,10 +45,7 @@ class Listener {
         std::string password = {};          ///< empty: none is asked for
         std::size_t places = kMostClients;  ///< for so many clients at once
     };
-    struct Addresses {
-        std::uint8_t gateway;
-        std::uint8_t motor;
-    };
+    using Addresses = boards::Addresses;
 
     explicit Listener(Options options);
     ~Listener();
