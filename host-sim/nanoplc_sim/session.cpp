@@ -154,7 +154,10 @@ Session::Session(const RunOptions& options, const Program& program, const Scenar
     if (options.vcd) vcd_.emplace(*options.vcd, program.names, identity(program));
     if (options.junit) junit_.emplace(*options.junit);
     if (!length_ && !options.realtime && !scenario.can_end()) length_ = kDefaultLength;
-    world_.on_log([this](const std::string& text) { timeline_.remark('"' + host::printable(text) + '"'); });
+    world_.on_log([this](const std::string& text) {
+        timeline_.remark('"' + host::printable(text) + '"');
+        remember(text);
+    });
     runner_.on_failure([this](const ExpectationResult& outcome, Time) {
         timeline_.alarm(fmt::format("FAILED {}:{}: {}", scenario_.file, outcome.line, outcome.expectation));
     });
@@ -364,6 +367,7 @@ void Session::summary() {
     if (vcd_) say(fmt::format("trace: {}", *options_.vcd));
     if (junit_) say(fmt::format("JUnit: {}", *options_.junit));
     judgements();
+    last_remarks();
 }
 
 void Session::lines_in_words() {
@@ -400,6 +404,19 @@ void Session::judgements() const {
                         host::printable(outcome.expectation), outcome.seen),
             2);
     }
+}
+
+void Session::remember(const std::string& remark) {
+    if (remarked_ != now()) remarks_.clear();
+    remarked_ = now();
+    remarks_.push_back(host::printable(remark));
+}
+
+/// What a scenario says of how it ended must not be taken for "all is well".
+void Session::last_remarks() const {
+    if (remarked_ != now()) return;
+    for (const std::string& remark : remarks_)
+        say(fmt::format("{}, at {} ms", remark, in_milliseconds(remarked_)));
 }
 
 }  // namespace nplc::sim

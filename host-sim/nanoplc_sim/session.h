@@ -71,6 +71,8 @@ class Session {
     void follow_orders();
     void compare_orders();
     void judgements() const;
+    void remember(const std::string& remark);
+    void last_remarks() const;
 
     const Program& program_;
     const RunOptions& options_;
@@ -86,6 +88,8 @@ class Session {
     std::optional<OutputFile> junit_;
     std::optional<Time> length_;
     Snapshot last_;
+    std::vector<std::string> remarks_;  ///< of the instant below
+    Time remarked_{0};
     gateway::SafeReason reason_ = gateway::SafeReason::not_started;
     std::string motor_note_;
     std::uint32_t bites_ = 0;

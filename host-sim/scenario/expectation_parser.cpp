@@ -109,7 +109,7 @@ void ExpectationParser::of_event(Expectation& result) {
 
 bool ExpectationParser::starts_count() const {
     if (reader_.is("at")) return reader_.is("least", 1) || reader_.is("most", 1);
-    return reader_.peek().kind == Token::Kind::number && (reader_.is("times", 1) || reader_.is("time", 1));
+    return reader_.starts_times();
 }
 
 void ExpectationParser::count(Expectation& result) {
@@ -117,25 +117,17 @@ void ExpectationParser::count(Expectation& result) {
     if (reader_.take("at")) {
         const bool least = reader_.take("least");
         if (!least) reader_.want("most", "at least 3 times, or at most 3 times");
-        const std::uint64_t times = number_of_times();
+        const std::uint64_t times = reader_.times();
         (least ? result.least : result.most) = times;
         if (!least) result.least = 0;
     } else if (reader_.peek().kind == Token::Kind::number) {
-        result.least = result.most = number_of_times();
+        result.least = result.most = reader_.times();
     }
     if (reader_.take("by")) {
         result.time = reader_.duration("a time after by");
     } else {
         take_window(result);
     }
-}
-
-std::uint64_t ExpectationParser::number_of_times() {
-    const double number = reader_.number("a number of times");
-    if (number < 0 || number != static_cast<double>(static_cast<std::uint32_t>(number)))
-        reader_.refuse("a number of times is a whole number, such as 3 times");
-    if (!reader_.take("times")) reader_.want("time", "times, such as 3 times");
-    return static_cast<std::uint64_t>(number);
 }
 
 }  // namespace nplc::sim

@@ -68,6 +68,9 @@ class Reader {
     Time duration(std::string_view what_to_write);
     double percent(std::string_view what_to_write);
     bool starts_duration() const;
+    bool starts_times() const;
+    /// `3 times`
+    std::uint64_t times();
     /// `for 200 ms`; 0 without it.
     Time lasting();
     /// Begins at `from` where nothing else is written.
@@ -149,7 +152,6 @@ class ExpectationParser {
     void of_event(Expectation& result);
     bool starts_count() const;
     void count(Expectation& result);
-    std::uint64_t number_of_times();
 
     Reader& reader_;
     ConditionParser& conditions_;

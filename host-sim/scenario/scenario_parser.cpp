@@ -97,11 +97,18 @@ class LineParser {
         WhenRule rule;
         rule.event = conditions_.event();
         rule.once = once;
+        if (once && reader_.starts_times()) rule.times = times();
         rule.line = line_;
         const Window window = reader_.window();
         rule.from = window.from;
         rule.until = window.until;
         return rule;
+    }
+
+    std::uint64_t times() {
+        const std::uint64_t times = reader_.times();
+        if (times == 0) reader_.refuse("an event is awaited once or more often, such as 2 times");
+        return times;
     }
 
     void end() {

@@ -98,6 +98,7 @@ bool ScenarioRunner::observe(const Snapshot& snapshot) {
         const WhenRule& rule = scenario_.when[i];
         if (!watches_[i].watch.happens(snapshot, names_) || watches_[i].done) continue;
         if (now < rule.from || (rule.until && now > *rule.until)) continue;
+        if (++watches_[i].happened < rule.times) continue;
         watches_[i].done = rule.once;
         plan(rule.actions, now, rule.line, true);
     }

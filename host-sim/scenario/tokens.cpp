@@ -195,6 +195,18 @@ bool Reader::starts_duration() const {
     return is_written || named_time().has_value();
 }
 
+bool Reader::starts_times() const {
+    return peek().kind == Token::Kind::number && (is("times", 1) || is("time", 1));
+}
+
+std::uint64_t Reader::times() {
+    const double value = number("a number of times");
+    if (value < 0 || value != static_cast<double>(static_cast<std::uint32_t>(value)))
+        refuse("a number of times is a whole number, such as 3 times");
+    if (!take("times")) want("time", "times, such as 3 times");
+    return static_cast<std::uint64_t>(value);
+}
+
 Time Reader::lasting() {
     if (!take("for")) return Time{0};
     const Time time = duration("a time after for, such as for 200 ms");

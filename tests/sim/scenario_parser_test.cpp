@@ -141,7 +141,10 @@ TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
         never OUT0 and OUT1
         always INPUTS <> 63 from 1 s until 2 s
         expect never ERROR
+        once step = Idle 2 times after 5 ms Start := 1
+        once Grip rises and Guard for 20 ms 3 times from 1 s Start := 1
         end when step = Idle after 1 s
+        end when step = Idle 2 times from 1 s after 1 s
         end at 10 s
         motor HW_SETUP := XPRINP NOFILT
         motor FLWERRMAX := 0.5 rev

@@ -137,7 +137,8 @@ struct EveryRule {
 struct WhenRule {
     Event event;
     bool once = false;
-    Time from{0};  ///< events before it, or after `until`, set nothing off
+    std::uint64_t times = 1;  ///< the event must have happened so often
+    Time from{0};             ///< events before it, or after `until`, set nothing off
     std::optional<Time> until;
     Actions actions;
     int line = 0;

@@ -84,6 +84,7 @@ class ScenarioRunner {
     };
     struct Watched {
         EventWatch watch;
+        std::uint64_t happened = 0;
         bool done = false;
     };
     struct Followed {
