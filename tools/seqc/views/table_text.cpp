@@ -141,12 +141,18 @@ std::string order_text(const sequencer::MotorOrder& order, const Symbols* symbol
 
 namespace {
 
-std::string register_as_named(std::string_view reg, const Symbols* symbols) {
+std::string register_as_named(std::uint8_t number, std::string_view reg, const Symbols* symbols) {
     if (symbols == nullptr) return std::string(reg);
     const auto& names = symbols->motor_names;
     const auto found =
-        std::find_if(names.begin(), names.end(), [&](const MotorName& n) { return n.reg == reg; });
+        std::find_if(names.begin(), names.end(), [&](const MotorName& n) { return n.number == number; });
     return found == names.end() ? std::string(reg) : found->name;
+}
+
+/// A command names P1..P8 and so on, by the numbers that all motors have there.
+std::string selected_as_named(std::string_view reg, const Symbols* symbols) {
+    const registers::Register* found = registers::find(registers::Model::mac140, reg);
+    return found == nullptr ? std::string(reg) : register_as_named(found->number, reg, symbols);
 }
 
 }  // namespace
@@ -154,7 +160,8 @@ std::string register_as_named(std::string_view reg, const Symbols* symbols) {
 std::string named_order_text(const sequencer::MotorOrder& order, const Symbols* symbols) {
     if (order.is_register_write) {
         const std::int64_t value = value_of(order, symbols);
-        return fmt::format("{} := {}", register_as_named(register_name(order.reg, symbols), symbols),
+        return fmt::format("{} := {}",
+                           register_as_named(order.reg, register_name(order.reg, symbols), symbols),
                            with_unit(value, order.reg, symbols).value_or(value_text(order, symbols)));
     }
     const std::string text = describe_command(order.command);
@@ -162,7 +169,7 @@ std::string named_order_text(const sequencer::MotorOrder& order, const Symbols* 
     const std::size_t close = text.find(')');
     if (open == std::string::npos || close == std::string::npos) return text;
     const std::string reg = text.substr(open + 1, close - open - 1);
-    return text.substr(0, open + 1) + register_as_named(reg, symbols) + text.substr(close);
+    return text.substr(0, open + 1) + selected_as_named(reg, symbols) + text.substr(close);
 }
 
 std::string time_text(std::uint16_t milliseconds) {
@@ -222,7 +229,8 @@ std::optional<std::string> with_unit(std::int64_t value, std::uint8_t number, co
     std::string text;
     for (int places = -kMostPlaces; places <= kMostPlaces; ++places) {
         const double tens = std::pow(10.0, std::max(-places, 0));
-        text = fmt::format("{:.{}f}", std::round(exact / tens) * tens, std::max(places, 0));
+        const double shown = places < 0 ? std::round(exact / tens) * tens : exact;
+        text = fmt::format("{:.{}f}", shown, std::max(places, 0));
         if (std::llround(std::strtod(text.c_str(), nullptr) * *raw) == value) break;
     }
     return unit.empty() ? text : fmt::format("{} {}", text, unit);
