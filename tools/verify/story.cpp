@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -17,15 +18,15 @@ std::string listed(const std::vector<std::string>& words) {
 std::string image_text(std::uint8_t image, const Names& names) {
     std::vector<std::string> on;
     for (unsigned i = 0; i < 6; ++i) {
-        if (((unsigned{image} >> i) & 1U) != 0)
-            on.push_back(names.inputs[i].empty() ? fmt::format("IN{}", i) : names.inputs[i]);
+        if (((unsigned{image} >> i) & 1U) != 0) on.push_back(input_name(names, i));
     }
     if ((image & sequencer::kInPos) != 0) on.emplace_back("INPOS");
     if ((image & sequencer::kError) != 0) on.emplace_back("ERROR");
     return listed(on);
 }
 
-std::string orders_text(const std::vector<sequencer::MotorOrder>& orders) {
+/// As a trace has them.
+std::string bare_orders(const std::vector<sequencer::MotorOrder>& orders) {
     std::string text;
     for (const auto& order : orders) {
         text += order.is_register_write ? fmt::format(" {}={}", order.reg, order.value)
@@ -34,33 +35,121 @@ std::string orders_text(const std::vector<sequencer::MotorOrder>& orders) {
     return text;
 }
 
-/// Actions that lead from one image to the next; what INPOS does is the motor's.
-std::vector<std::string> actions_between(std::uint8_t before, std::uint8_t image) {
-    std::vector<std::string> actions;
-    for (unsigned i = 0; i < 6; ++i) {
-        if (((unsigned{before} ^ image) >> i & 1U) != 0)
-            actions.push_back(fmt::format("IN{} := {}", i, (unsigned{image} >> i) & 1U));
+/// Lines that are no longer than they must be.
+std::vector<std::string> order_lines(const std::vector<sequencer::MotorOrder>& orders, const Names& names) {
+    constexpr std::size_t kLongest = 60;
+    std::vector<std::string> lines;
+    for (const auto& order : orders) {
+        const std::string text = names.order ? names.order(order) : bare_orders({order}).substr(1);
+        if (!lines.empty() && lines.back().size() + 2 + text.size() <= kLongest) {
+            lines.back() += "; " + text;
+        } else {
+            if (!lines.empty()) lines.back() += ";";
+            lines.push_back(text);
+        }
     }
-    if ((image & ~unsigned{before} & sequencer::kError) != 0) actions.emplace_back("motor error");
-    return actions;
+    return lines;
 }
 
-/// Steps that a course enters once only: their entry is an event to wait for.
-std::array<unsigned, 64> entries_of(const Course& course) {
-    std::array<unsigned, 64> entries{};
-    for (const PlayedScan& scan : course) {
-        if (scan.after.step != scan.step) ++entries[scan.after.step];
+/// Rows of words, each column as wide as its longest.
+class Columns {
+  public:
+    static constexpr std::size_t kCount = 7;
+    using Row = std::array<std::string, kCount>;
+
+    void add(Row row) {
+        for (std::size_t i = 0; i < kCount; ++i) widths_[i] = std::max(widths_[i], row[i].size());
+        rows_.push_back(std::move(row));
     }
-    return entries;
+
+    std::string text() const {
+        std::string text;
+        for (const Row& row : rows_) {
+            std::string line;
+            for (std::size_t i = 0; i < kCount; ++i)
+                line += is_number(i) ? fmt::format("  {:>{}}", row[i], widths_[i])
+                                     : fmt::format("  {:<{}}", row[i], widths_[i]);
+            text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+        }
+        return text;
+    }
+
+  private:
+    static bool is_number(std::size_t column) { return column == 0 || column == 4 || column == 5; }
+
+    std::array<std::size_t, kCount> widths_{7};
+    std::vector<Row> rows_;
+};
+
+void add_scan(Columns& columns, std::uint64_t time, const PlayedScan& scan, const Names& names) {
+    const std::string steps =
+        scan.step == scan.after.step
+            ? step_name(names, scan.step)
+            : fmt::format("{} -> {}", step_name(names, scan.step), step_name(names, scan.after.step));
+    const std::vector<std::string> orders = order_lines(scan.orders, names);
+    columns.add({fmt::format("{}", time), image_text(scan.image, names), steps,
+                 outputs_text(scan.after.outputs, names), fmt::format("{}", scan.after.timer),
+                 fmt::format("{}", scan.after.counter), orders.empty() ? "" : orders.front()});
+    for (std::size_t i = 1; i < orders.size(); ++i) columns.add({"", "", "", "", "", "", orders[i]});
+}
+
+/// Inputs that change between the scan that leads into a step and one that begins there, by name.
+std::vector<std::string> changes_in(const Course& course, std::uint8_t step, const Names& names) {
+    unsigned changed = 0;
+    for (std::size_t i = 1; i < course.size(); ++i) {
+        if (course[i].step == step) changed |= unsigned{course[i].image} ^ unsigned { course[i - 1].image };
+    }
+    std::vector<std::string> inputs;
+    for (unsigned i = 0; i < 6; ++i) {
+        if ((changed >> i & 1U) != 0) inputs.push_back(input_name(names, i));
+    }
+    return inputs;
+}
+
+std::string helpers_text(const Course& course, const Names& names) {
+    std::uint64_t told = 0;
+    std::string text;
+    for (const PlayedScan& scan : course) {
+        const std::uint64_t bit = std::uint64_t{1} << scan.after.step;
+        if ((names.helpers & bit & ~told) == 0) continue;
+        told |= bit;
+        const std::vector<std::string> changed = changes_in(course, scan.after.step, names);
+        text += fmt::format(
+            "  {} is a helper step that the compiler made for a branch; it does not ask again{}\n",
+            step_name(names, scan.after.step),
+            changed.empty() ? "" : fmt::format(": write a step that tests {}", fmt::join(changed, " and ")));
+    }
+    return text;
+}
+
+/// When, and in which scan, the course shows what it is for.
+std::string end_text(const Result& result) {
+    const Course& course = *result.course;
+    std::uint64_t time = 0;
+    for (const PlayedScan& scan : course) time += scan.dt_ms;
+    const std::uint32_t last = course.back().dt_ms;
+    const bool breaks = result.code.empty();
+    const std::string what =
+        fmt::format("here {} {}", breaks ? result.name : result.code, breaks ? "breaks" : "shows");
+    if (result.is_late)
+        return fmt::format("  {:>7}  {}: {} ms after scan {}\n", time, what, last, course.size());
+    return fmt::format("  {:>7}  {}: in scan {}\n", time - last, what, course.size());
 }
 
 }  // namespace
 
+std::string input_name(const Names& names, unsigned input) {
+    return names.inputs[input].empty() ? fmt::format("IN{}", input) : names.inputs[input];
+}
+
+std::string output_name(const Names& names, unsigned output) {
+    return names.outputs[output].empty() ? fmt::format("OUT{}", output) : names.outputs[output];
+}
+
 std::string outputs_text(std::uint8_t outputs, const Names& names) {
     std::vector<std::string> on;
     for (unsigned i = 0; i < 4; ++i) {
-        if (((unsigned{outputs} >> i) & 1U) != 0)
-            on.push_back(names.outputs[i].empty() ? fmt::format("OUT{}", i) : names.outputs[i]);
+        if (((unsigned{outputs} >> i) & 1U) != 0) on.push_back(output_name(names, i));
     }
     return listed(on);
 }
@@ -69,28 +158,17 @@ std::string step_name(const Names& names, std::uint8_t step) {
     return names.steps[step].empty() ? fmt::format("{}", step) : names.steps[step];
 }
 
-std::string story_of(const Course& course, const Names& names) {
-    std::string text =
-        fmt::format("  {:>9}  {:<24} {:<28} {:<20} {}\n", "ms", "on", "step", "outputs", "timer counter");
+std::string story_of(const Result& result, const Names& names) {
+    const Course& course = *result.course;
+    if (course.empty()) return {};
+    Columns columns;
+    columns.add({"ms", "on", "step", "outputs", "timer", "counter", "orders"});
     std::uint64_t time = 0;
-    std::size_t scans = 0;
     for (const PlayedScan& scan : course) {
-        if (!scan.repeats) {
-            const std::string steps =
-                scan.step == scan.after.step
-                    ? step_name(names, scan.step)
-                    : fmt::format("{} -> {}", step_name(names, scan.step), step_name(names, scan.after.step));
-            std::string line =
-                fmt::format("  {:>9}  {:<24} {:<28} {:<20} {} {}", time, image_text(scan.image, names), steps,
-                            outputs_text(scan.after.outputs, names), scan.after.timer, scan.after.counter);
-            if (!scan.orders.empty()) line += fmt::format("  sends{}", orders_text(scan.orders));
-            text += line + "\n";
-        }
-        ++scans;
+        if (!scan.repeats) add_scan(columns, time, scan, names);
         time += scan.dt_ms;
     }
-    return text + fmt::format("  {} scan{}, then {} ms\n", scans, scans == 1 ? "" : "s",
-                              course.empty() ? 0 : course.back().dt_ms);
+    return columns.text() + end_text(result) + helpers_text(course, names);
 }
 
 std::string stimulus_of(const Course& course) {
@@ -114,7 +192,7 @@ std::string trace_of(const Course& course) {
     };
     std::uint64_t time = 0;
     for (const PlayedScan& scan : course) {
-        const std::string orders = orders_text(scan.orders);
+        const std::string orders = bare_orders(scan.orders);
         row(time, scan, scan.after.timer, orders.empty() ? orders : orders.substr(1));
         time += scan.dt_ms;
     }
@@ -122,42 +200,6 @@ std::string trace_of(const Course& course) {
     const PlayedScan& last = course.back();
     const std::uint32_t left = last.after.timer > last.dt_ms ? last.after.timer - last.dt_ms : 0;
     row(time + (last.dt_ms == 0 ? 1 : 0), last, static_cast<std::uint16_t>(left), "");
-    return text;
-}
-
-std::string scenario_of(const Result& result, const Names& names) {
-    const Course& course = *result.course;
-    std::string text = fmt::format(
-        "# {}: {}\n# {}.\n# Inputs as in the course that shows it; INPOS comes from the motor, so a course "
-        "that needs it "
-        "at another\n# time than the motor's is not followed.\n\n",
-        result.name, result.text, result.reason);
-    const auto entries = entries_of(course);
-    std::string since = "at";  // an event, or the time from the beginning
-    std::uint64_t begun = 0;
-    std::uint64_t time = 0;
-    std::uint8_t image = 0;
-    for (const PlayedScan& scan : course) {
-        const std::vector<std::string> actions = actions_between(image, scan.image);
-        image = scan.image;
-        if (!actions.empty()) {
-            const std::string list = fmt::format("{}", fmt::join(actions, ", "));
-            if (since != "at") {
-                text += fmt::format("once {} after {} ms {}\n", since, time - begun, list);
-            } else {
-                text += time == 0 ? list + "\n" : fmt::format("at {} ms {}\n", time, list);
-            }
-        }
-        if (scan.after.step != scan.step && entries[scan.after.step] == 1) {
-            since = fmt::format("step = {}", step_name(names, scan.after.step));
-            begun = time;
-        }
-        time += scan.dt_ms;
-    }
-    constexpr std::uint64_t kStartUp = 1'000;
-    const sequencer::State& end = course.back().after;
-    text += fmt::format("\nexpect eventually step = {} and OUTPUTS = {}\nend at {} ms\n",
-                        step_name(names, end.step), end.outputs, time + kStartUp);
     return text;
 }
 

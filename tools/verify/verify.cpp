@@ -29,35 +29,40 @@ Target target_of(const Property& property) {
     }
 }
 
-const char* reason_of(Form form) {
-    switch (form) {
+const char* reason_of(const Property& property) {
+    switch (property.form) {
         case Form::never:
-            return "it holds after the last scan";
+            return property.is_implied
+                       ? "at the end of this course WHENEVER's condition holds, and THEN's does not"
+                       : "its condition holds at the end of this course";
         case Form::always:
-            return "it does not hold after the last scan";
+            return "its condition does not hold at the end of this course";
         case Form::reachable:
             return "no course leads to such a scan";
         case Form::always_possible:
         case Form::after_possible:
-            return "no course leads there any more from the state after the last scan";
+            return "from the end of this course no way leads there any more";
         case Form::whenever:
-            return "THEN's condition did not hold in time";
+            return "THEN's condition has not held in time when this course ends";
         case Form::never_while:
-            return "it holds after the last scan, and WHILE's condition has held for that time";
+            return property.text.starts_with("WHENEVER")
+                       ? "at the end of this course WHENEVER's condition has held for that time, and THEN's "
+                         "does not hold"
+                       : "its condition holds at the end of this course, and WHILE's has held for that time";
         case Form::only_after:
-            return "it holds after the last scan, and AFTER's condition never held before";
+            return "it holds at the end of this course, and AFTER's condition never held before";
         case Form::only_after_both:
-            return "it holds after the last scan, and these two never held one after the other before";
+            return "it holds at the end of this course, and these two never held one after the other before";
         case Form::only_from:
-            return "it holds after the last scan, and FROM's condition never held when a scan began";
+            return "it holds at the end of this course, and FROM's condition never held when a scan began";
         case Form::stays:
-            return "after the last scan it is otherwise";
+            return "at the end of this course it is otherwise";
         case Form::changes_only_in:
-            return "it changed with the last scan";
+            return "it changes at the end of this course";
         case Form::scan_ends:
-            return "the last scan began there and ended elsewhere";
+            return "the last scan of this course begins there and ends elsewhere";
         case Form::followed_by:
-            return "THEN's condition does not hold after the last scan";
+            return "THEN's condition does not hold at the end of this course";
     }
     return "";
 }
@@ -93,12 +98,13 @@ Result judged(Decider& decider, const Property& property, std::size_t target, As
     const bool wanted = property.form == Form::reachable;
     const bool can_be = finding.answer == Answer::can_be;
     result.verdict = can_be == wanted ? Verdict::proved : Verdict::broken;
-    if (result.verdict == Verdict::broken) result.reason = reason_of(property.form);
+    if (result.verdict == Verdict::broken) result.reason = reason_of(property);
     if (result.verdict == Verdict::proved && wanted && !decider.is_reached_with_all(target)) {
         result.verdict = Verdict::undecided;
         result.reason = kWithSome;
     }
     keep(result, std::move(finding.played));
+    result.is_late = late && result.verdict == Verdict::broken;
     if (late && result.course && assume == Assume::any) make_late(*result.course, property.within_ms);
     return result;
 }

@@ -38,7 +38,7 @@ std::string case_of(const verify::Result& result, const std::string& file, const
     if (result.verdict == Verdict::proved) return text + "/>\n";
     const bool fails = counts(result, Verdict::broken);
     const char* element = fails ? "failure" : counts(result, Verdict::undecided) ? "error" : "system-out";
-    const std::string story = result.course ? verify::story_of(*result.course, names) : "";
+    const std::string story = result.course ? verify::story_of(result, names) : "";
     text += fmt::format(">\n      <{}", element);
     if (element != std::string_view("system-out"))
         text += fmt::format(" message=\"{}\" type=\"{}\"", escaped(result.reason),

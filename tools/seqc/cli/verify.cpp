@@ -47,7 +47,7 @@ struct VerifyArguments {
 };
 
 verify::Names names_for(const Input& input) {
-    return input.symbols ? verify_names(*input.symbols) : verify::Names{};
+    return input.symbols ? verify_names(*input.symbols) : verify_names();
 }
 
 const char* word_of(Verdict verdict) {
@@ -202,7 +202,7 @@ std::string finding_text(const verify::Result& result, const VerifyArguments& op
         painted(stdout, is_fault ? "1;31" : "1;33", fmt::format("{} {}:", word, result.code)), result.reason);
     if (!result.allowed.empty()) text += fmt::format("  because {}\n", result.allowed);
     text += conflict_text(result, options);
-    if (is_fault && result.course) text += story_of(*result.course, names);
+    if (is_fault && result.course) text += story_of(result, names);
     return text;
 }
 
@@ -223,7 +223,7 @@ std::string text_of(const verify::Report& report, const Plays& plays, const Veri
                         result.name, result.text);
         if (!result.reason.empty()) text += fmt::format("  {}\n", result.reason);
         text += conflict_text(result, options);
-        if (result.verdict == Verdict::broken && result.course) text += story_of(*result.course, names);
+        if (result.verdict == Verdict::broken && result.course) text += story_of(result, names);
         if (const auto play = plays.find(result.name); play != plays.end())
             text += fmt::format("  {}\n", told(play->second));
     }
@@ -235,7 +235,8 @@ std::string text_of(const verify::Report& report, const Plays& plays, const Veri
 
 /// What is read, and would be written over.
 std::string clash(const VerifyArguments& options) {
-    const std::vector<std::string> read = {options.table.file, options.properties, options.table.symbols};
+    const std::vector<std::string> read = {options.table.file, options.properties, options.table.symbols,
+                                           options.courses.plant};
     std::vector<std::string> written;
     for (const std::string& file : {options.courses.scenario, options.courses.stimulus, options.courses.trace,
                                     options.junit, options.proof, options.output}) {
@@ -256,6 +257,8 @@ std::string clash(const VerifyArguments& options) {
 /// What does not go together.
 std::string contradiction(const VerifyArguments& options) {
     if (std::string wrong = clash(options); !wrong.empty()) return wrong;
+    if (!options.courses.plant.empty() && options.courses.scenario.empty())
+        return "--plant goes with --scenario";
     if (options.emit.empty()) return options.output.empty() ? "" : "-o goes with --emit";
     if (options.json || !options.junit.empty() || !options.courses.scenario.empty() ||
         !options.courses.stimulus.empty() || !options.courses.trace.empty() || !options.proof.empty())
@@ -326,8 +329,8 @@ int run(const VerifyArguments& options) {
     const verify::Report report = explored(options, input, loaded.table, names, properties, how);
     Plays plays;
     CourseFiles files = options.courses;
-    files.read = {options.table.file, options.properties, options.table.symbols, options.junit,
-                  options.proof};
+    files.read = {options.table.file, options.properties, options.table.symbols,
+                  options.junit,      options.proof,      options.courses.plant};
     std::erase(files.read, "");
     std::string wrong = written_courses(report, files, options.table, names, plays);
     if (wrong.empty() && !options.junit.empty())
@@ -381,6 +384,12 @@ void add_verify(arguments::App& app, int& exit_code) {
                     "follows; of "
                     "further ones OUT-Name.scn")
         ->type_name("OUT.scn");
+    command
+        .add_option(
+            "--plant", options->courses.plant,
+            "What the motor of --scenario is like: what this scenario says of it at the beginning (stops, "
+            "stored registers, load), or axis.toml")
+        ->type_name("FILE");
     command
         .add_option("--trace", options->courses.trace,
                     "The same as a trace, for tools/plot_trace; of further ones OUT-Name.csv")

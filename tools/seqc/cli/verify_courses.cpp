@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "cli/common.h"
+#include "cli/course_steps.h"
+#include "cli/motor_lines.h"
 #include "host/paths.h"
 #include "host/process.h"
+#include "verify/course_scenario.h"
 #include "verify/story.h"
 #include "whole_files/whole_files.h"
 
@@ -17,33 +20,60 @@ namespace {
 constexpr const char* kPlayer = "nanoplc-sim";
 
 /// The one beside this program, else the one on the path.
-host::Ran run_player(const std::vector<std::string>& arguments) {
+host::Ran run_player(const std::vector<std::string>& arguments, const std::string& scenario) {
     const std::string folder = host::own_folder();
     if (!folder.empty()) {
         const std::string beside = host::name_of(host::path_of(folder) / kPlayer);
-        host::Ran ran = host::run_program(beside, arguments, "");
+        host::Ran ran = host::run_program(beside, arguments, scenario);
         if (!ran.missing) return ran;
     }
-    return host::run_program(kPlayer, arguments, "");
+    return host::run_program(kPlayer, arguments, scenario);
 }
 
-/// With the program of its own that holds the simulated gateway.
-Play play_scenario(const InputFile& program, const std::string& file) {
-    std::vector<std::string> arguments = {"run", program.file, "--scenario", file, "--quiet"};
+/// Played before it is written; with the program of its own that holds the simulated gateway.
+Play play_scenario(const InputFile& program, const std::string& file, const std::string& text,
+                   const CourseSteps& steps) {
+    std::vector<std::string> arguments = {"run", program.file, "--scenario", "/dev/stdin"};
     if (!program.symbols.empty()) arguments.insert(arguments.end(), {"--symbols", program.symbols});
-    const host::Ran ran = run_player(arguments);
+    const host::Ran ran = run_player(arguments, text);
     if (ran.missing)
         return {file, Played::not_at_all, "nanoplc-sim was not found beside seqc or on the path"};
     if (!ran.problem.empty()) return {file, Played::not_at_all, ran.problem};
     if (ran.status == 0) return {file, Played::to_the_end, {}};
-    if (ran.status == 1) return {file, Played::otherwise, {}};
+    if (ran.status == 1)
+        return {file, Played::otherwise, where_it_leaves(steps, steps_in_timeline(ran.output))};
     return {file, Played::not_at_all,
             fmt::format("nanoplc-sim refused it: {}", ran.errors.substr(0, ran.errors.find('\n')))};
 }
 
-constexpr const char* kNotFollowed =
-    "# The virtual motor cannot follow this course: nanoplc-sim run does not come to its end. With\n"
-    "# --stimulus it is written for nanoplc-sim scan.\n";
+/// A scenario, and what became of it.
+struct Rehearsed {
+    Play play;
+    std::string text;
+};
+
+/// With inputs that change in a scan that leaves a step before it, and if that leads elsewhere, after it.
+Rehearsed rehearsed(const verify::Result& result, const InputFile& program, const std::string& file,
+                    const verify::Names& names, const std::vector<std::string>& plant) {
+    const CourseSteps steps = steps_of(*result.course, names);
+    verify::ScenarioOptions how{.plant = plant};
+    std::string text = verify::scenario_of(result, names, how);
+    Play play = play_scenario(program, file, text, steps);
+    if (play.played != Played::otherwise) return {std::move(play), std::move(text)};
+    how.changes_late = true;
+    std::string later = verify::scenario_of(result, names, how);
+    if (later != text) {
+        Play second = play_scenario(program, file, later, steps);
+        if (second.played == Played::to_the_end) return {std::move(second), std::move(later)};
+    }
+    if (plant.empty())
+        play.why += "; for hard stops, a load or a plant of the machine's there is --plant FILE";
+    text = fmt::format(
+        "# The virtual motor cannot follow this course: {}.\n# With --stimulus it is written for "
+        "nanoplc-sim scan, which always follows.\n{}",
+        play.why, text);
+    return {std::move(play), std::move(text)};
+}
 
 /// What would be written over something that was read, or over another of them.
 std::string clash_in(const std::vector<whole_files::OutputFile>& files,
@@ -74,35 +104,27 @@ std::string file_for(const std::string& file, const std::string& name, bool is_f
 
 std::string written_courses(const verify::Report& report, const CourseFiles& wanted, const InputFile& program,
                             const verify::Names& names, Plays& plays) {
+    const MotorLines plant = wanted.plant.empty() ? MotorLines{} : motor_lines_of(wanted.plant);
+    if (!plant.error.empty()) return plant.error;
     std::vector<whole_files::OutputFile> files;
-    std::vector<const verify::Result*> broken;
+    bool is_first = true;
     for (const verify::Result& result : report.results) {
         if (result.verdict != verify::Verdict::broken || !result.course || !result.code.empty()) continue;
-        const bool is_first = broken.empty();
-        broken.push_back(&result);
-        if (!wanted.stimulus.empty()) {
-            files.push_back(
-                {file_for(wanted.stimulus, result.name, is_first), verify::stimulus_of(*result.course)});
-        }
-        if (!wanted.trace.empty())
-            files.push_back(
-                {file_for(wanted.trace, result.name, is_first), verify::trace_of(*result.course)});
+        const auto add = [&](const std::string& file, std::string text) {
+            files.push_back({file_for(file, result.name, is_first), std::move(text)});
+        };
+        if (!wanted.stimulus.empty()) add(wanted.stimulus, verify::stimulus_of(*result.course));
+        if (!wanted.trace.empty()) add(wanted.trace, verify::trace_of(*result.course));
         if (!wanted.scenario.empty()) {
-            files.push_back(
-                {file_for(wanted.scenario, result.name, is_first), verify::scenario_of(result, names)});
+            Rehearsed done = rehearsed(result, program, file_for(wanted.scenario, result.name, is_first),
+                                       names, plant.lines);
+            add(wanted.scenario, std::move(done.text));
+            plays.insert_or_assign(result.name, std::move(done.play));
         }
+        is_first = false;
     }
     std::string error = clash_in(files, wanted.read);
-    if (error.empty()) error = whole_files::write_files(files);
-    if (!error.empty() || wanted.scenario.empty()) return error;
-    std::vector<whole_files::OutputFile> noted;
-    for (const verify::Result* result : broken) {
-        const std::string file = file_for(wanted.scenario, result->name, result == broken.front());
-        const Play& play = plays.insert_or_assign(result->name, play_scenario(program, file)).first->second;
-        if (play.played == Played::otherwise)
-            noted.push_back({file, kNotFollowed + verify::scenario_of(*result, names)});
-    }
-    return whole_files::write_files(noted);
+    return error.empty() ? whole_files::write_files(files) : error;
 }
 
 std::string told(const Play& play) {
@@ -111,8 +133,8 @@ std::string told(const Play& play) {
             return fmt::format("nanoplc-sim run plays {} to the same end", play.file);
         case Played::otherwise:
             return fmt::format(
-                "the virtual motor cannot follow {}: play it with --stimulus and nanoplc-sim scan",
-                play.file);
+                "the virtual motor cannot follow {}: {}; play it with --stimulus and nanoplc-sim scan",
+                play.file, play.why);
         case Played::not_at_all:
             break;
     }

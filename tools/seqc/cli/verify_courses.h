@@ -19,7 +19,7 @@ enum class Played {
 struct Play {
     std::string file{};
     Played played = Played::not_at_all;
-    std::string why{};  ///< not at all
+    std::string why{};  ///< otherwise and not at all
 };
 using Plays = std::map<std::string, Play>;  ///< by the property's name
 
@@ -29,6 +29,7 @@ struct CourseFiles {
     std::string stimulus{};
     std::string scenario{};
     std::string trace{};
+    std::string plant{};              ///< a scenario with what the motor is like, or a plant file
     std::vector<std::string> read{};  ///< what is never written over
 };
 
@@ -36,7 +37,8 @@ struct CourseFiles {
 std::string file_for(const std::string& file, const std::string& name, bool is_first);
 
 /// Writes the courses that break properties, the first in the files named, others in OUT-Name. Scenarios are
-/// played with nanoplc-sim and marked if it does not come to their end. Returns what went wrong, or nothing.
+/// played with nanoplc-sim first, and marked if it does not come to their end. Returns what went wrong, or
+/// nothing.
 std::string written_courses(const verify::Report& report, const CourseFiles& wanted, const InputFile& program,
                             const verify::Names& names, Plays& plays);
 

@@ -6,6 +6,7 @@
 
 #include "sequencer/table.h"
 #include "syntax/lexer.h"
+#include "verify/course_scenario.h"
 #include "verify/story.h"
 #include "views/verify_question.h"
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "views/line_time.h"
+#include "views/table_text.h"
 
 namespace nplc::seqc {
 namespace {
@@ -34,6 +35,16 @@ verify::Names verify_names(const Symbols& symbols) {
     verify::Names names{symbols.steps, symbols.inputs, symbols.outputs, symbols.copy_of};
     for (const StepGroup& group : symbols.groups) names.groups.push_back({group.name, group.steps});
     for (const NamedTime& time : symbols.times) names.times.push_back({time.name, time.milliseconds});
+    for (std::size_t step = 0; step < symbols.made_for.size(); ++step) {
+        if (symbols.made_for[step].starts_with("helper step")) names.helpers |= std::uint64_t{1} << step;
+    }
+    names.order = [symbols](const sequencer::MotorOrder& order) { return named_order_text(order, &symbols); };
+    return names;
+}
+
+verify::Names verify_names() {
+    verify::Names names;
+    names.order = [](const sequencer::MotorOrder& order) { return order_text(order, nullptr); };
     return names;
 }
 

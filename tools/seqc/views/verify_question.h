@@ -9,6 +9,8 @@
 namespace nplc::seqc {
 
 verify::Names verify_names(const Symbols& symbols);
+/// Of a table without symbols: steps and signals by number, registers by the manual's names.
+verify::Names verify_names();
 
 /// As `seqc report` works it out. `translated`: of a drive whose orders the gateway translates; what it takes
 /// is known only as the longest that a gateway waits.

@@ -3,10 +3,13 @@
 #include <array>
 #include <bitset>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "sequencer/state.h"
 
 /// What a property says, in the words of a machine builder, and whether a scan fits a condition.
 namespace nplc::verify {
@@ -31,6 +34,10 @@ struct Names {
     std::array<std::optional<std::uint8_t>, 63> copy_of = {};
     std::vector<StepGroup> groups = {};
     std::vector<NamedTime> times = {};
+    /// A bit for each step that the compiler made for what a branch does a scan later, asking nothing again.
+    std::uint64_t helpers = 0;
+    /// With names and units; none: bytes and numbers.
+    std::function<std::string(const sequencer::MotorOrder&)> order = {};
 };
 
 /// A set of images of HW_INP, one bit for each of the 256.

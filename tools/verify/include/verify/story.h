@@ -5,24 +5,23 @@
 #include "verify/course.h"
 #include "verify/verify.h"
 
-/// A course told, and written down to be played.
+/// A course told, and written down to be played scan by scan.
 namespace nplc::verify {
 
+std::string input_name(const Names& names, unsigned input);
+std::string output_name(const Names& names, unsigned output);
 std::string step_name(const Names& names, std::uint8_t step);
 /// Those that are on; - for none.
 std::string outputs_text(std::uint8_t outputs, const Names& names);
 
-/// A line for each scan that did something or saw something new: time, image, step, what it did.
-std::string story_of(const Course& course, const Names& names);
+/// A line for each scan that did something or saw something new: time, image, step, what it did; where it
+/// breaks, and the helper steps on the way. The result must have a course.
+std::string story_of(const Result& result, const Names& names);
 
 /// For `nanoplc-sim scan`: a row a scan.
 std::string stimulus_of(const Course& course);
 
 /// For `tools/plot_trace`: a row a scan, with the state after it; where the shaft is stays empty.
 std::string trace_of(const Course& course);
-
-/// For `nanoplc-sim run`: inputs at their times, ERROR as a fault of the drive or a cut line, and the step
-/// that the course ends in. What INPOS does there is up to the virtual motor.
-std::string scenario_of(const Result& result, const Names& names);
 
 }  // namespace nplc::verify

@@ -26,6 +26,7 @@ struct Result {
     std::string conflict{};               ///< undecided: why the last course that was tried cannot be
     bool vacuous = false;                 ///< proved, of nothing
     std::string allowed{};                ///< a finding of a check that was switched off in its step: why
+    bool is_late = false;                 ///< the course ends after its last scan, when a time has passed
     std::optional<Course> course{};       ///< the shortest way to break it, or to reach what IS REACHABLE
     std::vector<ChosenPreset> presets{};  ///< values of ranges with which the course can be played
 };

@@ -1,0 +1,151 @@
+"""What seqc verify tells of a course, and the scenario that it writes: machines whose motor needs longer than the course.
+
+usage: stories_test.py SEQC NANOPLC_SIM FOLDER_OF_STORIES
+"""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SEQC = SIM = STORIES = ""
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        for name in os.listdir(STORIES):
+            shutil.copy(os.path.join(STORIES, name), self.folder.name)
+
+    def run_it(self, *arguments):
+        return subprocess.run(arguments, cwd=self.folder.name, capture_output=True, text=True, check=False)
+
+    def verify(self, *arguments):
+        done = self.run_it(SEQC, "verify", *arguments)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        return done.stdout
+
+    def read(self, name):
+        with open(os.path.join(self.folder.name, name), encoding="utf-8") as file:
+            return file.read()
+
+    def write(self, name, text):
+        with open(os.path.join(self.folder.name, name), "w", encoding="utf-8") as file:
+            file.write(text)
+
+
+class Story(Case):
+    def test_orders_have_names_units_and_signs(self):
+        story = self.verify("elevator.seq")
+        self.assertIn("Floor_2 := 900 mm; ", story)
+        self.assertIn("V_HOME := -100 rpm", story)
+        self.assertIn("POSITION(Floor_1)", story)
+        self.assertIn("INIT(Travel)", story)
+        self.assertNotIn("429496", story)
+
+    def test_a_fraction_is_told_as_one(self):
+        self.assertIn("Station := 32.725 deg", self.verify("camera.seq"))
+
+    def test_a_bare_table_has_register_names_and_signed_values(self):
+        self.run_it(SEQC, "build", "elevator.seq", "-o", "t.bin", "--quiet")
+        os.remove(os.path.join(self.folder.name, "t.sym"))
+        self.write("t.prop", "PROPERTY Top: NEVER step = 5;")
+        story = self.verify("t.bin", "--property", "t.prop")
+        self.assertIn("V_HOME := -277;", story)
+        self.assertIn("POSITION(P1)", story)
+
+    def test_a_helper_step_is_named_with_what_to_write(self):
+        self.assertIn("  Wait_to_Move is a helper step that the compiler made for a branch; it does not ask again: "
+                      "write a step that tests Door\n", self.verify("camera.seq"))
+
+    def test_columns_hold(self):
+        for name in ("gate.seq", "gate_shut.seq", "camera.seq"):
+            lines = self.verify(name).splitlines()
+            heads = [i for i, line in enumerate(lines) if line.split()[:2] == ["ms", "on"]]
+            self.assertTrue(heads)
+            for head in heads:
+                steps, outputs = lines[head].index("step"), lines[head].index("outputs")
+                for line in lines[head + 1:]:
+                    if "here " in line:
+                        break
+                    if line[:12].strip():
+                        self.assertEqual((line[steps - 2:steps], line[outputs - 2:outputs]), ("  ", "  "), line)
+                        self.assertNotEqual((line[steps], line[outputs]), (" ", " "), line)
+
+    def test_no_riddles(self):
+        story = self.verify("gate_shut.seq")
+        self.assertIn("  its condition holds at the end of this course\n", story)
+        self.assertIn("     2657  here Bolt_Is_Drawn breaks: in scan 1306\n", story)
+        self.assertIn("at the end of this course WHENEVER's condition has held for that time, and THEN's does not hold",
+                      self.verify("gate.seq"))
+        self.assertIn("here Travel_Ends breaks: 2 ms after scan", self.verify("elevator.seq"))
+
+
+class Scenario(Case):
+    def plays(self, program, *names, options=()):
+        printed = self.verify(program, "--scenario", "out.scn", *options)
+        for name, file in names:
+            self.assertIn(f"nanoplc-sim run plays {file} to the same end", printed)
+            done = self.run_it(SIM, "run", program, "--scenario", file, "--quiet")
+            self.assertEqual(done.returncode, 0, done.stdout)
+            last = done.stdout.splitlines()[-1]
+            self.assertRegex(last, rf"^here {name} breaks, at [0-9]+\.[0-9]+ ms$")
+            scenario = self.read(file)
+            self.assertIn(f'log "here {name} breaks", end\n', scenario)
+            self.assertNotRegex(scenario, r"\bIN[0-5]\b|OUTPUTS|\bOUT[0-3]\b")
+        return printed
+
+    def test_a_gate_that_needs_longer_than_its_course(self):
+        self.plays("gate.seq", ("E_Stop", "out.scn"))
+        self.plays("gate_shut.seq", ("Bolt_Is_Drawn", "out.scn"), ("Lamp_While_It_Moves", "out-Lamp_While_It_Moves.scn"))
+
+    def test_a_course_that_needs_a_hard_stop_takes_it_from_a_scenario(self):
+        printed = self.verify("elevator.seq", "--scenario", "out.scn")
+        self.assertRegex(printed, r"the virtual motor cannot follow out\.scn: in step Search INPOS does not come as in the course, "
+                         r"which goes to To_1; it goes to Fault at [0-9.]+ ms; .*--plant FILE")
+        self.assertIn("# The virtual motor cannot follow this course: ", self.read("out.scn"))
+        self.plays("elevator.seq", ("Doors_Stop_It", "out.scn"), ("Travel_Ends", "out-Travel_Ends.scn"),
+                   options=("--plant", "elevator.scn"))
+        scenario = self.read("out.scn")
+        self.assertIn("motor stop below -500 mm\nmotor load 40\nmotor T_HOME := 30\n", scenario)
+        self.assertNotIn("pulse Go", scenario)
+
+    def test_a_helper_step_on_the_way(self):
+        self.plays("camera.seq", ("Door_Stops_It", "out.scn"))
+
+    def test_a_step_that_is_entered_again_is_counted(self):
+        self.write("again.seq", "PROGRAM Again\nMOTOR MAC140;\n"
+                   "VAR_INPUT Go AT IN0 : BOOL; END_VAR\nVAR_OUTPUT Lamp AT OUT0 : BOOL; END_VAR\n"
+                   "POWER_UP COUNTER := 2; NEXT := Idle; END_POWER_UP\n"
+                   "STEP Idle: OWN ERROR; IF COUNTER.Q THEN NEXT := Done; ELSIF Go THEN COUNT_DOWN; NEXT := Work; END_IF END_STEP\n"
+                   "STEP Work: OWN ERROR; IF NOT Go THEN NEXT := Idle; END_IF END_STEP\n"
+                   "STEP Done: OWN ERROR; OUT Lamp; IF Go THEN NEXT := POWER_UP; END_IF END_STEP\n"
+                   "PROPERTY Dark: NEVER Lamp;\nEND_PROGRAM\n")
+        self.plays("again.seq", ("Dark", "out.scn"))
+        self.assertRegex(self.read("out.scn"), r"once step = \w+ 2 times .*Go := ")
+
+    def test_what_the_plant_is_taken_from(self):
+        self.write("no.scn", "at 1 s motor load 40\nend at 2 s\n")
+        done = self.run_it(SEQC, "verify", "camera.seq", "--scenario", "out.scn", "--plant", "no.scn")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no.scn: says nothing of the motor at the beginning", done.stderr)
+        done = self.run_it(SEQC, "verify", "camera.seq", "--plant", "no.scn")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--plant goes with --scenario", done.stderr)
+        done = self.run_it(SEQC, "verify", "camera.seq", "--scenario", "elevator.scn", "--plant", "elevator.scn")
+        self.assertEqual(done.returncode, 2)
+
+    def test_json_says_where_it_is_left(self):
+        result = json.loads(self.verify("elevator.seq", "--json", "--scenario", "out.scn"))["results"]
+        (scenario,) = [r["scenario"] for r in result if r["name"] == "Doors_Stop_It"]
+        self.assertFalse(scenario["plays"])
+        self.assertIn("step Search", scenario["why"])
+
+
+if __name__ == "__main__":
+    SEQC, SIM, STORIES = sys.argv[1:4]
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:])

@@ -1,0 +1,72 @@
+#include "cli/course_steps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace nplc::seqc::cli {
+namespace {
+
+constexpr std::string_view kArrow = " -> ";
+
+std::string_view first_word(std::string_view text) {
+    const std::size_t begin = std::min(text.find_first_not_of(' '), text.size());
+    return text.substr(begin, text.find_first_of(" ,", begin) - begin);
+}
+
+std::string_view last_word(std::string_view text) {
+    return text.substr(text.find_last_of(' ') + 1);
+}
+
+}  // namespace
+
+CourseSteps steps_of(const verify::Course& course, const verify::Names& names) {
+    const auto name = [&](std::uint8_t step) {
+        return names.steps[step].empty() ? fmt::format("{}", step) : names.steps[step];
+    };
+    CourseSteps steps;
+    std::uint64_t time = 0;
+    bool was_in_pos = false;
+    for (const verify::PlayedScan& scan : course) {
+        const bool in_pos = (scan.image & sequencer::kInPos) != 0;
+        if (scan.after.step != scan.step) {
+            steps.push_back(
+                {fmt::format("{}", time), name(scan.step), name(scan.after.step), in_pos && !was_in_pos});
+            was_in_pos = in_pos;
+        }
+        time += scan.dt_ms;
+    }
+    return steps;
+}
+
+CourseSteps steps_in_timeline(std::string_view printed) {
+    CourseSteps steps;
+    while (!printed.empty()) {
+        const std::string_view line = printed.substr(0, printed.find('\n'));
+        printed.remove_prefix(std::min(line.size() + 1, printed.size()));
+        const std::size_t arrow = line.find(kArrow);
+        if (arrow == std::string_view::npos) continue;
+        steps.push_back({std::string(first_word(line)), std::string(last_word(line.substr(0, arrow))),
+                         std::string(first_word(line.substr(arrow + kArrow.size())))});
+    }
+    return steps;
+}
+
+std::string where_it_leaves(const CourseSteps& course, const CourseSteps& rehearsal) {
+    const auto is_same = [](const StepChange& a, const StepChange& b) {
+        return a.from == b.from && a.to == b.to;
+    };
+    const auto [wanted, did] =
+        std::mismatch(course.begin(), course.end(), rehearsal.begin(), rehearsal.end(), is_same);
+    if (wanted == course.end()) return "it goes through the steps of the course, and not to its end";
+    const std::string goes =
+        did == rehearsal.end() ? "stays there" : fmt::format("goes to {} at {} ms", did->to, did->time);
+    const std::string step = did == rehearsal.end() ? wanted->from : did->from;
+    if (step == wanted->from && wanted->gets_in_pos)
+        return fmt::format("in step {} INPOS does not come as in the course, which goes to {}; it {}", step,
+                           wanted->to, goes);
+    return fmt::format("in step {} it {}, and the course from {} to {}", step, goes, wanted->from,
+                       wanted->to);
+}
+
+}  // namespace nplc::seqc::cli
