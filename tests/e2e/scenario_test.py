@@ -83,6 +83,31 @@ class Junit(Case):
         self.refused(*run, self.path("t"), "--trace", self.path("t"), says="name two files")
 
 
+class Times(Case):
+    RISES = "every 100 ms toggle IN0\n"  # at 100, 300, 500 ms
+
+    def test_an_event_is_awaited_n_times_and_what_is_said_there_stands_last(self):
+        scenario = self.write("s.scn", self.RISES + 'once IN0 rises 2 times log "second"\n'
+                              'once IN0 rises 3 times log "here it breaks", end\nexpect IN0\nend at 5 s\n')
+        done = self.run_it(self.table, "--scenario", scenario)
+        self.assertEqual((done.returncode, done.stdout.splitlines()[-1]), (0, "here it breaks, at 500.000 ms"))
+        self.assertRegex(done.stdout, r'(?m)^ *300\.000 .*"second"$')
+        quiet = self.run_it(self.table, "--scenario", scenario, "--quiet")
+        self.assertEqual(quiet.stdout.splitlines()[-1], "here it breaks, at 500.000 ms")
+        self.assertNotIn("second", quiet.stdout)
+
+    def test_end_when_n_times(self):
+        scenario = self.write("s.scn", self.RISES + "end when IN0 rises 2 times from 200 ms after 5 ms\n")
+        self.assertIn("ended at 505.000 ms", self.run_it(self.table, "--scenario", scenario).stdout)
+
+    def test_never_and_a_half_are_refused(self):
+        for wrong, says in (("once IN0 0 times log \"a\"", "once or more often"), ("once IN0 1.5 times log \"a\"", "whole number"),
+                            ("when IN0 2 times log \"a\"", "out of place")):
+            with self.subTest(wrong):
+                scenario = self.write("s.scn", wrong + "\nend at 1 s\n")
+                self.refused(self.table, "--scenario", scenario, says=says)
+
+
 if __name__ == "__main__":
     README, PROGRAM = (os.path.abspath(sys.argv.pop()) for _ in range(2))
     unittest.main()
