@@ -128,6 +128,18 @@ class Scenario(Case):
         self.plays("again.seq", ("Dark", "out.scn"))
         self.assertRegex(self.read("out.scn"), r"once step = \w+ 2 times .*Go := ")
 
+    def test_an_input_that_changes_at_the_beginning_and_a_deadline(self):
+        self.write("warm.seq", "PROGRAM Warm_Up\nMOTOR MAC140;\nVAR_INPUT Well AT IN0 : BOOL; Go AT IN1 : BOOL; END_VAR\n"
+                   "VAR_MOTOR Fast AT V1 := 100 rpm; Soft AT A1 := 1000 rpm/s; END_VAR\n"
+                   "POWER_UP INIT(Fast, Soft); NEXT := Warm; END_POWER_UP\n"
+                   "STEP Warm: OWN ERROR; IF NOT Well THEN NEXT := Stopped; ELSIF R_TRIG(Go) THEN NEXT := Work; END_IF END_STEP\n"
+                   "STEP Work: OWN ERROR; IF NOT Go THEN NEXT := Warm; END_IF END_STEP\n"
+                   "STEP Stopped: OWN ERROR; IF Well THEN NEXT := Warm; END_IF END_STEP\n"
+                   "PROPERTY Stops: WHENEVER NOT Well THEN step = Stopped WITHIN 200 ms;\nPROPERTY Works: NEVER step = Work;\n"
+                   "END_PROGRAM\n")
+        self.plays("warm.seq", ("Stops", "out.scn"), ("Works", "out-Works.scn"))
+        self.assertRegex(self.read("out.scn"), r'once step = Warm for [0-9]+ ms log "here Stops breaks", end\n')
+
     def test_what_the_plant_is_taken_from(self):
         self.write("no.scn", "at 1 s motor load 40\nend at 2 s\n")
         done = self.run_it(SEQC, "verify", "camera.seq", "--scenario", "out.scn", "--plant", "no.scn")

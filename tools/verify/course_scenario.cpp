@@ -11,8 +11,9 @@
 namespace nplc::verify {
 namespace {
 
-/// Of an input until a scan sees it, with a scan more.
-constexpr std::uint64_t kSeen = 5;
+/// Milliseconds until a scan sees an input, and one more that does.
+constexpr std::uint64_t kDebounce = 3;
+constexpr std::uint64_t kSeen = kDebounce + 2;
 /// For moves that end at once in a course.
 constexpr std::uint64_t kLimit = 60'000;
 
@@ -105,15 +106,19 @@ class Writer {
         if (!actions.empty()) changed_ = time_;
         if (leaves) changed_.reset();
         time_ += scan.dt_ms;
+        waited_ = scan.dt_ms;
+        is_first_ = false;
     }
 
+    /// Early enough to be seen by this scan, if the one before it does not see it then.
     void place(const std::string& actions) {
-        if (time_ == 0) {
+        if (is_first_) {
             text_ += actions + "\n";
             return;
         }
         const Anchor& anchor = anchors_.latest();
-        text_ += fmt::format("once {}{} {}\n", anchor.counted(), after(time_ - anchor.at), actions);
+        const std::uint64_t early = waited_ > kDebounce + 1 && anchor.at != time_ ? kDebounce + 1 : 0;
+        text_ += fmt::format("once {}{} {}\n", anchor.counted(), after(time_ - anchor.at - early), actions);
     }
 
     static std::string after(std::uint64_t ms) { return ms == 0 ? "" : fmt::format(" after {} ms", ms); }
@@ -124,10 +129,12 @@ class Writer {
         const std::uint64_t ends = result_.is_late ? time_ : time_ - course.back().dt_ms;
         const Anchor& anchor = anchors_.latest();
         const std::uint64_t wait = ends - anchor.at + (changed_ || result_.is_late ? kSeen : 0);
-        text_ += fmt::format("once {}{} log \"here {} breaks\", end\n\n", anchor.counted(), after(wait),
-                             result_.name);
-        text_ += fmt::format("expect {} at least {} time{}\n", anchor.event, anchor.times,
-                             anchor.times == 1 ? "" : "s");
+        const bool lasts = wait != 0 && anchor.times == 1;
+        const std::string event = lasts ? fmt::format("{} for {} ms", anchor.event, wait) : anchor.event;
+        text_ += fmt::format("once {}{} log \"here {} breaks\", end\n\n", lasts ? event : anchor.counted(),
+                             lasts ? "" : after(wait), result_.name);
+        text_ +=
+            fmt::format("expect {} at least {} time{}\n", event, anchor.times, anchor.times == 1 ? "" : "s");
         text_ += fmt::format("expect step = {}{}\nend at {} ms\n", step_name(names_, end.step),
                              outputs_wanted(end.outputs), ends + kLimit);
     }
@@ -149,7 +156,9 @@ class Writer {
     const ScenarioOptions& options_;
     Anchors anchors_;
     std::string text_;
+    bool is_first_ = true;
     std::uint64_t time_ = 0;
+    std::uint64_t waited_ = 0;  ///< since the scan before
     std::uint8_t image_ = 0;
     std::optional<std::uint64_t> changed_;  ///< an input, since the step was entered
 };
