@@ -106,7 +106,7 @@ class Scenario(Case):
     def test_a_course_that_needs_a_hard_stop_takes_it_from_a_scenario(self):
         printed = self.verify("elevator.seq", "--scenario", "out.scn")
         self.assertRegex(printed, r"the virtual motor cannot follow out\.scn: in step Search INPOS does not come as in the course, "
-                         r"which goes to To_1; it goes to Fault at [0-9.]+ ms; .*--plant FILE")
+                         r"which goes to To_1, and it goes to Fault at [0-9.]+ ms; .*--plant FILE")
         self.assertIn("# The virtual motor cannot follow this course: ", self.read("out.scn"))
         self.plays("elevator.seq", ("Doors_Stop_It", "out.scn"), ("Travel_Ends", "out-Travel_Ends.scn"),
                    options=("--plant", "elevator.scn"))
@@ -135,10 +135,10 @@ class Scenario(Case):
                    "STEP Warm: OWN ERROR; IF NOT Well THEN NEXT := Stopped; ELSIF R_TRIG(Go) THEN NEXT := Work; END_IF END_STEP\n"
                    "STEP Work: OWN ERROR; IF NOT Go THEN NEXT := Warm; END_IF END_STEP\n"
                    "STEP Stopped: OWN ERROR; IF Well THEN NEXT := Warm; END_IF END_STEP\n"
-                   "PROPERTY Stops: WHENEVER NOT Well THEN step = Stopped WITHIN 200 ms;\nPROPERTY Works: NEVER step = Work;\n"
+                   "PROPERTY Stops: WHENEVER step = Work THEN step = Stopped WITHIN 200 ms;\nPROPERTY Works: NEVER step = Work;\n"
                    "END_PROGRAM\n")
         self.plays("warm.seq", ("Stops", "out.scn"), ("Works", "out-Works.scn"))
-        self.assertRegex(self.read("out.scn"), r'once step = Warm for [0-9]+ ms log "here Stops breaks", end\n')
+        self.assertRegex(self.read("out.scn"), r'once step = Work for [0-9]+ ms log "here Stops breaks", end\n')
 
     def test_what_the_plant_is_taken_from(self):
         self.write("no.scn", "at 1 s motor load 40\nend at 2 s\n")

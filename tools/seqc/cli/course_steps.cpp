@@ -60,13 +60,11 @@ std::string where_it_leaves(const CourseSteps& course, const CourseSteps& rehear
         std::mismatch(course.begin(), course.end(), rehearsal.begin(), rehearsal.end(), is_same);
     if (wanted == course.end()) return "it goes through the steps of the course, and not to its end";
     const std::string goes =
-        did == rehearsal.end() ? "stays there" : fmt::format("goes to {} at {} ms", did->to, did->time);
-    const std::string step = did == rehearsal.end() ? wanted->from : did->from;
-    if (step == wanted->from && wanted->gets_in_pos)
-        return fmt::format("in step {} INPOS does not come as in the course, which goes to {}; it {}", step,
-                           wanted->to, goes);
-    return fmt::format("in step {} it {}, and the course from {} to {}", step, goes, wanted->from,
-                       wanted->to);
+        did == rehearsal.end() ? "it stays there" : fmt::format("it goes to {} at {} ms", did->to, did->time);
+    if (did != rehearsal.end() && did->from != wanted->from)
+        return fmt::format("in step {}, to which the course does not come, {}", did->from, goes);
+    const char* why = wanted->gets_in_pos ? "INPOS does not come as in the course, which" : "the course";
+    return fmt::format("in step {} {} goes to {}, and {}", wanted->from, why, wanted->to, goes);
 }
 
 }  // namespace nplc::seqc::cli
