@@ -76,7 +76,7 @@ def main():
             follows, misses = follows + more, misses + others
         courses.check_alone(paths[-1])
     print(f"{len(paths)} programs: the virtual motor follows {follows} courses of {follows + misses}")
-    assert follows >= 3 * misses
+    assert follows >= 9 * misses
 
 
 main()
