@@ -152,7 +152,7 @@ TEST(ScenarioParser, EverythingTheReadmeNamesIsTaken) {
                                         "MAC800");
     for (const Mistake& found : parsed.mistakes) ADD_FAILURE() << found.line << ": " << found.message;
     EXPECT_EQ(parsed.scenario.expectations.size(), 28U);
-    EXPECT_EQ(parsed.scenario.when.size(), 15U);
+    EXPECT_EQ(parsed.scenario.when.size(), 18U);
     EXPECT_EQ(parsed.scenario.every.size(), 3U);
     EXPECT_EQ(parsed.scenario.follow.size(), 2U);
     EXPECT_EQ(parsed.scenario.end, Time(10s));
