@@ -247,7 +247,7 @@ Compilation compile(const Sources& sources) {
         check_set_points(plan, scope.set_points(), result.symbols, checks);
     }
     if (syntax_sound && !checks.has_errors()) {
-        check_oversights(plan, result.symbols, checks);
+        check_oversights(program, plan, result.symbols, scope.set_points(), checks);
         check_unused(program, plan, sources, result.symbols, checks);
         check_motor_is_named(program, plan, checks);
     }

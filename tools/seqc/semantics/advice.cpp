@@ -22,7 +22,7 @@ constexpr std::size_t kInputCount = 6;
 using Images = std::bitset<std::size_t{1} << kInputCount>;
 
 bool orders_motion(const Send& send) {
-    if (send.reg != nullptr) return false;
+    if (send.reg != nullptr) return send.reg->number == registers::MODE_REG && send.value != 0;
     if (const auto select = select_command(send.command))
         return select->mode == Mode::velocity ||
                (select->mode == Mode::position && select->selection.group == Group::p);
@@ -55,117 +55,88 @@ Images images_of(const Truth& when, bool with_error) {
     return images;
 }
 
-/// Whether the motor may move again after a fault while no input changes but those that the fault is about.
+/// Whether the motor may move again after a fault while no input changes: an acknowledgement is an input that
+/// had to. Steps that remember an edge are copies here, so that R_TRIG and F_TRIG hold for no input that
+/// stays.
 class Restart {
   public:
-    Restart(const ast::Program& program, const Plan& plan, Scope& scope, Report& report)
-        : program_(program), plan_(plan), scope_(scope), report_(report) {}
+    Restart(const Plan& plan, std::uint8_t fault, Report& report) : plan_(plan), report_(report) {
+        for (const StepPlan& step : plan.steps) {
+            steps_.at(step.number) = &step;
+            if (step.number == fault) fault_span_ = step.span;
+        }
+    }
 
     void run() {
-        if (!program_.on_error) return;
-        const auto fault = scope_.step(*program_.on_error);
-        if (!fault) return;
-        find_causes();
+        Seen in_fault;
         for (const StepPlan& step : plan_.steps) {
-            if (step.number != *fault) continue;
-            for (const Rule& rule : step.rules) judge_exit(step, rule);
+            if (is_fault(step.number)) continue;
+            for (const Rule& rule : step.rules) {
+                if (rule.action.next && is_fault(*rule.action.next)) in_fault.at(*rule.action.next).set();
+            }
         }
+        walk(in_fault, [&](const StepPlan& step, const Rule& rule, std::uint8_t next) {
+            if (is_fault(step.number) && is_fault(next)) return true;
+            judge_exit(rule, in_fault.at(step.number) & images_of(rule.when, true));
+            return false;
+        });
     }
 
   private:
-    /// The inputs that lead to the fault step, and with which level: `ON NOT Well`, `IF Door THEN`.
-    void find_causes() {
-        for (const ast::OnCondition& on : program_.on_conditions) {
-            if (leads_to_fault(on.next)) add_causes(on.condition);
+    /// By step, the inputs with which it can be active.
+    using Seen = std::array<Images, 64>;
+
+    bool is_fault(std::uint8_t number) const {
+        return steps_.at(number) != nullptr && steps_.at(number)->span == fault_span_;
+    }
+
+    /// Follows the steps with each image of the inputs held, as far as `goes_on` lets it.
+    template <class GoesOn>
+    void walk(Seen& seen, const GoesOn& goes_on) const {
+        std::deque<std::uint8_t> open;
+        for (std::uint8_t number = 0; number < seen.size(); ++number) {
+            if (seen.at(number).any()) open.push_back(number);
         }
-        for (const ast::Step& step : program_.steps) {
-            for (const ast::Choice& choice : step.choices) {
-                for (const ast::Branch& branch : choice.branches) {
-                    if (branch.condition && std::any_of(branch.statements.begin(), branch.statements.end(),
-                                                        [&](const auto& one) { return leads_to_fault(one); }))
-                        add_causes(*branch.condition);
-                }
+        for (; !open.empty(); open.pop_front()) {
+            const StepPlan* step = steps_.at(open.front());
+            if (step == nullptr) continue;
+            const bool with_error = is_fault(step->number);
+            for (const Rule& rule : step->rules) {
+                const Images on = seen.at(step->number) & images_of(rule.when, with_error);
+                const std::uint8_t next = rule.action.next.value_or(step->number);
+                if (on.none() || !goes_on(*step, rule, next) || (on & ~seen.at(next)).none()) continue;
+                seen.at(next) |= on;
+                open.push_back(next);
             }
         }
     }
 
-    bool leads_to_fault(const ast::Statement& statement) const {
-        return statement.kind == ast::Statement::Kind::next &&
-               same_name(statement.name.text, program_.on_error->text);
-    }
-
-    void add_causes(const ast::Expression& condition) {
-        if (has_edge(condition)) return;
-        const Truth when = scope_.truth_of(condition);
-        for (std::size_t bit = 0; bit < kInputCount; ++bit) {
-            const Truth on = when & truth_of_bit(bit);
-            const Truth off = when & ~truth_of_bit(bit);
-            const std::size_t step = std::size_t{1} << bit;
-            if ((on & ~(off << step)).any()) causes_[1].set(bit);
-            if ((off & ~(on >> step)).any()) causes_[0].set(bit);
-        }
-    }
-
-    static bool has_edge(const ast::Expression& condition) {
-        return condition.kind == ast::Expression::Kind::rising ||
-               condition.kind == ast::Expression::Kind::falling ||
-               std::any_of(condition.operands.begin(), condition.operands.end(), has_edge);
-    }
-
-    /// Whether a condition asks for an input, and for more than that it tells of no fault any more.
-    bool asks_for(const Truth& when, std::size_t bit) const {
-        if (!depends_on(when, bit)) return false;
-        const bool needs_on = (when & ~truth_of_bit(bit)).none();
-        const bool needs_off = (when & truth_of_bit(bit)).none();
-        return !(needs_on && causes_[0].test(bit)) && !(needs_off && causes_[1].test(bit));
-    }
-
-    void judge_exit(const StepPlan& step, const Rule& rule) {
-        if (!leaves(step, rule) || rule.condition.length == 0) return;
-        for (std::size_t bit = 0; bit < kInputCount; ++bit) {
-            if (asks_for(rule.when, bit)) return;
-        }
+    void judge_exit(const Rule& rule, const Images& held) {
+        const Span place = rule.condition.length != 0 ? rule.condition : rule.action.next_span;
+        if (report_.has("W037", place)) return;
         const Send* motion = motion_of(rule);
-        if (motion == nullptr)
-            motion = motion_from(*rule.action.next, images_of(rule.when, true), step.number);
+        Seen seen;
+        seen.at(*rule.action.next) = held;
+        if (motion == nullptr) {
+            walk(seen, [&](const StepPlan&, const Rule& other, std::uint8_t next) {
+                if (motion == nullptr && !is_fault(next)) motion = motion_of(other);
+                return motion == nullptr && !is_fault(next);
+            });
+        }
         if (motion == nullptr) return;
         report_
-            .add("W037", rule.condition,
-                 "the motor may start again by itself after a fault: no person is asked here",
-                 "ask for an acknowledgement, as in ANY ERROR AND Ack; or write ALLOW W037 BECAUSE 'reason'; "
-                 "in the step")
+            .add("W037", place,
+                 "the motor may start again by itself after a fault: no input has to change on the way",
+                 "wait for a button to be pressed, as in ANY ERROR AND R_TRIG(Ack); or write ALLOW W037 "
+                 "BECAUSE "
+                 "'reason'; in the step")
             .notes.push_back({motion->span, "it comes to this with all inputs left as they are"});
     }
 
-    /// Follows the steps with each image of the inputs held.
-    const Send* motion_from(std::uint8_t first, const Images& held, std::uint8_t fault) const {
-        std::array<Images, 64> seen;
-        std::deque<std::uint8_t> open = {first};
-        seen[first] = held;
-        while (!open.empty()) {
-            const std::uint8_t number = open.front();
-            open.pop_front();
-            for (const StepPlan& step : plan_.steps) {
-                if (step.number != number) continue;
-                for (const Rule& rule : step.rules) {
-                    const Images on = seen[number] & images_of(rule.when, false);
-                    const std::uint8_t next = rule.action.next.value_or(number);
-                    if (on.none() || next == fault) continue;
-                    if (const Send* motion = motion_of(rule)) return motion;
-                    if ((on & ~seen[next]).none()) continue;
-                    seen[next] |= on;
-                    open.push_back(next);
-                }
-            }
-        }
-        return nullptr;
-    }
-
-    const ast::Program& program_;
     const Plan& plan_;
-    Scope& scope_;
     Report& report_;
-    std::array<std::bitset<kInputCount>, 2> causes_;  ///< by the level that leads to the fault step
+    std::array<const StepPlan*, 64> steps_{};
+    Span fault_span_;
 };
 
 /// IF INPOS OR TIMER.Q: whether the motor arrived is not asked.
@@ -229,7 +200,8 @@ class Arrivals {
 }  // namespace
 
 void check_restart(const ast::Program& program, const Plan& plan, Scope& scope, Report& report) {
-    Restart(program, plan, scope, report).run();
+    const auto fault = program.on_error ? scope.step(*program.on_error) : std::nullopt;
+    if (fault) Restart(plan, *fault, report).run();
 }
 
 void check_arrivals(const Plan& plan, Report& report) {

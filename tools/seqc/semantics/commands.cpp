@@ -114,6 +114,14 @@ std::string register_name(Selection selection) {
     return fmt::format("{}{}", letter_of(selection.group), selection.index);
 }
 
+std::string shown_register(const Symbols& symbols, Selection selection) {
+    for (const MotorName& named : symbols.motor_names) {
+        const auto own = selection_of(named.number);
+        if (own && own->group == selection.group && own->index == selection.index) return named.name;
+    }
+    return register_name(selection);
+}
+
 std::optional<SelectCommand> select_command(std::uint8_t command) {
     const auto decoded = protocol::fastmac::decode_command(command);
     if (decoded.mode == Mode::command) return std::nullopt;

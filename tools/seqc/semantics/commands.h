@@ -8,6 +8,7 @@
 
 #include "protocol/fastmac.h"
 #include "seqc/diagnostic.h"
+#include "seqc/seqc.h"
 
 namespace nplc::seqc {
 
@@ -35,6 +36,9 @@ std::optional<Selection> selection_of(std::uint8_t register_number);
 char letter_of(protocol::fastmac::Group group);
 /// "V1".
 std::string register_name(Selection selection);
+
+/// As the program calls it.
+std::string shown_register(const Symbols& symbols, Selection selection);
 
 /// A selecting command taken apart; nothing for a command-mode byte.
 struct SelectCommand {

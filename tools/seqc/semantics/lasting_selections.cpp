@@ -169,10 +169,7 @@ class SelectionWalk {
 
     std::string name_of(Group group, const Selected& selected) const {
         if (selected.index == 0) return fmt::format("'{}'", statement_text(source_, selected.span));
-        const std::string reg = register_name({group, selected.index});
-        const auto named = std::find_if(symbols_.motor_names.begin(), symbols_.motor_names.end(),
-                                        [&](const MotorName& variable) { return variable.reg == reg; });
-        return named == symbols_.motor_names.end() ? reg : named->name;
+        return shown_register(symbols_, {group, selected.index});
     }
 
     const Symbols& symbols_;
@@ -205,10 +202,9 @@ class InPosWalk {
     explicit InPosWalk(Report& report) : report_(report) {}
 
     void enter(InPosState& state, const StepPlan& step, const Rule& rule) {
-        leaves_ = leaves(step, rule);
-        waits_ = rule.condition.length != 0 && needs_in_position(rule);
+        step_ = &step;
         before_ = state;
-        if (!waits_) return;
+        if (rule.condition.length == 0 || !needs_in_position(rule)) return;
         state.may_move = false;
         state.seen = rule.condition;
     }
@@ -216,27 +212,50 @@ class InPosWalk {
     static void apply(InPosState& state, const Send&) { state.may_move = true; }
 
     void judge(const Rule& rule, const InPosState&) {
-        const bool waits_for_it_alone = waits_ && !depends_on(rule.when, kTimerZero) &&
-                                        !depends_on(rule.when, kCounterZero) && !tests_inputs(rule);
-        if (before_.may_move || !leaves_ || !waits_for_it_alone || before_.seen == rule.condition) return;
+        if (before_.may_move || !leaves(*step_, rule)) return;
+        for (const RulePart& part : rule.parts) judge_wait(part.when, part.condition);
+        if (rule.parts.empty()) judge_wait(rule.when, rule.condition);
+    }
+
+  private:
+    void judge_wait(const Truth& when, Span condition) {
+        if (condition.length == 0 || before_.seen == condition || (when & ~truth_of_bit(kInPosBit)).any() ||
+            asks_for_more(when) || report_.has("W036", condition))
+            return;
         report_
-            .add("W036", rule.condition, "this holds at once: nothing was ordered since INPOS came last",
+            .add("W036", condition, "this holds at once: nothing was ordered since INPOS came last",
                  "order the move that it is to wait for, or take INPOS out")
             .notes.push_back({before_.seen, "INPOS came here"});
     }
 
-  private:
-    static bool tests_inputs(const Rule& rule) {
-        for (std::size_t bit = 0; bit < 6; ++bit) {
-            if (depends_on(rule.when, bit)) return true;
+    /// Whether anything but INPOS decides, where no other branch that asks for no INPOS takes the case: `ON
+    /// Guard`, `IF Guard THEN` in front, `AND NOT Guard`.
+    bool asks_for_more(const Truth& when) const {
+        const Truth left = ~guards();
+        for (const std::size_t bit :
+             {std::size_t{0}, std::size_t{1}, std::size_t{2}, std::size_t{3}, std::size_t{4}, std::size_t{5},
+              std::size_t{kTimerZero}, std::size_t{kCounterZero}}) {
+            const std::size_t other = std::size_t{1} << bit;
+            const Truth off = ~truth_of_bit(bit) & left & (left >> other);  // both cases of the bit are left
+            if (((when ^ (when >> other)) & off).any()) return true;
         }
         return false;
     }
 
+    Truth guards() const {
+        Truth taken;
+        for (const Rule& rule : step_->rules) {
+            if (!leaves(*step_, rule)) continue;
+            for (const RulePart& part : rule.parts) {
+                if (!depends_on(part.when, kInPosBit)) taken |= part.when;
+            }
+        }
+        return taken;
+    }
+
     Report& report_;
     InPosState before_;
-    bool leaves_ = false;
-    bool waits_ = false;
+    const StepPlan* step_ = nullptr;
 };
 
 }  // namespace

@@ -35,8 +35,9 @@ bool waits_for(const Truth& when, std::size_t bit) {
 
 class Oversights {
   public:
-    Oversights(const Plan& plan, const Symbols& symbols, Report& report)
-        : plan_(plan), symbols_(symbols), report_(report) {
+    Oversights(const ast::Program& program, const Plan& plan, const Symbols& symbols,
+               const std::vector<DeclaredSetPoint>& points, Report& report)
+        : program_(program), plan_(plan), symbols_(symbols), points_(points), report_(report) {
         for (const StepPlan& step : plan.steps) has_terms_ = has_terms_ || !step.terms.empty();
         has_terms_ = has_terms_ || !plan.terms.empty();
     }
@@ -48,6 +49,7 @@ class Oversights {
         check_presets(kTimerZero, "W020", "TIMER.Q", "the timer", "TIMER := T#500ms; on the way to the step");
         check_presets(kCounterZero, "W020", "COUNTER.Q", "the counter",
                       "COUNTER := 5; on the way to the step");
+        find_fault();
         check_exits();
         check_reset();
         check_watchdogs();
@@ -67,18 +69,36 @@ class Oversights {
         const double top = large ? kTopSpeedMac800 : kTopSpeedSmall;
         std::set<std::uint32_t> said;
         for_each_send(plan_, [&](const Send& send) {
-            const bool is_speed = send.reg != nullptr && (send.reg->number == registers::V_SOLL ||
-                                                          is_selectable(send.reg->number, Group::v));
-            if (!is_speed) return;
-            const auto per_rpm = raw_per_unit(*send.reg, symbols_.motor, {}, "rpm");
-            if (!per_rpm) return;
-            const double rpm = std::fabs(number_of_bits(send.value, send.reg->format)) / *per_rpm;
+            if (!is_speed(send.reg) || send.set_point != 0) return;
+            const double rpm = rpm_of(*send.reg, send.value);
             if (rpm <= top + 1 || !said.insert(send.span.offset).second) return;
-            report_.add("W018", send.span,
-                        fmt::format("{:.0f} rpm is more than a {} reaches: {:.0f} rpm", rpm,
-                                    registers::name_of(symbols_.motor), top),
-                        "write less, or look at SCALE: it says how far the machine moves in a revolution");
+            warn_of_speed(send.span, rpm, top);
         });
+        for (const DeclaredSetPoint& declared : points_) {
+            if (!is_speed(declared.reg) || !declared.is_sound) continue;
+            const double at_low = rpm_of(*declared.reg, bits_of(declared.point.lowest, *declared.reg));
+            const double at_high = rpm_of(*declared.reg, bits_of(declared.point.highest, *declared.reg));
+            const bool by_high = at_high >= at_low;
+            const double rpm = std::max(at_low, at_high);
+            if (rpm > top + 1)
+                warn_of_speed((by_high ? declared.written->high : declared.written->low).span, rpm, top);
+        }
+    }
+
+    void warn_of_speed(Span span, double rpm, double top) {
+        report_.add("W018", span,
+                    fmt::format("{:.0f} rpm is more than a {} reaches: {:.0f} rpm", rpm,
+                                registers::name_of(symbols_.motor), top),
+                    "write less, or look at SCALE: it says how far the machine moves in a revolution");
+    }
+
+    static bool is_speed(const registers::Register* reg) {
+        return reg != nullptr && (reg->number == registers::V_SOLL || is_selectable(reg->number, Group::v));
+    }
+
+    double rpm_of(const registers::Register& reg, std::uint32_t value) const {
+        const auto per_rpm = raw_per_unit(reg, symbols_.motor, {}, "rpm");
+        return per_rpm ? std::fabs(number_of_bits(value, reg.format)) / *per_rpm : 0;
     }
 
     static bool is_selectable(std::uint8_t number, Group group) {
@@ -152,6 +172,42 @@ class Oversights {
         });
     }
 
+    bool is_of_on(Span condition) const {
+        return std::any_of(program_.on_conditions.begin(), program_.on_conditions.end(),
+                           [&](const ast::OnCondition& on) { return on.condition.span == condition; });
+    }
+
+    /// A branch of the step itself: neither what ON says for many steps, nor what an input sends to the fault
+    /// step.
+    bool is_exit(const StepPlan& step, std::uint8_t next, const Truth& when, Span condition) const {
+        if (is_of_on(condition) || (!step.own_error && (when & ~truth_of_bit(kErrorBit)).none()))
+            return false;
+        const bool waits =
+            depends_on(when, kInPosBit) || depends_on(when, kTimerZero) || depends_on(when, kCounterZero);
+        const bool is_guard = fault_ != nullptr && !waits && condition.length != 0 && !step.own_error;
+        return !is_guard || !steps_are_one(*fault_, next);
+    }
+
+    bool is_exit(const StepPlan& step, const Rule& rule, const RulePart* but = nullptr) const {
+        if (!leaves(step, rule)) return false;
+        if (step.is_helper) return true;  // on its way to where another step's branch goes
+        if (rule.parts.empty()) return is_exit(step, *rule.action.next, rule.when, rule.condition);
+        return std::any_of(rule.parts.begin(), rule.parts.end(), [&](const RulePart& part) {
+            return &part != but && is_exit(step, *rule.action.next, part.when, part.condition);
+        });
+    }
+
+    bool steps_are_one(const StepPlan& step, std::uint8_t number) const {
+        return any_copy(step, [&](const StepPlan& copy) { return copy.number == number; });
+    }
+
+    void find_fault() {
+        for_each_rule([&](const StepPlan& step, const Rule& rule) {
+            const bool on_error = (rule.when & truth_of_bit(kErrorBit)).any();
+            if (on_error && leaves(step, rule) && !step.own_error) fault_ = step_numbered(*rule.action.next);
+        });
+    }
+
     void check_exits() {
         std::bitset<64> entered;
         for_each_rule([&](const StepPlan& step, const Rule& rule) {
@@ -159,15 +215,19 @@ class Oversights {
         });
         const Truth no_error = ~truth_of_bit(kErrorBit);
         const auto leads_on = [&](const StepPlan& step) {
-            return std::any_of(step.rules.begin(), step.rules.end(), [&](const Rule& rule) {
-                return leaves(step, rule) && (step.own_error || (rule.when & no_error).any());
-            });
+            return std::any_of(step.rules.begin(), step.rules.end(),
+                               [&](const Rule& rule) { return is_exit(step, rule); });
         };
         const auto does_something = [&](const StepPlan& step) {
             return step.outputs != 0 || !step.conditional.empty() ||
                    (!step.own_error && !step.entry.empty()) ||
                    std::any_of(step.rules.begin(), step.rules.end(),
                                [&](const Rule& rule) { return (rule.when & no_error).any(); });
+        };
+        const auto has_guard = [&](const StepPlan& step) {
+            return std::any_of(step.rules.begin(), step.rules.end(), [&](const Rule& rule) {
+                return leaves(step, rule) && (rule.when & no_error).any();
+            });
         };
         for (const StepPlan& step : plan_.steps) {
             const bool is_entered =
@@ -179,7 +239,9 @@ class Oversights {
             stuck_.set(step.number);
             report_.add("W019", step.span,
                         fmt::format("'{}' is entered and never left{}", step.name,
-                                    step.own_error || step.rules.empty() ? "" : " but by an ERROR"),
+                                    any_copy(step, has_guard)              ? " but by a guard"
+                                    : step.own_error || step.rules.empty() ? ""
+                                                                           : " but by an ERROR"),
                         "write a branch with NEXT, such as IF condition THEN NEXT := Step; END_IF");
         }
     }
@@ -188,26 +250,24 @@ class Oversights {
     void check_reset() {
         const Rule* reset = nullptr;
         bool under_error = false;
-        const StepPlan* fault = nullptr;
-        for_each_rule([&](const StepPlan& step, const Rule& rule) {
+        for_each_rule([&](const StepPlan&, const Rule& rule) {
             const bool on_error = (rule.when & truth_of_bit(kErrorBit)).any();
-            if (on_error && leaves(step, rule) && !step.own_error) fault = step_numbered(*rule.action.next);
             for (const Send& send : rule.action.sends) {
                 if (!is_number(send, Number::reset_error)) continue;
                 reset = &rule;
                 under_error = under_error || on_error;
             }
         });
-        if (fault == nullptr || under_error || stuck_.test(fault->number)) return;
+        if (fault_ == nullptr || under_error || stuck_.test(fault_->number)) return;
         if (reset != nullptr) {
             report_.add("W021", reset->condition.length != 0 ? reset->condition : reset->action.span,
                         "RESET_ERROR is never sent while there is an ERROR: this means NOT ERROR too",
                         "write ANY ERROR AND in front of the condition");
             return;
         }
-        report_.add("W021", fault->span,
+        report_.add("W021", fault_->span,
                     "nothing sends RESET_ERROR: once there was an error the motor stays still",
-                    "write IF ANY ERROR AND Ack THEN RESET_ERROR; NEXT := POWER_UP; END_IF");
+                    "write IF ANY ERROR AND R_TRIG(Ack) THEN RESET_ERROR; NEXT := POWER_UP; END_IF");
     }
 
     const StepPlan* step_numbered(std::uint8_t number) const {
@@ -216,9 +276,13 @@ class Oversights {
         return found == plan_.steps.end() ? nullptr : &*found;
     }
 
-    static const Rule* timer_exit(const StepPlan& step) {
+    /// Also where another condition leads to the same step.
+    static const RulePart* timer_exit(const StepPlan& step) {
         for (const Rule& rule : step.rules) {
-            if (leaves(step, rule) && (rule.when & ~truth_of_bit(kTimerZero)).none()) return &rule;
+            if (!leaves(step, rule)) continue;
+            for (const RulePart& part : rule.parts) {
+                if ((part.when & ~truth_of_bit(kTimerZero)).none()) return &part;
+            }
         }
         return nullptr;
     }
@@ -229,12 +293,12 @@ class Oversights {
         for_each_rule([&](const StepPlan& from, const Rule& rule) {
             if (!leaves(from, rule) || rule.action.timer || (rule.when & ~truth_of_bit(kTimerZero)).none())
                 return;
-            const Rule* limit = timer_exit(from);
+            const RulePart* limit = timer_exit(from);
             const StepPlan* to = step_numbered(*rule.action.next);
-            const Rule* dwell = to == nullptr ? nullptr : timer_exit(*to);
+            const RulePart* dwell = to == nullptr ? nullptr : timer_exit(*to);
             if (limit == nullptr || dwell == nullptr || limit->action.next == dwell->action.next) return;
             const bool waits_only = std::none_of(to->rules.begin(), to->rules.end(), [&](const Rule& other) {
-                return &other != dwell && leaves(*to, other) && (other.when & ~truth_of_bit(kErrorBit)).any();
+                return is_exit(*to, other, dwell);
             });
             if (!waits_only) return;
             report_
@@ -246,17 +310,21 @@ class Oversights {
         });
     }
 
+    const ast::Program& program_;
     const Plan& plan_;
     const Symbols& symbols_;
+    const std::vector<DeclaredSetPoint>& points_;
     Report& report_;
+    const StepPlan* fault_ = nullptr;  ///< of ON ERROR
     bool has_terms_ = false;
     std::bitset<64> stuck_;
 };
 
 }  // namespace
 
-void check_oversights(const Plan& plan, const Symbols& symbols, Report& report) {
-    Oversights(plan, symbols, report).run();
+void check_oversights(const ast::Program& program, const Plan& plan, const Symbols& symbols,
+                      const std::vector<DeclaredSetPoint>& points, Report& report) {
+    Oversights(program, plan, symbols, points, report).run();
 }
 
 }  // namespace nplc::seqc
