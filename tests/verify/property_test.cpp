@@ -122,17 +122,20 @@ TEST(Property, MistakesNameTheirLine) {
     const auto error = [](std::string_view text) {
         const PropertyReading reading = read_properties(text, names());
         EXPECT_TRUE(reading.properties.empty()) << text;
-        return std::to_string(reading.line) + ": " + reading.error;
+        return std::to_string(reading.line) + ":" + std::to_string(reading.column) + ": " + reading.error;
     };
     EXPECT_EQ(error("(* a\n*)\nPROPERTY P: NEVER Stert;"),
-              "3: an input, an output, INPOS, ERROR, TIMER.Q, COUNTER.Q, moving or 'step = Name' is "
-              "expected, not 'Stert'");
+              "3:19: an input, an output, INPOS, ERROR, TIMER.Q, COUNTER.Q, moving or 'step = Name' is "
+              "expected, not 'Stert'; did you mean 'Start'?");
+    EXPECT_EQ(error("(* \u00fc\n *) PROPERTY P: NEVER step = Idel;").substr(0, 53),
+              "2:30: there is no step 'Idel'; did you mean 'Idle'?");
     EXPECT_EQ(error("PROPERTY P: NEVER step = Nowhere;"),
-              "1: there is no step 'Nowhere'; a step is a name or 0 to 62");
-    EXPECT_EQ(error("PROPERTY P: NEVER step = 63;"), "1: there is no step '63'; a step is a name or 0 to 62");
+              "1:26: there is no step 'Nowhere'; a step is a name or 0 to 62");
+    EXPECT_EQ(error("PROPERTY P: NEVER step = 63;"),
+              "1:26: there is no step '63'; a step is a name or 0 to 62");
     EXPECT_EQ(error("PROPERTY P: NEVER IN0"),
-              "1: ';' is expected at the end of the property, not the end of the text");
-    EXPECT_EQ(error("PROPERTY P: NEVER IN0; PROPERTY p: NEVER IN1;"), "1: there are two properties 'p'");
+              "1:22: ';' is expected at the end of the property, not the end of the text");
+    EXPECT_EQ(error("PROPERTY P: NEVER IN0; PROPERTY p: NEVER IN1;"), "1:33: there are two properties 'p'");
     EXPECT_NE(error("PROPERTY P: WHENEVER IN0 THEN IN1 WITHIN 1.5 ms;"), "");
     EXPECT_NE(error("PROPERTY P: NEVER " + std::string(200, '(') + "IN0"), "");
 }

@@ -9,6 +9,8 @@
 #include <optional>
 #include <span>
 
+#include "spelling/edit_distance.h"
+
 namespace nplc::verify {
 namespace {
 
@@ -93,6 +95,16 @@ PropertyParser::PropertyParser(std::string_view text, const Names& names) : name
 void PropertyParser::split(std::string_view text) {
     std::size_t line = 1;
     std::size_t at = 0;
+    std::size_t line_begins = 0;
+    const auto column = [&](std::size_t place) {
+        const std::string_view before = text.substr(line_begins, place - line_begins);
+        return 1 + static_cast<std::size_t>(std::count_if(before.begin(), before.end(), [](char c) {
+                   return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+               }));
+    };
+    const auto add = [&](Token::Kind kind, std::size_t from, std::size_t end) {
+        tokens_.push_back({kind, text.substr(from, end - from), line, column(from)});
+    };
     const auto run = [&](std::size_t from, auto belongs) {
         std::size_t end = from;
         while (end < text.size() && belongs(text[end])) ++end;
@@ -104,6 +116,7 @@ void PropertyParser::split(std::string_view text) {
         std::size_t end = at + 1;
         if (c == '\n') {
             ++line;
+            line_begins = at + 1;
         } else if (std::isspace(static_cast<unsigned char>(c)) != 0 || rest.starts_with("\xEF\xBB\xBF")) {
             end = c == '\xEF' ? at + 3 : end;
         } else if (rest.starts_with("//")) {
@@ -111,29 +124,31 @@ void PropertyParser::split(std::string_view text) {
         } else if (rest.starts_with("(*") || rest.starts_with("/*")) {
             const std::size_t close = text.find(rest[0] == '(' ? "*)" : "*/", at + 2);
             end = close == std::string_view::npos ? text.size() : close + 2;
-            line +=
-                static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(at),
-                                                    text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+            for (std::size_t i = at; i < end; ++i) {
+                if (text[i] != '\n') continue;
+                ++line;
+                line_begins = i + 1;
+            }
         } else if (c == '%') {
             end = run(at + 1, [](char x) { return is_word_character(x) || x == '.'; });
-            tokens_.push_back({Token::Kind::direct, text.substr(at, end - at), line});
+            add(Token::Kind::direct, at, end);
         } else if (const std::size_t prefix = time_prefix(rest); prefix != 0) {
             end = run(at + prefix, [](char x) { return is_word_character(x) || x == '.'; });
-            tokens_.push_back({Token::Kind::number, text.substr(at, end - at), line});
+            add(Token::Kind::number, at, end);
         } else if (std::isdigit(static_cast<unsigned char>(c)) != 0) {
             end = run(at, [](char x) {
                 return std::isdigit(static_cast<unsigned char>(x)) != 0 || x == '.' || x == '_';
             });
-            tokens_.push_back({Token::Kind::number, text.substr(at, end - at), line});
+            add(Token::Kind::number, at, end);
         } else if (is_word_character(c)) {
             end = run(at, is_word_character);
-            tokens_.push_back({Token::Kind::word, text.substr(at, end - at), line});
+            add(Token::Kind::word, at, end);
         } else {
-            tokens_.push_back({Token::Kind::symbol, text.substr(at, 1), line});
+            add(Token::Kind::symbol, at, end);
         }
         at = end;
     }
-    tokens_.push_back({Token::Kind::end, {}, line});
+    add(Token::Kind::end, text.size(), text.size());
 }
 
 const PropertyParser::Token& PropertyParser::token(std::size_t ahead) const {
@@ -159,6 +174,7 @@ bool PropertyParser::fail(std::string message) {
     if (reading_.error.empty()) {
         reading_.error = std::move(message);
         reading_.line = token().line;
+        reading_.column = token().column;
     }
     return false;
 }
@@ -166,6 +182,17 @@ bool PropertyParser::fail(std::string message) {
 std::string PropertyParser::shown() const {
     return token().kind == Token::Kind::end ? "the end of the text"
                                             : fmt::format("'{}'", token().text.substr(0, 40));
+}
+
+/// What may have been meant by the word at hand, or `otherwise`.
+std::string PropertyParser::guess(std::span<const std::string> known, std::string_view otherwise) const {
+    std::vector<std::string_view> names;
+    for (const std::string& name : known) {
+        if (!name.empty()) names.push_back(name);
+    }
+    const std::string_view best =
+        token().kind == Token::Kind::word ? spelling::nearest(token().text, names) : std::string_view();
+    return best.empty() ? std::string(otherwise) : fmt::format("did you mean '{}'?", best);
 }
 
 PropertyReading PropertyParser::parse() {
@@ -460,7 +487,9 @@ bool PropertyParser::parse_step(Condition& result) {
         number = named(text, names_.steps);
         if (!number && same_word(text, "POWER_UP")) number = std::uint8_t{0};
     }
-    if (!number) return fail(fmt::format("there is no step {}; a step is a name or 0 to 62", shown()));
+    if (!number)
+        return fail(fmt::format("there is no step {}; {}", shown(),
+                                guess(names_.steps, "a step is a name or 0 to 62")));
     ++at_;
     result = leaf(Kind::step, *number);
     for (std::uint8_t copy = 0; is_name && copy < names_.copy_of.size(); ++copy) {
@@ -478,8 +507,10 @@ bool PropertyParser::parse_group(Condition& result) {
     });
     if (group == names_.groups.end()) {
         if (token().kind == Token::Kind::word && named(token().text, names_.steps)) return parse_step(result);
-        return fail(
-            fmt::format("there is no group {}; a group is declared with GROUP Name: steps;", shown()));
+        std::vector<std::string> known(names_.steps.begin(), names_.steps.end());
+        for (const StepGroup& one : names_.groups) known.push_back(one.name);
+        return fail(fmt::format("there is no group {}; {}", shown(),
+                                guess(known, "a group is declared with GROUP Name: steps;")));
     }
     ++at_;
     result = leaf(Kind::any_of);
@@ -523,10 +554,14 @@ bool PropertyParser::parse_signal(Condition& result) {
     } else if (const auto qx = numbered(text, "%QX0.", 4)) {
         result = leaf(Kind::output, *qx);
     } else {
+        std::vector<std::string> known(names_.inputs.begin(), names_.inputs.end());
+        known.insert(known.end(), names_.outputs.begin(), names_.outputs.end());
+        known.insert(known.end(), {"INPOS", "ERROR", "moving"});
+        const std::string meant = guess(known, "");
         return fail(
             fmt::format("an input, an output, INPOS, ERROR, TIMER.Q, COUNTER.Q, moving or 'step = Name' is "
-                        "expected, not {}",
-                        shown()));
+                        "expected, not {}{}{}",
+                        shown(), meant.empty() ? "" : "; ", meant));
     }
     ++at_;
     return true;

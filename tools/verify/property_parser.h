@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,7 @@ class PropertyParser {
         Kind kind = Kind::end;
         std::string_view text;
         std::size_t line = 1;
+        std::size_t column = 1;
     };
 
     void split(std::string_view text);
@@ -30,6 +32,7 @@ class PropertyParser {
     bool expect(std::string_view word, std::string_view where);
     bool fail(std::string message);
     std::string shown() const;
+    std::string guess(std::span<const std::string> known, std::string_view otherwise) const;
 
     bool parse_property();
     bool parse_assumption();

@@ -310,7 +310,8 @@ int run(const VerifyArguments& options) {
         if (!text.error.empty()) return file_problem(text.error);
         reading = verify::read_properties(text.text, names);
         if (!reading.error.empty())
-            return file_problem(fmt::format("{}:{}: {}", options.properties, reading.line, reading.error));
+            return file_problem(
+                fmt::format("{}:{}:{}: {}", options.properties, reading.line, reading.column, reading.error));
         properties.insert(properties.end(), reading.properties.begin(), reading.properties.end());
         assumptions.insert(assumptions.end(), reading.assumptions.begin(), reading.assumptions.end());
     }

@@ -122,8 +122,9 @@ struct Assumption {
 struct PropertyReading {
     std::vector<Property> properties;
     std::vector<Assumption> assumptions;
-    std::string error;     ///< what is wrong, and what to write; empty if nothing is
-    std::size_t line = 0;  ///< of the error, from 1
+    std::string error;       ///< what is wrong, and what to write; empty if nothing is
+    std::size_t line = 0;    ///< of the error, from 1
+    std::size_t column = 0;  ///< in characters
 };
 
 /// A file of properties: `PROPERTY Name: FORM;` one after the other, comments as in programs.
