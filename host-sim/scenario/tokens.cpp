@@ -58,6 +58,14 @@ Token number_at(std::string_view rest, std::size_t begin) {
                 fmt::format("\"{}\" is not a number; write digits such as 250 or 1.5", token.text), begin};
         token.number = *value;
     }
+    const std::size_t comma = token.text.size();
+    if (comma + 1 < rest.size() && rest[comma] == ',' && is_digit(rest[comma + 1])) {
+        std::size_t digits = comma + 1;
+        while (digits < rest.size() && is_digit(rest[digits])) ++digits;
+        throw LineMistake{fmt::format("a number has a decimal point; write {}.{}", token.text,
+                                      rest.substr(comma + 1, digits - comma - 1)),
+                          begin};
+    }
     token.end = begin + token.text.size();
     return token;
 }
@@ -79,6 +87,8 @@ Token word_at(std::string_view rest, std::size_t begin) {
 
 Token symbol_at(std::string_view rest, std::size_t begin) {
     if (rest.starts_with("==")) throw LineMistake{"\"==\" is not known here; write = to compare", begin};
+    if (rest.front() == '&') throw LineMistake{"\"&\" is not known here; write and", begin};
+    if (rest.front() == '|') throw LineMistake{"\"|\" is not known here; write or", begin};
     if (rest.starts_with("!=")) throw LineMistake{"\"!=\" is not known here; write <> for unequal", begin};
     for (const std::string_view symbol : kSymbols) {
         if (!rest.starts_with(symbol)) continue;

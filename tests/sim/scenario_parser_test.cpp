@@ -234,6 +234,11 @@ TEST(ScenarioParser, MistakesHaveColumns) {
     EXPECT_EQ(at_column("expect Grip < 1"), "13: a signal is 0 or 1; compare it with = or <>");
     EXPECT_EQ(at_column("expect Grip ; Lamp"),
               "13: \";\" has no meaning here; remove it (comments begin with # or //)");
+    EXPECT_EQ(at_column("expect at 100 ms P_IST = 0 mm +- 0,1 mm"),
+              "34: a number has a decimal point; write 0.1");
+    EXPECT_EQ(at_column("at 0,1 s Start := 1"), "4: a number has a decimal point; write 0.1");
+    EXPECT_EQ(at_column("expect Grip & Lamp"), "13: \"&\" is not known here; write and");
+    EXPECT_EQ(at_column("expect Grip || Lamp"), "13: \"|\" is not known here; write or");
     EXPECT_EQ(parse("at x").mistakes[0].place(), "1:4");
     EXPECT_EQ(parse("expect at 12 s Grip\nend at 10 s").mistakes[0].place(), "1");
 }
