@@ -74,9 +74,9 @@ TEST(TableDiff, OutputsThatAreNotCertainAnyMore) {
 // 1000 rpm: 1000 / 60 rev/s x 4096 counts / 520.83 samples x 16 = 2097.15.
 // 20000 rpm/s are 80.5 steps of A1, so 81, which is 20117: the shorter number that gives 81 is shown.
 TEST(TableDiff, AValueOfPowerUp) {
-    EXPECT_EQ(changes_text({{"1500 rpm", "1000 rpm"}}), "V1: 3146 -> 2097 (1500 rpm -> 1000 rpm)\n");
+    EXPECT_EQ(changes_text({{"1500 rpm", "1000 rpm"}}), "Fast: 3146 -> 2097 (1500 rpm -> 1000 rpm)\n");
     EXPECT_EQ(changes_text({{"1500 rpm;", "1500 rpm; Soft AT A1 := 81;"}}),
-              "A1: written now: 81 (20000 rpm/s)\n");
+              "Soft: written now: 81 (20000 rpm/s)\n");
 }
 
 // 1 rev = 5 mm: 60 mm are 12 rev, 12 x 4096 = 49152; 50 mm are 40960.
@@ -85,7 +85,18 @@ TEST(TableDiff, PositionsInTheProgramsOwnUnit) {
                                      {"1500 rpm;", "1500 rpm; Place AT P2 := 60 mm;"}});
     std::string moved = own;
     moved.replace(moved.find("60 mm"), 5, "50 mm");
-    EXPECT_EQ(text_of(diff(own, moved)), "P2: 49152 -> 40960 (60 mm -> 50 mm)\n");
+    EXPECT_EQ(text_of(diff(own, moved)), "Place: 49152 -> 40960 (60 mm -> 50 mm)\n");
+}
+
+// 1 rpm are 2.09715 steps of V1: 234.6 are 491.99, 281.3 are 589.93. With 10 mm a revolution 1 mm/s are 6
+// rpm, 12.583 steps: 39.1 are 491.99, 46.9 are 590.1.
+TEST(TableDiff, AsFewPlacesAsTellTheValue) {
+    EXPECT_EQ(text_of(diff(machine({{"1500 rpm", "492"}}), machine({{"1500 rpm", "590"}}))),
+              "Fast: 492 -> 590 (234.6 rpm -> 281.3 rpm)\n");
+    const std::string scale = "MOTOR MAC140; SCALE 1 rev = 10 mm;";
+    EXPECT_EQ(text_of(diff(machine({{"MOTOR MAC140;", scale}, {"1500 rpm", "39.1 mm/s"}}),
+                           machine({{"MOTOR MAC140;", scale}, {"1500 rpm", "46.9 mm/s"}}))),
+              "Fast: 492 -> 590 (39.1 mm/s -> 46.9 mm/s)\n");
 }
 
 TEST(TableDiff, WhatASwitchDoes) {
@@ -158,6 +169,7 @@ TEST(TableDiff, Json) {
     EXPECT_EQ(json["same_bytes"], false);
     EXPECT_EQ(json["same_behaviour"], false);
     EXPECT_EQ(json["values"][0]["register"], "V1");
+    EXPECT_EQ(json["values"][0]["name"], "Fast");
     EXPECT_EQ(json["values"][0]["now_in_units"], "1000 rpm");
     EXPECT_EQ(json["reactions"][0]["step"], "Travel");
     EXPECT_EQ(json["reactions"][0]["when"], "NOT Guard AND INPOS");

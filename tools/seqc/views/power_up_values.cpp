@@ -40,6 +40,7 @@ std::vector<TableDiff::Value> PowerUpValues::changes(const Symbols* names_before
         const bool both = before != before_.end() && now != now_.end();
         if (both && before->second == now->second) continue;
         TableDiff::Value change{.reg = register_name(reg, names),
+                                .name = register_as_named(reg, names),
                                 .before = {},
                                 .now = {},
                                 .before_in_units = {},

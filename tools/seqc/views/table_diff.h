@@ -24,6 +24,7 @@ struct TableDiff {
     /// A register that POWER_UP writes.
     struct Value {
         std::string reg;
+        std::string name;                   ///< as the program calls the register, else the same
         std::optional<std::string> before;  ///< nothing: it was not written
         std::optional<std::string> now;
         std::string before_in_units;  ///< "1500 rpm"; empty where unknown

@@ -40,12 +40,12 @@ std::string renumbered(const std::vector<Step>& steps) {
 std::string line_of(const Value& value) {
     if (!value.before || !value.now) {
         const std::string& units = value.now ? value.now_in_units : value.before_in_units;
-        return fmt::format("{}: {}{}{}\n", value.reg,
+        return fmt::format("{}: {}{}{}\n", value.name,
                            value.now ? "written now: " : "no longer written; it was ",
                            value.now ? *value.now : *value.before, units.empty() ? "" : " (" + units + ")");
     }
     const bool units = !value.before_in_units.empty() && !value.now_in_units.empty();
-    return fmt::format("{}: {} -> {}{}\n", value.reg, *value.before, *value.now,
+    return fmt::format("{}: {} -> {}{}\n", value.name, *value.before, *value.now,
                        units ? fmt::format(" ({} -> {})", value.before_in_units, value.now_in_units) : "");
 }
 
@@ -97,7 +97,7 @@ Json json_of(const Step& step) {
 }
 
 Json json_of(const Value& value) {
-    Json json{{"register", value.reg}};
+    Json json{{"register", value.reg}, {"name", value.name}};
     if (value.before) json["before"] = *value.before;
     if (value.now) json["now"] = *value.now;
     if (!value.before_in_units.empty()) json["before_in_units"] = value.before_in_units;

@@ -139,37 +139,24 @@ std::string order_text(const sequencer::MotorOrder& order, const Symbols* symbol
     return fmt::format("{} := {}", register_name(order.reg, symbols), value_text(order, symbols));
 }
 
-namespace {
-
-std::string register_as_named(std::uint8_t number, std::string_view reg, const Symbols* symbols) {
-    if (symbols == nullptr) return std::string(reg);
+std::string register_as_named(std::uint8_t number, const Symbols* symbols) {
+    if (symbols == nullptr) return register_name(number, symbols);
     const auto& names = symbols->motor_names;
     const auto found =
         std::find_if(names.begin(), names.end(), [&](const MotorName& n) { return n.number == number; });
-    return found == names.end() ? std::string(reg) : found->name;
+    return found == names.end() ? register_name(number, symbols) : found->name;
 }
-
-/// A command names P1..P8 and so on, by the numbers that all motors have there.
-std::string selected_as_named(std::string_view reg, const Symbols* symbols) {
-    const registers::Register* found = registers::find(registers::Model::mac140, reg);
-    return found == nullptr ? std::string(reg) : register_as_named(found->number, reg, symbols);
-}
-
-}  // namespace
 
 std::string named_order_text(const sequencer::MotorOrder& order, const Symbols* symbols) {
     if (order.is_register_write) {
         const std::int64_t value = value_of(order, symbols);
-        return fmt::format("{} := {}",
-                           register_as_named(order.reg, register_name(order.reg, symbols), symbols),
+        return fmt::format("{} := {}", register_as_named(order.reg, symbols),
                            with_unit(value, order.reg, symbols).value_or(value_text(order, symbols)));
     }
     const std::string text = describe_command(order.command);
-    const std::size_t open = text.find('(');
-    const std::size_t close = text.find(')');
-    if (open == std::string::npos || close == std::string::npos) return text;
-    const std::string reg = text.substr(open + 1, close - open - 1);
-    return text.substr(0, open + 1) + selected_as_named(reg, symbols) + text.substr(close);
+    const auto select = select_command(order.command);
+    if (!select || symbols == nullptr) return text;
+    return fmt::format("{}({})", text.substr(0, text.find('(')), shown_register(*symbols, select->selection));
 }
 
 std::string time_text(std::uint16_t milliseconds) {
@@ -210,7 +197,8 @@ std::optional<LengthUnit> length_of(const Symbols& symbols) {
 std::string unit_for(const registers::Register& reg, const std::optional<LengthUnit>& length) {
     const std::vector<std::string> units = fitting_units(reg, length);
     if (units.empty()) return "";
-    if (units.front() == "counts") return units.back();
+    const bool in_machine = length && std::string_view(units.back()).starts_with(length->name);
+    if (in_machine || units.front() == "counts") return units.back();
     return units.front() == "samples" ? "ms" : units.front();
 }
 
@@ -229,8 +217,8 @@ std::optional<std::string> with_unit(std::int64_t value, std::uint8_t number, co
     std::string text;
     for (int places = -kMostPlaces; places <= kMostPlaces; ++places) {
         const double tens = std::pow(10.0, std::max(-places, 0));
-        const double shown = places < 0 ? std::round(exact / tens) * tens : exact;
-        text = fmt::format("{:.{}f}", shown, std::max(places, 0));
+        const double rounded = places > 0 ? exact : std::round(exact / tens) * tens;
+        text = fmt::format("{:.{}f}", rounded, std::max(places, 0));
         if (std::llround(std::strtod(text.c_str(), nullptr) * *raw) == value) break;
     }
     return unit.empty() ? text : fmt::format("{} {}", text, unit);

@@ -27,6 +27,8 @@ std::string outputs_list(std::uint8_t outputs, const Symbols* symbols);
 const registers::Register* find_register(std::uint8_t number, const Symbols* symbols);
 /// "V1", or "REG(123)".
 std::string register_name(std::uint8_t number, const Symbols* symbols);
+/// As the program calls it, or as above.
+std::string register_as_named(std::uint8_t number, const Symbols* symbols);
 /// What is written, as a number with the register's sign.
 std::int64_t value_of(const sequencer::MotorOrder& write, const Symbols* symbols);
 
