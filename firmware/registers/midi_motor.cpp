@@ -107,9 +107,10 @@ std::string_view text_of(Limitation limitation) {
         case Limitation::load_factor:
             return "a MIDI drive has no load factor: leave out the L registers and KVOUT";
         case Limitation::function_error:
-            return "a MIDI drive has no P_FNC: move by P_SOLL, or relative with 11h, 12h or 15h";
+            return "a MIDI drive has no P_FNC: move to positions, by MOVE_P7_BY_P_SOLL (or P8), or with "
+                   "POSITIONS_RELATIVE_P_SOLL";
         case Limitation::homing:
-            return "a MIDI drive searches no home: move to a sensor, then set P_IST to 0 with 03h";
+            return "a MIDI drive searches no home: move to a sensor, then CLEAR_P_IST makes 0 of that place";
         case Limitation::mode:
             return "a MIDI drive has modes 0 (stop), 1 (velocity) and 2 (position) only";
         case Limitation::gear:
@@ -117,7 +118,7 @@ std::string_view text_of(Limitation limitation) {
         case Limitation::analogue:
             return "a MIDI drive has no analogue input";
         case Limitation::actual_position:
-            return "a MIDI drive's position can only be set to 0: write P_IST as a longword 0, or send 03h";
+            return "a MIDI drive's position can only be set to 0: CLEAR_P_IST, or P_IST := 0";
         case Limitation::no_register:
             return "a MIDI drive has nothing that this register could set";
         case Limitation::too_far:
@@ -128,7 +129,8 @@ std::string_view text_of(Limitation limitation) {
         case Limitation::no_speed:
             return "the MIDI drive's own speed is none (period 0): select or write V before a move";
         case Limitation::no_acceleration:
-            return "acceleration 0 would have no limit on a MIDI drive: give A at least 1";
+            return "acceleration 0 would have no limit on a MIDI drive: give A at least one step, 248.4 "
+                   "rpm/s";
         case Limitation::too_soft:
             return "this speed with this acceleration needs a ramp of more than 30600 increments: raise A or "
                    "lower V";

@@ -13,6 +13,7 @@
 #include "cli/subcommands.h"
 #include "diagnostics/explanations.h"
 #include "diagnostics/reference.h"
+#include "semantics/commands.h"
 #include "syntax/names.h"
 
 namespace nplc::seqc::cli {
@@ -119,6 +120,18 @@ int list(const std::vector<Explanation>& all, bool json) {
     return print_or_write(text, {});
 }
 
+/// CLEAR_P_IST for 03H or 63H, as the manuals call it; other words as they are.
+std::string command_of(const std::string& word) {
+    constexpr unsigned kCommandMode = 0x60;
+    unsigned byte = 0;
+    const char* const end = word.data() + word.size();
+    const auto read = std::from_chars(word.data(), end, byte, 16);
+    if (word.size() != 3 || read.ptr != end - 1 || word.back() != 'H' || byte > 0x7F) return word;
+    const std::string text =
+        describe_command(static_cast<std::uint8_t>(byte < 0x20 ? byte | kCommandMode : byte));
+    return text.substr(0, text.find('('));
+}
+
 int explain(const ExplainArguments& options) {
     const std::vector<Explanation> all = explanations();
     if (options.code.empty()) return list(all, options.json);
@@ -127,7 +140,7 @@ int explain(const ExplainArguments& options) {
     if (found == all.end()) {
         constexpr std::string_view kMoving = "moving";  // the one word that is written small
         const std::string word =
-            same_name(options.code, kMoving) ? std::string(kMoving) : upper(options.code);
+            same_name(options.code, kMoving) ? std::string(kMoving) : command_of(upper(options.code));
         const std::vector<Paragraph> passages = passages_about(word);
         return passages.empty() ? unknown(options, all) : explain_word(word, passages, options.json);
     }

@@ -79,19 +79,32 @@ std::string bits_text(const Register& reg, std::uint32_t bits) {
     return registers::is_32_bit(reg.format) ? fmt::format("16#{:08X}", bits) : fmt::format("16#{:04X}", bits);
 }
 
-/// "60 mm", the shortest that is this number of counts; empty without a scale, or if none is short.
+/// Behind the unit of SCALE; nothing for what it does not measure.
+std::optional<std::string_view> rate_of(Unit unit) {
+    if (unit == Unit::counts || unit == Unit::counts_16) return "";
+    if (unit == Unit::velocity || unit == Unit::velocity_16) return "/s";
+    if (unit == Unit::acceleration_16) return "/s2";
+    return std::nullopt;
+}
+
+/// "60 mm", the shortest that is this number of steps; empty without a scale, or if none is short.
 std::string length_text(const Register& reg, std::int64_t number, const Symbols& symbols) {
-    if (!symbols.scale || (reg.unit != Unit::counts && reg.unit != Unit::counts_16)) return {};
+    const auto rate = rate_of(reg.unit);
+    if (!symbols.scale || !rate) return {};
     const Scale& scale = *symbols.scale;
     const LengthUnit unit{scale.unit, scale.length / scale.revolutions};
-    const auto steps = raw_per_unit(reg, symbols.motor, unit, scale.unit);
+    const std::string written = fmt::format("{}{}", scale.unit, *rate);
+    const auto steps = raw_per_unit(reg, symbols.motor, unit, written);
     if (!steps) return {};
     constexpr int kMostDigits = 8;
+    constexpr double kMostOff = 0.005;  // else W002 would tell of it
     for (int digits = 1; digits <= kMostDigits; ++digits) {
         const std::string value = fmt::format("{:.{}g}", static_cast<double>(number) / *steps, digits);
         const bool is_plain = value.find('e') == std::string::npos;
-        if (is_plain && std::llround(std::stod(value) * *steps) == number)
-            return fmt::format("{} {}", value, scale.unit);
+        const double exact = std::stod(value) * *steps;
+        const bool is_near = rate->empty() || std::fabs(exact - static_cast<double>(number)) <=
+                                                  kMostOff * std::fabs(static_cast<double>(number));
+        if (is_plain && is_near && std::llround(exact) == number) return fmt::format("{} {}", value, written);
     }
     return {};
 }

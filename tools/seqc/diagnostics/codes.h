@@ -87,7 +87,7 @@ constexpr auto kCodes = std::to_array<CodeRow>({
     {"W032", Severity::warning, Phase::motion},     {"W033", Severity::warning, Phase::motor},
     {"W034", Severity::warning, Phase::names},      {"W035", Severity::warning, Phase::motion},
     {"W036", Severity::warning, Phase::motion},     {"W037", Severity::warning, Phase::motion},
-    {"W038", Severity::warning, Phase::motion},
+    {"W038", Severity::warning, Phase::motion},     {"W039", Severity::warning, Phase::motor},
 });
 
 constexpr const CodeRow* find_code(std::string_view code) {

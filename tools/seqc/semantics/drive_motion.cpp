@@ -129,6 +129,7 @@ class DriveWalk {
     void apply(DriveState& state, const Send& send) const { apply(send, effect_of(send), state); }
 
     void judge(const Rule& rule, DriveState state) {
+        moved_before_ = state.moves();
         for (const Send& send : rule.action.sends) {
             const Effect effect = effect_of(send);
             const bool goes_on = !effect.mode || *effect.mode != 0;
@@ -185,13 +186,18 @@ class DriveWalk {
         if (what == nullptr || !drive_.family->waits_for_standstill() ||
             !waited_.insert(send.span.offset).second)
             return;
+        const bool starts_itself = state.motion == send.span && !moved_before_;
         report_
             .add("W015", send.span,
                  fmt::format("this waits until the motor stands: in motion a {} takes no {}",
                              drive_.program_name,
                              std::string_view(what).substr(std::string_view(what).find(' ') + 1)),
-                 "wait for INPOS before, or STOP first; leave it if waiting is what you want")
-            .notes.push_back({state.motion, state.motion == send.span
+                 starts_itself ? "VELOCITY sends V first, which starts the motor: INIT(A..); VELOCITY(V..); "
+                                 "selects A while "
+                                 "it stands, and what was selected stays so"
+                               : "wait for INPOS before, or STOP first; leave it if waiting is what you want")
+            .notes.push_back({state.motion, starts_itself ? "its first command starts the motor"
+                                            : state.motion == send.span
                                                 ? "the same order, given a round before, may not be done"
                                                 : "it may still move since this"});
     }
@@ -245,6 +251,7 @@ class DriveWalk {
     Report& report_;
     std::vector<Rounding>& roundings_;
     std::map<std::uint8_t, std::set<std::uint32_t>> given_;  ///< every value that a register is given
+    bool moved_before_ = false;                              ///< the scan whose orders are judged
     std::set<std::uint32_t> waited_;
     std::set<std::uint32_t> refused_;
     std::set<std::pair<std::int16_t, std::uint16_t>> noted_;

@@ -148,11 +148,15 @@ class MotorWalk {
   public:
     using State = MotorState;
 
-    MotorWalk(const Symbols& symbols, std::string_view source, Report& report)
+    MotorWalk(const Plan& plan, const Symbols& symbols, std::string_view source, Report& report)
         : symbols_(symbols),
           source_(source),
           start_mode_(registers::find(symbols.motor, registers::STARTMODE)->name),
-          report_(report) {}
+          report_(report) {
+        for_each_send(plan, [this](const Send& send) {
+            if (send.reg != nullptr && send.set_point != 0) set_points_.push_back(send.reg->number);
+        });
+    }
 
     /// An error puts the motor in INIT (001 §3.2.35), so where ERROR is dealt with it may be there.
     void enter(MotorState& state, const StepPlan& step, const Rule& rule) {
@@ -224,8 +228,9 @@ class MotorWalk {
     std::string help_for_position(const Send& send, const Rule& rule, const MotorState& state) const {
         const std::string place = selected_beside(send, rule, Group::p);
         const std::vector<Selection> others = selected_with(send, rule);
-        const bool writable = std::all_of(others.begin(), others.end(), [](const Selection& selection) {
-            return selection.group == Group::v || selection.group == Group::a || selection.group == Group::t;
+        const bool writable = std::all_of(others.begin(), others.end(), [&](const Selection& selection) {
+            return !is_set_point(selection) && (selection.group == Group::v || selection.group == Group::a ||
+                                                selection.group == Group::t);
         });
         std::string names;
         std::string writes;
@@ -237,6 +242,14 @@ class MotorWalk {
         if (state.modes == kInit || !writable) return fmt::format("select it first: {}", first);
         return fmt::format("write the value itself: {}POSITION({}); or, if the motor may stop for it, {}",
                            writes, place, first);
+    }
+
+    /// Its value is the operator's, and no constant of another register (E026).
+    bool is_set_point(const Selection& selection) const {
+        return std::any_of(set_points_.begin(), set_points_.end(), [&](std::uint8_t number) {
+            const auto own = selection_of(number);
+            return own && own->group == selection.group && own->index == selection.index;
+        });
     }
 
     /// All that the same statement selects, without positions.
@@ -252,12 +265,7 @@ class MotorWalk {
     }
 
     /// As the program calls the register.
-    std::string name_of(const Selection& selection) const {
-        const std::string reg = register_name(selection);
-        const auto named = std::find_if(symbols_.motor_names.begin(), symbols_.motor_names.end(),
-                                        [&](const MotorName& variable) { return variable.reg == reg; });
-        return named == symbols_.motor_names.end() ? reg : named->name;
-    }
+    std::string name_of(const Selection& selection) const { return shown_register(symbols_, selection); }
 
     /// What the same statement selects of a group, or "P..".
     std::string selected_beside(const Send& send, const Rule& rule, Group group) const {
@@ -342,12 +350,13 @@ class MotorWalk {
     std::string start_mode_;
     Report& report_;
     std::vector<std::uint32_t> said_;
+    std::vector<std::uint8_t> set_points_;  ///< registers that have the value of one
 };
 
 }  // namespace
 
 void check_motor_state(const Plan& plan, const Symbols& symbols, std::string_view source, Report& report) {
-    MotorWalk walk(symbols, source, report);
+    MotorWalk walk(plan, symbols, source, report);
     MotorState at_power_up;
     at_power_up.modes = kAnyMode;
     walk_steps(plan, at_power_up, walk);

@@ -101,8 +101,16 @@ void Scope::declare_motor(const ast::Program& program) {
         result_.symbols.drive = drive_;
         return;
     }
-    const auto names = motor_names();
-    std::string help = suggestion(program.motor->text, {names.begin(), names.end()});
+    const auto known = motor_names();
+    std::vector<std::string_view> names(known.begin(), known.end());
+    const auto shared = [&](std::string_view name) {
+        const std::string written = upper(program.motor->text);
+        return std::mismatch(name.begin(), name.end(), written.begin(), written.end()).first - name.begin();
+    };
+    std::stable_sort(names.begin(), names.end(),
+                     [&](std::string_view a, std::string_view b) { return shared(a) > shared(b); });
+    std::string help =
+        suggestion(program.motor->text, names);  // of those as near, that with the same first digits
     report_.add("E030", program.motor->span, fmt::format("there is no motor '{}'", program.motor->text),
                 help.empty() ? motor_names_text() : fmt::format("{} ({})", help, motor_names_text()));
 }
@@ -194,7 +202,8 @@ void Scope::declare_io(const std::vector<ast::Variable>& declared, std::vector<V
             report_
                 .add("E022", variable.address.span,
                      fmt::format("'{}' has a name already", variable.address.text),
-                     fmt::format("use '{}'", earlier->name))
+                     fmt::format("use '{}', or another {}", earlier->name,
+                                 direction == 'I' ? "input" : "output"))
                 .notes.push_back({earlier->span, "declared here"});
             faulty_.insert(upper(variable.name.text));
         } else if (is_new_name(variable.name)) {

@@ -147,8 +147,11 @@ class Scope {
                                       char direction, std::size_t count);
     bool is_reachable(const registers::Register* reg, Span span, std::string_view shown);
     void require_motor(Span span);
-    bool note_rounding(const ast::Value& value, std::string_view shown, double exact, double raw,
-                       double per_unit);
+    bool note_rounding(const ast::Value& value, const registers::Register& reg, std::string_view shown_name,
+                       double exact, double raw, double per_unit);
+    bool takes_zero(const registers::Register& reg) const;
+    void warn_without_unit(const ast::Value& value, const registers::Register& reg,
+                           std::string_view shown_name, double raw);
     void note_drive_value(const ast::Value& value, const registers::Register& reg, std::string_view shown,
                           double exact, double per_unit, std::uint32_t bits);
     std::string motor_name() const;
@@ -178,7 +181,8 @@ class Scope {
     std::vector<Variable> outputs_;
     std::vector<Variable> motor_variables_;
     Constants constants_;
-    std::unordered_set<std::string> faulty_;  ///< declared, but with a mistake; upper case
+    std::unordered_set<std::string> without_unit_;  ///< of which it was said that they have no unit
+    std::unordered_set<std::string> faulty_;        ///< declared, but with a mistake; upper case
     std::size_t faulty_names_met_ = 0;
     std::vector<Send> initial_values_;
     const std::vector<Edge>* edges_ = nullptr;

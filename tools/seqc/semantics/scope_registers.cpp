@@ -318,6 +318,7 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& written, const Regis
         note_value(d, value, shown_name);
         return std::nullopt;
     }
+    if (unit.empty() && !value.is_raw && raw != 0) warn_without_unit(value, reg, shown_name, raw);
     if (reg.dangerous) {
         report_.add("W003", value.span,
                     fmt::format("a wrong value in {} can damage the motor ({})", shown_name, reg.section),
@@ -325,14 +326,58 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& written, const Regis
     }
     const auto all_bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(raw));
     const std::uint32_t bits = registers::is_32_bit(reg.format) ? all_bits : all_bits & 0xFFFFU;
-    if (!is_for_drive({&reg, 0, bits, value.span})) return std::nullopt;
+    const bool vanishes = raw == 0 && exact != 0;  // said in the words for any motor
+    if (!vanishes && !is_for_drive({&reg, 0, bits, value.span})) return std::nullopt;
     const bool by_drive =
         drive_ != nullptr && raw != 0 && drive_->family->value_of(*drive_, reg, bits).has_value();
     if (by_drive)
         note_drive_value(value, reg, shown_name, exact, *per_unit, bits);
-    else if (!note_rounding(value, shown_name, exact, raw, *per_unit))
+    else if (!note_rounding(value, reg, shown_name, exact, raw, *per_unit))
         return std::nullopt;
     return bits;
+}
+
+namespace {
+
+/// A place, velocity or acceleration that SCALE makes one of the machine.
+bool is_of_machine(const Register& reg) {
+    const auto selection = selection_of(reg.number);
+    using protocol::fastmac::Group;
+    return (selection &&
+            (selection->group == Group::p || selection->group == Group::v || selection->group == Group::a)) ||
+           reg.number == registers::P_SOLL || reg.number == registers::V_SOLL ||
+           reg.number == registers::A_SOLL || reg.number == registers::P_IST;
+}
+
+/// Four digits: 0.1953, 46.89, 16950.
+std::string short_text(double value) {
+    const double size = std::fabs(value);
+    if (size < 1000) return fmt::format("{:.4g}", value);
+    const double tens = std::pow(10.0, std::floor(std::log10(size)) - 3);
+    return fmt::format("{:.0f}", std::round(value / tens) * tens);
+}
+
+}  // namespace
+
+/// 80 may be counts or millimetres.
+void Scope::warn_without_unit(const ast::Value& value, const Register& reg, std::string_view shown_name,
+                              double raw) {
+    if (!length_ || !is_of_machine(reg) || !without_unit_.insert(std::string(shown_name)).second) return;
+    const std::vector<std::string> units = fitting_units(reg, length_);
+    const std::string& machine = units.back();
+    const auto per_unit = raw_per_unit(reg, model_, length_, machine);
+    if (!per_unit) return;
+    const std::string in_steps =
+        fmt::format("{:.0f} {}", raw, units.front() == "counts" ? "counts" : "steps");
+    const std::string meant = fmt::format("{} {}", text(value.span), machine);
+    const std::string equal = fmt::format("{} {}", short_text(raw / *per_unit), machine);
+    Diagnostic& d = report_.add(
+        "W039", value.span,
+        fmt::format("a number without unit is the register's own: these {} are {}", in_steps, equal),
+        units.front() == "counts"
+            ? fmt::format("write {}, or {} where counts are meant", meant, in_steps)
+            : fmt::format("write {}, or {} where the register's steps are meant", meant, equal));
+    note_declaration(d, shown_name);
 }
 
 namespace {
@@ -347,9 +392,13 @@ bool meant_as_thousands(std::string_view written) {
 
 }  // namespace
 
+bool Scope::takes_zero(const Register& reg) const {
+    return drive_ == nullptr || refusal_of(*drive_, {&reg, 0, 0, {}}).empty();
+}
+
 /// False if nothing is left of the value: a motor without acceleration, say, would never stop.
-bool Scope::note_rounding(const ast::Value& value, std::string_view shown_name, double exact, double raw,
-                          double per_unit) {
+bool Scope::note_rounding(const ast::Value& value, const Register& reg, std::string_view shown_name,
+                          double exact, double raw, double per_unit) {
     const double error = exact == 0 ? 0 : (raw - exact) / std::fabs(exact);
     if (std::fabs(error) < 1e-9) return true;
     const std::string_view unit = value.is_time ? std::string_view("ms") : value.unit.text;
@@ -364,7 +413,8 @@ bool Scope::note_rounding(const ast::Value& value, std::string_view shown_name, 
             fmt::format("{} is too small for {}: it would become 0", text(value.span), shown_name),
             meant_as_thousands(text(value.span))
                 ? "a point is a decimal point here: write thousands without one"
-                : step + "; write at least that, or 0 if you mean 0");
+                : step + (takes_zero(reg) ? "; write at least that, or 0 if you mean 0"
+                                          : "; write at least that"));
         note_value(d, value, shown_name);
         return false;
     }

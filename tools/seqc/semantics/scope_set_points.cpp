@@ -79,7 +79,9 @@ void Scope::declare_at(DeclaredSetPoint& declared, std::uint8_t number) {
                                       [&](const Variable& v) { return v.reg == target; });
     if (earlier != motor_variables_.end()) {
         report_
-            .add("E022", written.name.span, fmt::format("{} has a name already", target->name),
+            .add("E022", written.name.span,
+                 fmt::format("{} has a name already",
+                             written.register_number ? target->name : written.address.text),
                  fmt::format("use '{}', or another register", earlier->name))
             .notes.push_back({earlier->span, "declared here"});
         faulty_.insert(upper(written.name.text));

@@ -218,6 +218,7 @@ bool Parser::parse_literal(ast::Value& value) {
     if (literal.kind == TokenKind::number) sound = to_number(literal.text, value.number);
     if (literal.kind == TokenKind::based) sound = to_based(literal.text, value.number);
     if (literal.kind == TokenKind::time) sound = parse_time(literal.text, value.number);
+    if (!sound && literal.kind == TokenKind::time && refuse_decimal_comma_in_time(literal)) return false;
     if (!sound || (negative && literal.kind != TokenKind::number)) {
         report_.add(code, literal.span, fmt::format("'{}' is not a value", literal.text.substr(0, 60)),
                     literal.kind == TokenKind::time ? "write times as T#500ms or T#1s500ms"
@@ -251,6 +252,25 @@ bool Parser::refuse_decimal_comma(const Token& first) {
                 maybe_thousands
                     ? fmt::format("write {0}{1}, or {0}.{1} if the comma is one", last.text, digits.text)
                     : fmt::format("write {}.{}", last.text, digits.text));
+    return true;
+}
+
+/// T#0,8s
+bool Parser::refuse_decimal_comma_in_time(const Token& literal) {
+    const Token digits = token(1);
+    const std::uint32_t comma = literal.span.offset + literal.span.length;
+    if (!at_symbol(",") || token().span.offset != comma || digits.kind != TokenKind::number ||
+        digits.span.offset != comma + 1)
+        return false;
+    at_ += 2;
+    std::string_view unit;
+    if (token().kind == TokenKind::identifier &&
+        token().span.offset == digits.span.offset + digits.span.length) {
+        unit = token().text;
+        ++at_;
+    }
+    report_.add("E004", span_since(literal), "a number has a decimal point",
+                fmt::format("write {}.{}{}", literal.text, digits.text, unit));
     return true;
 }
 

@@ -193,6 +193,7 @@ class Parser {
     bool parse_register_number(std::optional<ast::Value>& number);
     void parse_unit(ast::Value& value);
     bool refuse_decimal_comma(const Token& first);
+    bool refuse_decimal_comma_in_time(const Token& literal);
     bool parse_raw_term(std::vector<ast::RawTerm>& terms);
 
     // parse_terms.cpp
