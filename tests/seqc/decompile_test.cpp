@@ -175,6 +175,24 @@ TEST(Decompile, GivenRegistersAndTheScaleKeepTheBytes) {
     EXPECT_EQ(compile(decompiled(program.table, options).text).table, program.table);
 }
 
+// 10 mm a revolution: 1 mm/s is 6 rpm, 12.583 steps of V1, and 46.9 mm/s are 590.1; 1 step of A1 is 248.36
+// rpm/s, 41.39 mm/s2, and 1325 mm/s2 are 32.01. So what comes back has units, and no warning of those that
+// are missing (W039).
+TEST(Decompile, RatesInTheUnitOfTheScale) {
+    const Compilation program = compile(
+        "PROGRAM P\nMOTOR MAC140;\nSCALE 1 rev = 10 mm;\n"
+        "VAR_MOTOR Far AT P1 := 80 mm; Fast AT V1 := 16#24E; Soft AT A1 := 16#20; END_VAR\n"
+        "POWER_UP INIT(Fast, Soft); NEXT := One; END_POWER_UP\n"
+        "STEP One: OWN ERROR; IF IN0 THEN POSITION(Far); NEXT := Two; END_IF END_STEP\n"
+        "STEP Two: OWN ERROR; IF INPOS AND NOT IN0 THEN NEXT := One; END_IF END_STEP\nEND_PROGRAM\n");
+    ASSERT_TRUE(program.ok);
+    const DecompileOptions options{.origin = {}, .motor = {}, .symbols = &program.symbols};
+    const Decompilation result = decompiled(program.table, options);
+    for (const char* part : {"Far  AT P1 := 80 mm;", "Fast AT V1 := 46.9 mm/s;", "Soft AT A1 := 1325 mm/s2;"})
+        EXPECT_TRUE(has(result, part)) << part << " in " << result.text;
+    EXPECT_EQ(test::codes(compile(result.text)), "");
+}
+
 // 001 §6.1: one term of step 0, NEXT 1, and a term of step 1.
 TEST(Decompile, WhatHasNoWordsIsBytesWithTheReason) {
     struct Row {

@@ -64,6 +64,10 @@ TEST_F(Explain, EveryWordOfTheLanguageAndEveryCommand) {
         << read("out");
     ASSERT_EQ(run("explain property"), 0);
     EXPECT_NE(read("out").find("says what a machine must never do"), std::string::npos) << read("out");
+    for (const char* byte : {"03h", "63H"}) {  // as the manuals call CLEAR_P_IST, and as a table has it
+        ASSERT_EQ(run(std::string("explain ") + byte), 0);
+        EXPECT_TRUE(read("out").starts_with("CLEAR_P_IST\n")) << read("out");
+    }
     ASSERT_EQ(run("explain --json MOVE_P7_BY_P_FNC"), 0);
     const Json document = Json::parse(read("out"));
     EXPECT_EQ(document["word"], "MOVE_P7_BY_P_FNC");

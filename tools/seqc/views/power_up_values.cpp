@@ -49,7 +49,7 @@ std::vector<TableDiff::Value> PowerUpValues::changes(const Symbols* names_before
                               std::optional<std::string>& value, std::string& units) {
             const std::int64_t number = value_of(order, symbols);
             value = std::to_string(number);
-            units = with_unit(number, reg, symbols).value_or("");
+            units = with_machine_unit(number, reg, symbols).value_or("");
         };
         if (before != before_.end())
             tell(before->second, names_before, change.before, change.before_in_units);

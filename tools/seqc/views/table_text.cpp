@@ -197,21 +197,15 @@ std::optional<LengthUnit> length_of(const Symbols& symbols) {
 std::string unit_for(const registers::Register& reg, const std::optional<LengthUnit>& length) {
     const std::vector<std::string> units = fitting_units(reg, length);
     if (units.empty()) return "";
-    const bool in_machine = length && std::string_view(units.back()).starts_with(length->name);
-    if (in_machine || units.front() == "counts") return units.back();
+    if (units.front() == "counts") return units.back();
     return units.front() == "samples" ? "ms" : units.front();
 }
 
-}  // namespace
-
-std::optional<std::string> with_unit(std::int64_t value, std::uint8_t number, const Symbols* symbols) {
+/// With as few places as tell it from its neighbours.
+std::optional<std::string> shortest(std::int64_t value, const registers::Register& reg,
+                                    const Symbols& symbols, const std::string& unit) {
     constexpr int kMostPlaces = 6;
-    if (symbols == nullptr) return std::nullopt;
-    const registers::Register* reg = registers::find(symbols->motor, number);
-    if (reg == nullptr) return std::nullopt;
-    const std::optional<LengthUnit> length = length_of(*symbols);
-    const std::string unit = unit_for(*reg, length);
-    const auto raw = raw_per_unit(*reg, symbols->motor, length, unit);
+    const auto raw = raw_per_unit(reg, symbols.motor, length_of(symbols), unit);
     if (!raw || *raw == 1) return std::nullopt;
     const double exact = static_cast<double>(value) / *raw;
     std::string text;
@@ -222,6 +216,23 @@ std::optional<std::string> with_unit(std::int64_t value, std::uint8_t number, co
         if (std::llround(std::strtod(text.c_str(), nullptr) * *raw) == value) break;
     }
     return unit.empty() ? text : fmt::format("{} {}", text, unit);
+}
+
+}  // namespace
+
+std::optional<std::string> with_unit(std::int64_t value, std::uint8_t number, const Symbols* symbols) {
+    const registers::Register* reg = symbols == nullptr ? nullptr : registers::find(symbols->motor, number);
+    if (reg == nullptr) return std::nullopt;
+    return shortest(value, *reg, *symbols, unit_for(*reg, length_of(*symbols)));
+}
+
+std::optional<std::string> with_machine_unit(std::int64_t value, std::uint8_t number,
+                                             const Symbols* symbols) {
+    const registers::Register* reg = symbols == nullptr ? nullptr : registers::find(symbols->motor, number);
+    if (reg == nullptr || !symbols->scale) return with_unit(value, number, symbols);
+    const std::vector<std::string> units = fitting_units(*reg, length_of(*symbols));
+    const bool is_measured = !units.empty() && units.back().starts_with(symbols->scale->unit);
+    return is_measured ? shortest(value, *reg, *symbols, units.back()) : with_unit(value, number, symbols);
 }
 
 namespace {

@@ -53,6 +53,8 @@ std::string condition_text(const Truth& need, const Truth& open, const Symbols* 
 /// "1500 rpm" for 3146 in V1: the shortest number that the compiler rounds to this value. Nothing for a
 /// register without unit, and where the motor is not known.
 std::optional<std::string> with_unit(std::int64_t value, std::uint8_t reg, const Symbols* symbols);
+/// The same, and velocities and accelerations in the unit of the program's SCALE.
+std::optional<std::string> with_machine_unit(std::int64_t value, std::uint8_t reg, const Symbols* symbols);
 
 /// What a step does in one case, in a form in which two tables can be compared.
 struct StepAction {
