@@ -6,8 +6,8 @@ namespace nplc::seqc {
 namespace {
 
 /// A machine that goes to a place while Start is on, with what leaves its fault step, and a step behind that.
-std::string machine(const std::string& leaves, const std::string& cleared = {},
-                    const std::string& start = "Start AND NOT Guard") {
+std::string restarting(const std::string& leaves, const std::string& cleared = {},
+                       const std::string& start = "Start AND NOT Guard") {
     return "PROGRAM P MOTOR MAC140;\n"
            "VAR_INPUT Start AT IN0 : BOOL; Guard AT IN1 : BOOL; Ack AT IN2 : BOOL; Auto AT IN3 : BOOL; "
            "END_VAR\n"
@@ -34,28 +34,28 @@ std::string with(const std::string& asks, const std::string& next = "POWER_UP") 
 TEST(Restart, NoInputHasToChange) {
     for (const char* asks :
          {"", " AND NOT Guard", " AND Ack", " AND Ack AND NOT Guard", " AND (Ack OR Auto)", " AND Auto"})
-        EXPECT_EQ(codes(machine(with(asks))), "W037") << asks;
-    EXPECT_EQ(codes(machine("IF ANY ERROR AND Ack FOR 2 s THEN RESET_ERROR; NEXT := POWER_UP; END_IF")),
+        EXPECT_EQ(codes(restarting(with(asks))), "W037") << asks;
+    EXPECT_EQ(codes(restarting("IF ANY ERROR AND Ack FOR 2 s THEN RESET_ERROR; NEXT := POWER_UP; END_IF")),
               "W037");
-    EXPECT_EQ(codes(machine("OUT OUT0 BLINKING T#200ms; " + with(" AND Ack"))), "W037");
-    EXPECT_EQ(codes(machine("RESET_ERROR; NEXT := POWER_UP;")), "W021 W037");
+    EXPECT_EQ(codes(restarting("OUT OUT0 BLINKING T#200ms; " + with(" AND Ack"))), "W037");
+    EXPECT_EQ(codes(restarting("RESET_ERROR; NEXT := POWER_UP;")), "W037 W021");
 }
 
 TEST(Restart, AnEdgeIsAChange) {
     for (const char* asks : {" AND R_TRIG(Ack)", " AND F_TRIG(Ack)", " AND R_TRIG(Ack) AND NOT Guard"})
-        EXPECT_EQ(codes(machine(with(asks))), "") << asks;
-    EXPECT_EQ(codes(machine("OUT OUT0 BLINKING T#200ms; " + with(" AND R_TRIG(Ack)"))), "");
-    EXPECT_EQ(codes(machine(with(" AND Ack"), {}, "R_TRIG(Start) AND NOT Guard")), "");
+        EXPECT_EQ(codes(restarting(with(asks))), "") << asks;
+    EXPECT_EQ(codes(restarting("OUT OUT0 BLINKING T#200ms; " + with(" AND R_TRIG(Ack)"))), "");
+    EXPECT_EQ(codes(restarting(with(" AND Ack"), {}, "R_TRIG(Start) AND NOT Guard")), "");
 }
 
 TEST(Restart, SoIsAStepThatWaitsForTheOtherLevel) {
     const auto cleared = [](const std::string& waits) {
         return "STEP Cleared: OUT OUT1; IF " + waits + " THEN NEXT := POWER_UP; END_IF END_STEP\n";
     };
-    EXPECT_EQ(codes(machine(with(" AND Ack", "Cleared"), cleared("NOT Ack"))), "");
-    EXPECT_EQ(codes(machine(with(" AND Ack", "Cleared"), cleared("NOT Guard"))), "W037");
-    EXPECT_EQ(codes(machine(with(" AND Ack", "Cleared"), cleared("NOT Ack OR Auto"))), "W037");
-    EXPECT_EQ(codes(machine(with(" AND Ack AND NOT Start"))), "");  // Idle waits for Start
+    EXPECT_EQ(codes(restarting(with(" AND Ack", "Cleared"), cleared("NOT Ack"))), "");
+    EXPECT_EQ(codes(restarting(with(" AND Ack", "Cleared"), cleared("NOT Guard"))), "W037");
+    EXPECT_EQ(codes(restarting(with(" AND Ack", "Cleared"), cleared("NOT Ack OR Auto"))), "W037");
+    EXPECT_EQ(codes(restarting(with(" AND Ack AND NOT Start"))), "");  // Idle waits for Start
 }
 
 }  // namespace
