@@ -23,7 +23,7 @@ test("a page shows the program by its names and follows it", () =>
     const page = await openPage(machine.url);
     await painted(page);
     assert.equal(await textOf(page, "#program"), "PickAndPlace");
-    assert.match(await textOf(page, "#loaded"), /MAC140 · 25 terms · CRC-32 [0-9A-F]{8} · no certificate/);
+    assert.match(await textOf(page, "#loaded"), /MAC140 · \d+ terms · CRC-32 [0-9A-F]{8} · no certificate/);
     for (const name of ["Idle", "Travel", "Hold", "Return"]) {
       await page.waitForFunction((n) => document.querySelector(".box.active .name")?.textContent === n, name);
       await hasText(page, "#waits-title", name);
@@ -79,14 +79,6 @@ for (const name of readdirSync(examples).filter((n) => n.endsWith(".seq")).map((
       await client.opened;
       const page = await openPage(machine.url);
       await painted(page);
-      await page.evaluate(() => {
-        window.seen = new Set();
-        const look = () => {
-          window.seen.add(Number(document.body.dataset.step));
-          requestAnimationFrame(look);
-        };
-        look();
-      });
       const steps = () => client.messages.filter((m) => m.t === "image" && m.r?.STEP !== undefined).map((m) => m.r.STEP);
       // Three changes that the wire told, or ten seconds of a program that rests.
       const since = client.messages.length;
@@ -94,8 +86,9 @@ for (const name of readdirSync(examples).filter((n) => n.endsWith(".seq")).map((
         client.until(() => client.messages.slice(since).filter((m) => m.t === "image" && m.r?.STEP !== undefined).length >= 3),
         page.waitForTimeout(8000),
       ]);
-      const now = steps().at(-1);
-      await page.waitForFunction((step) => window.seen.has(step), now);
+      // A step may be shorter than a frame: at some moment the page shows the last one that the wire told.
+      const end = Date.now() + 30_000;
+      while (Number(await page.evaluate(() => document.body.dataset.step)) !== steps().at(-1)) assert.ok(Date.now() < end, "it never shows the active step");
       const program = client.messages.find((m) => m.t === "program");
       assert.equal(await textOf(page, "#program"), program.symbols.program);
       assert.equal(await page.locator(".box").count(), new Set([...Buffer.from(program.table, "base64")].filter((_, i) => i % 8 === 0).map((b) => b & 63).filter((s) => s !== 63)).size);
