@@ -282,7 +282,8 @@ TEST_F(BusyMotor, ThatTakesItsOrdersIsHeldAsEver) {
 TEST_F(BusyMotor, InTheMiddleOfAScanIsStoppedAfter500msToo) {
     settings.longest_wait = 60'000'000us;
     Gateway gateway(board.ports(), settings, StartCause::power_up);
-    ASSERT_TRUE(gateway.load(table(kVelocity), board.now).ok);
+    const auto velocity = table(kVelocity);  // not copied by load()
+    ASSERT_TRUE(gateway.load(velocity, board.now).ok);
     board.room = 0;
     board.run(gateway, 10ms);
     ASSERT_EQ(gateway.run_state(), RunState::running);
