@@ -188,7 +188,7 @@ TEST(Decompile, RatesInTheUnitOfTheScale) {
     ASSERT_TRUE(program.ok);
     const DecompileOptions options{.origin = {}, .motor = {}, .symbols = &program.symbols};
     const Decompilation result = decompiled(program.table, options);
-    for (const char* part : {"Far  AT P1 := 80 mm;", "Fast AT V1 := 46.9 mm/s;", "Soft AT A1 := 1325 mm/s2;"})
+    for (const char* part : {"Far AT P1 := 80 mm;", "Fast AT V1 := 46.9 mm/s;", "Soft AT A1 := 1325 mm/s2;"})
         EXPECT_TRUE(has(result, part)) << part << " in " << result.text;
     EXPECT_EQ(test::codes(compile(result.text)), "");
 }

@@ -41,6 +41,14 @@ TEST(Restart, NoInputHasToChange) {
     EXPECT_EQ(codes(restarting("RESET_ERROR; NEXT := POWER_UP;")), "W037 W021");
 }
 
+/// One that is asked nowhere else is a button for that.
+TEST(Restart, AnInputThatIsAskedNowhereElseAcknowledges) {
+    EXPECT_EQ(codes(restarting(with(" AND IN4"))), "");
+    EXPECT_EQ(codes(restarting(with(" AND IN4 AND NOT Guard"))), "");
+    for (const char* asks : {" AND NOT IN4", " AND (IN4 OR Auto)"})
+        EXPECT_EQ(codes(restarting(with(asks))), "W037") << asks;
+}
+
 TEST(Restart, AnEdgeIsAChange) {
     for (const char* asks : {" AND R_TRIG(Ack)", " AND F_TRIG(Ack)", " AND R_TRIG(Ack) AND NOT Guard"})
         EXPECT_EQ(codes(restarting(with(asks))), "") << asks;

@@ -49,7 +49,7 @@ TEST_F(ViewsCli, Diff) {
     EXPECT_EQ(run("diff a.seq a.seq"), 0);
     EXPECT_EQ(read("out"), "the same bytes\n");
     EXPECT_EQ(run("diff a.seq b.seq"), 1);
-    EXPECT_TRUE(read("out").starts_with("V1: 1000 -> 2000 ("));
+    EXPECT_TRUE(read("out").starts_with("Fast: 1000 -> 2000 ("));
     EXPECT_EQ(run("build a.seq"), 0);
     EXPECT_EQ(run("diff a.bin a.seq"), 0);
     EXPECT_EQ(run("diff a.seq b.seq --json"), 1);

@@ -55,15 +55,25 @@ Images images_of(const Truth& when, bool with_error) {
     return images;
 }
 
+/// The images in which an input is on.
+Images images_with(std::size_t input) {
+    Images images;
+    for (std::size_t at = 0; at < images.size(); ++at) images.set(at, ((at >> input) & 1U) != 0);
+    return images;
+}
+
 /// Whether the motor may move again after a fault while no input changes: an acknowledgement is an input that
-/// had to. Steps that remember an edge are copies here, so that R_TRIG and F_TRIG hold for no input that
-/// stays.
+/// had to, or that must be on and is asked nowhere else. Steps that remember an edge are copies here, so that
+/// R_TRIG and F_TRIG hold for no input that stays.
 class Restart {
   public:
     Restart(const Plan& plan, std::uint8_t fault, Report& report) : plan_(plan), report_(report) {
         for (const StepPlan& step : plan.steps) {
             steps_.at(step.number) = &step;
             if (step.number == fault) fault_span_ = step.span;
+        }
+        for (std::size_t input = 0; input < kInputCount; ++input) {
+            if (!is_asked_elsewhere(input)) acknowledgements_.push_back(images_with(input));
         }
     }
 
@@ -90,6 +100,20 @@ class Restart {
         return steps_.at(number) != nullptr && steps_.at(number)->span == fault_span_;
     }
 
+    bool is_asked_elsewhere(std::size_t input) const {
+        return std::any_of(plan_.steps.begin(), plan_.steps.end(), [&](const StepPlan& step) {
+            return !is_fault(step.number) &&
+                   std::any_of(step.rules.begin(), step.rules.end(),
+                               [&](const Rule& rule) { return depends_on(rule.when, input); });
+        });
+    }
+
+    bool is_acknowledged(const Rule& rule) const {
+        const Images when = images_of(rule.when, true);
+        return std::any_of(acknowledgements_.begin(), acknowledgements_.end(),
+                           [&](const Images& on) { return (when & ~on).none(); });
+    }
+
     /// Follows the steps with each image of the inputs held, as far as `goes_on` lets it.
     template <class GoesOn>
     void walk(Seen& seen, const GoesOn& goes_on) const {
@@ -113,7 +137,7 @@ class Restart {
 
     void judge_exit(const Rule& rule, const Images& held) {
         const Span place = rule.condition.length != 0 ? rule.condition : rule.action.next_span;
-        if (report_.has("W037", place)) return;
+        if (report_.has("W037", place) || is_acknowledged(rule)) return;
         const Send* motion = motion_of(rule);
         Seen seen;
         seen.at(*rule.action.next) = held;
@@ -137,6 +161,8 @@ class Restart {
     Report& report_;
     std::array<const StepPlan*, 64> steps_{};
     Span fault_span_;
+    std::vector<Images>
+        acknowledgements_;  ///< those with the input on, of each that is asked in the fault step alone
 };
 
 /// IF INPOS OR TIMER.Q: whether the motor arrived is not asked.
