@@ -3,42 +3,19 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <deque>
+#include "instant_line.h"
 
 namespace nplc::boards {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-class FakePort final : public ports::SerialPort {
-  public:
-    std::size_t write(std::span<const std::uint8_t> bytes) override {
-        const std::size_t count = std::min(bytes.size(), room);
-        sent.insert(sent.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(count));
-        return count;
-    }
-    std::size_t read(std::span<ports::ReceivedByte> out) override {
-        std::size_t count = 0;
-        for (; count < out.size() && !arrived.empty(); ++count) {
-            out[count] = arrived.front();
-            arrived.pop_front();
-        }
-        return count;
-    }
-    bool transmitter_idle() override { return true; }
-
-    std::deque<ports::ReceivedByte> arrived;
-    Bytes sent;
-    std::size_t room = 4096;
-};
-
 class UserLineTest : public testing::Test {
   protected:
     void arrive(std::size_t count, std::uint8_t value) {
-        port.arrived.insert(port.arrived.end(), count, {value, false});
+        port.received.insert(port.received.end(), count, {value, false});
     }
-    void arrive_damaged() { port.arrived.push_back({0x55, true}); }
+    void arrive_damaged() { port.received.push_back({0x55, true}); }
     /// What one read of at most `most` bytes gives, and whether a damaged character ended it.
     std::pair<Bytes, bool> read(std::size_t most) {
         Bytes bytes(most);
@@ -48,7 +25,7 @@ class UserLineTest : public testing::Test {
         return {bytes, got.is_damaged};
     }
 
-    FakePort port;
+    gateway::InstantLine port;
     UserLine line{port, "/dev/ttyUSB0"};
     const hal_linux::Connections::Id client = line.accept().value();
 };

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <deque>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -9,34 +8,13 @@
 #include "base/crc32.h"
 #include "bench_board.h"
 #include "gateway/controller.h"
+#include "instant_line.h"
 #include "sim/sim_storage.h"
 
 namespace nplc::gateway {
 
 namespace reg = registers::gateway;
 namespace mactalk = protocol::mactalk;
-
-/// A line without time: what one end writes the other reads at its next poll.
-struct InstantLine final : ports::SerialPort {
-    std::size_t write(std::span<const std::uint8_t> bytes) override {
-        sent.insert(sent.end(), bytes.begin(), bytes.end());
-        return bytes.size();
-    }
-    std::size_t read(std::span<ports::ReceivedByte> out) override {
-        std::size_t count = 0;
-        for (; count < out.size() && !received.empty(); ++count) {
-            out[count] = received.front();
-            received.pop_front();
-        }
-        return count;
-    }
-    bool transmitter_idle() override { return true; }
-    ports::LineFaults faults() const override { return counted; }
-
-    ports::LineFaults counted;
-    std::vector<std::uint8_t> sent;
-    std::deque<ports::ReceivedByte> received;
-};
 
 /// A gateway on BenchBoard with its user's port and store, and the client that asks it.
 struct PortBench {
