@@ -152,8 +152,7 @@ class Restart {
             .add("W037", place,
                  "the motor may start again by itself after a fault: no input has to change on the way",
                  "wait for a button to be pressed, as in ANY ERROR AND R_TRIG(Ack); or write ALLOW W037 "
-                 "BECAUSE "
-                 "'reason'; in the step")
+                 "BECAUSE 'reason'; in the step")
             .notes.push_back({motion->span, "it comes to this with all inputs left as they are"});
     }
 
@@ -161,8 +160,8 @@ class Restart {
     Report& report_;
     std::array<const StepPlan*, 64> steps_{};
     Span fault_span_;
-    std::vector<Images>
-        acknowledgements_;  ///< those with the input on, of each that is asked in the fault step alone
+    /// Of each input that only the fault step asks, the images with it on.
+    std::vector<Images> acknowledgements_;
 };
 
 /// IF INPOS OR TIMER.Q: whether the motor arrived is not asked.
