@@ -1,4 +1,4 @@
-// What a write to one of the gateway's own registers does.
+// Effects of writes to the gateway's own registers.
 #include <algorithm>
 
 #include "base/bytes.h"
@@ -210,7 +210,7 @@ Progress OwnRegisters::command(std::uint32_t value, base::Instant now) {
     return CommandResult{Result::bad_value};
 }
 
-/// The board may stand still for an erasure: only while nothing can run.
+/// The board may block during a flash erase: only while nothing can run.
 CommandResult OwnRegisters::firmware_command(Command command) {
     if (command == Command::firmware_abort) return firmware_.abandon();
     if (command == Command::firmware_commit)
@@ -229,7 +229,7 @@ Progress OwnRegisters::write_firmware(std::span<const std::uint8_t> bytes) {
     return std::nullopt;
 }
 
-/// After it the stored table is the active one, which it becomes only while the motor stands still.
+/// After a reset the stored table becomes the active one, which is allowed only while the motor stands still.
 Progress OwnRegisters::reset(base::Instant now) {
     if (gateway_.run_state() != gateway::RunState::stopped) return CommandResult{Result::not_stopped};
     if (tables_.stored().length != 0 && !tables_.stored_is_active()) {
