@@ -18,9 +18,9 @@ using Kind = MidiOutcome::Kind;
 constexpr std::uint8_t kMostRepeats = 3;  ///< of one command
 constexpr base::Microseconds kRetry{20'000};
 constexpr std::uint8_t kMostRefusals = 50;  ///< of a command that waits for standstill
-/// With a motion that nobody knows of; then it is ended.
+/// Time limit of an unexplained motion; then it is stopped.
 constexpr base::Microseconds kPatience{1'000'000};
-/// Between two queries while something moves, and while nothing does.
+/// Query intervals while something moves, and at standstill.
 constexpr base::Microseconds kPace{5'000};
 constexpr base::Microseconds kRestPace{20'000};
 constexpr std::uint8_t kCommandMode = 3;
@@ -77,16 +77,16 @@ bool MidiMotor::has_work() const {
            access_.is_open();
 }
 
-// How messages end.
+// Outcomes of messages.
 
-/// Both drives obey the stop, and where answers come damaged the requests may be understood.
+/// Both drives obey the stop, and where answers are damaged the requests may still be understood.
 void MidiMotor::look_for_trouble(base::Instant now) {
     const MidiTrouble trouble = link_.trouble();
     if (trouble == MidiTrouble::none) return;
     const bool down = session_.is_down();
     if (trouble == MidiTrouble::no_bus) return down ? void() : lose_link(MidiFault::link_lost, now);
     if (down && fault_ == MidiFault::several) return;
-    session_.expect_up();  // told of at a start too, and before what is not acknowledged yet
+    session_.expect_up();  // reported even at a start, and before a loss that is not acknowledged yet
     fault_ = MidiFault::none;
     lose_link(MidiFault::several, now);
 }
@@ -108,7 +108,7 @@ void MidiMotor::lose_link(MidiFault why, base::Instant now) {
 
 void MidiMotor::on_outcome(const MidiOutcome& outcome, base::Instant now) {
     if (session_.ends_old_message()) return;
-    // A probe: its answer counts as soon as only one module gives it.
+    // A probe of a link that is down: its answer counts only if a single module gives it.
     if (session_.is_down()) {
         probe_ = outcome;
         if (outcome.kind != Kind::value || link_.trouble() != MidiTrouble::none) return;
@@ -180,7 +180,7 @@ void MidiMotor::on_value(std::uint32_t value, base::Instant now) {
     if (session_.on_answer(motion_.at_rest() ? kRestPace : kPace, now)) motion_.restart();
 }
 
-/// 003 §VII 01h: a trip cuts the power.
+/// 003 §VII 01h: a trip cuts the motor power.
 void MidiMotor::on_status() {
     status_is_new_ = true;
     if (!session_.is_up() || !drive_.trips()) return;
@@ -214,8 +214,8 @@ void MidiMotor::on_motion(MidiMotion::Event event) {
     }
 }
 
-/// Parameters and stops may be sent again. A motion is asked after; a change of a run's speed and a new
-/// origin in mid-motion leave no trace that could be.
+/// Parameters and stops may be sent again. For a motion the module's state is queried; a change of a run's
+/// speed and a zeroing in motion cannot be verified.
 void MidiMotor::on_unclear(base::Instant now) {
     session_.ask_first();
     if (message_.is_query) return;
@@ -263,14 +263,14 @@ void MidiMotor::on_refused(base::Instant now) {
     raise(MidiFault::refused);
 }
 
-/// It moves, whatever the driver has concluded before.
+/// The shaft moves, contrary to the state assumed so far.
 void MidiMotor::on_refused_motion(base::Instant now) {
     motion_.wait_for_rest(refusals_ == 0 ? now + kPatience : base::Instant{});
     retry_at_ = now + kRetry;
     if (++refusals_ > kMostRefusals) raise(MidiFault::refused);
 }
 
-/// What cannot be brought into the module must not be tried for ever.
+/// Gives up a parameter that the module does not accept, so that it is not retried endlessly.
 void MidiMotor::forget_parameter() {
     repeats_ = 0;
     if (message_.number == midi::TORQUE) registers_.unset(T_SOLL);
@@ -279,7 +279,7 @@ void MidiMotor::forget_parameter() {
     zero_wanted_ = zero_unclear_ = false;
 }
 
-/// The position stays (R: "a status similar to the startup status").
+/// The position is kept (R: "a status similar to the startup status").
 void MidiMotor::begin_reset(base::Instant now) {
     reset_wanted_ = false;
     fault_ = MidiFault::none;
@@ -290,7 +290,7 @@ void MidiMotor::begin_reset(base::Instant now) {
     access_.fail_open();
 }
 
-/// The first reason counts. The drive is led to a stop.
+/// Keeps the first reason. The drive is brought to a stop.
 void MidiMotor::raise(MidiFault fault, Limitation limitation) {
     if (fault_ == MidiFault::none) {
         fault_ = fault;
@@ -302,13 +302,13 @@ void MidiMotor::raise(MidiFault fault, Limitation limitation) {
     zero_wanted_ = zero_unclear_ = false;
 }
 
-/// What it was told may still wait, for another master's SYNC; 18h ends that too.
+/// A command may still be deferred until another master's SYNC; 18h cancels that too.
 void MidiMotor::raise_and_stop(MidiFault fault) {
     raise(fault);
     stop_wanted_ = stop_hard_ = true;
 }
 
-// Which message is sent next.
+// Selection of the next message.
 
 void MidiMotor::work(base::Instant now) {
     if (link_.busy()) return;
@@ -339,8 +339,8 @@ MidiMotor::Message MidiMotor::next_query(base::Instant now) {
     return session_.next_query(motion_.moves() || motion_.needs_position(drive_), motion_.is_doubtful(), now);
 }
 
-/// What can be sent at once to lead the drive to what the registers say; nothing while that has to wait for
-/// standstill.
+/// The command that can be sent now to bring the drive to the state in the registers; empty while it has to
+/// wait for standstill.
 [[gnu::noinline]] MidiMotor::Message MidiMotor::next_command(base::Instant now) {
     if (motion_.stops_late(now)) stop_wanted_ = stop_hard_ = true;
     if (stop_wanted_) return command(stop_hard_ ? midi::EMERGENCY_STOP : midi::STOP);
@@ -359,7 +359,7 @@ MidiMotor::Message MidiMotor::next_query(base::Instant now) {
     return motion;
 }
 
-/// After all orders. A write is done when its commands are through.
+/// Accesses come after all orders. A write is done when its commands have been carried out.
 MidiMotor::Message MidiMotor::next_access() {
     const Access& access = access_.access();
     if (access_.is_under_way()) {
@@ -378,7 +378,7 @@ MidiMotor::Message MidiMotor::next_access() {
     return {};
 }
 
-// What an order does.
+// Effects of an order.
 
 MidiMotor::Limitation MidiMotor::limitation_of(const Order& order) const {
     return order.is_register_write
@@ -416,7 +416,7 @@ void MidiMotor::write(const Order& order) {
     if (order.longword) write_word(order.reg + 1U, static_cast<std::uint16_t>(order.value >> 16));
 }
 
-/// 001 §4.4: with an error the mode stays.
+/// 001 §4.4: with an error the mode is kept.
 void MidiMotor::write_word(unsigned number, std::uint16_t value) {
     if (number == MODE_REG && value != 0 && error()) return;
     registers_.write(number, value);
@@ -492,7 +492,7 @@ void MidiMotor::stop() {
     stop_wanted_ = true;
 }
 
-// What it says of itself.
+// Reported state.
 
 bool MidiMotor::settled() const {
     if (!session_.is_up()) return true;

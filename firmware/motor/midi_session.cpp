@@ -9,15 +9,15 @@ namespace {
 
 namespace midi = registers::midi;
 
-/// Failures in a row until the link is down.
+/// Failures in a row after which the link is down.
 constexpr std::uint8_t kMostFailures = 3;
-/// Between two messages while nobody answers.
+/// Interval of the messages while there is no answer.
 constexpr base::Microseconds kProbe{100'000};
-/// 000 §VI 00h: two seconds, and a little.
+/// 000 §VI 00h: two seconds, with a margin.
 constexpr base::Microseconds kDeaf{2'100'000};
-/// While answers cannot be read.
+/// Number of stops sent while answers cannot be read.
 constexpr std::uint8_t kBlindStops = 3;
-/// Its longest answer, and time for the proof.
+/// Detection time of a second drive: its longest answer time, and a margin.
 constexpr base::Microseconds kOthersShow{200'000};
 
 constexpr MidiMessage query(midi::Query number, std::uint8_t sub_index = 0) {
@@ -124,7 +124,7 @@ void MidiSession::begin_reset(base::Instant now) {
     deaf_until_ = now + kDeaf;
 }
 
-/// R: it says so on CAN only; on a serial line its two deaf seconds tell.
+/// R: a restart is reported on CAN only; on a serial line it shows as two seconds without an answer.
 bool MidiSession::on_boot(base::Instant now) {
     if (phase_ == Phase::resetting) {
         deaf_until_ = now;

@@ -10,7 +10,7 @@ using Kind = MidiOutcome::Kind;
 
 constexpr int kReadsPerPoll = 64;
 constexpr base::Microseconds kQuiet{5'000};
-/// Ack, Xoff, a reply, Xon.
+/// The longest answer: Ack, Xoff, a reply, Xon.
 constexpr int kAnswerCharacters = 3 + v24::kAround + v24::kReplyFields;
 
 base::Microseconds character_time(std::uint32_t baud) {
@@ -57,7 +57,7 @@ MidiOutcome MidiV24Link::poll(base::Instant now) {
     const MidiOutcome outcome = receive(now);
     if (outcome.kind != Kind::none || state_ == State::idle) return outcome;
     if (state_ == State::waiting_for_quiet) {
-        // A line that never falls silent carries no request: it has not been taken.
+        // On a line that never falls silent a request cannot be sent: it has not been taken.
         if (noisy_ && now - heard_ < kQuiet) return now < deadline_ ? MidiOutcome{} : finish(Kind::not_taken);
         noisy_ = spoilt_ = heard_any_ = false;
         answers_.asked();
@@ -107,7 +107,7 @@ void MidiV24Link::withdraw() {
     if (state_ == State::waiting_for_quiet || sent_ == 0) state_ = State::idle;
 }
 
-/// Either character begins an answer, and no reply holds one.
+/// Either character begins an answer, and no reply contains one.
 void MidiV24Link::note_answer(const ports::ReceivedByte& byte) {
     if (!byte.framing_error && (byte.value == v24::kAck || byte.value == v24::kNack)) answers_.answered();
 }
