@@ -10,7 +10,7 @@ base::Result<SettingValues> SettingsStore::mount() {
         if (slots_.is_fallback()) return base::Error::damaged;
         return SettingValues{};
     }
-    // A firmware with more settings may have stored them.
+    // May have been stored by a firmware with more settings.
     std::array<std::uint8_t, 2 * kMaxSettingsBytes> bytes{};
     const auto length = slots_.load(bytes);
     if (!length) return length.error();

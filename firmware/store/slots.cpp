@@ -60,7 +60,8 @@ base::Result<std::uint32_t> Slots::crc_of(unsigned slot, std::uint32_t length) {
     return crc;
 }
 
-/// The later of the good slots. Whether a damaged one without its mark was ever finished, the good one knows.
+/// Chooses the newer of the good slots. For a damaged slot without a valid mark, the good slot's superseded
+/// byte tells whether it was ever completed.
 void Slots::choose() {
     current_.reset();
     for (unsigned i = 0; i < slots_.size(); ++i) {

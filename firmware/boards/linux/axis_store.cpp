@@ -73,7 +73,7 @@ void AxisStore::check_owner(const std::string& path) {
         journal_.write(LogLevel::notice, "new here: waits for a first run command, `nanoctl run`");
 }
 
-/// What was stored is lost where a run is known and its store is missing.
+/// The stored data are lost if the marker shows earlier runs and the store is missing.
 std::string AxisStore::check_marker(const std::string& folder, const std::string& path) {
     std::error_code error;
     marker_.emplace(folder + "/running");
@@ -108,7 +108,7 @@ std::string AxisStore::replace_lost_store(const std::string& path) {
     return error ? path + ": cannot be made: " + error.message() : "";
 }
 
-/// A watchdog's reset is over once a run has ended in order since then.
+/// A watchdog reset no longer counts once a run has ended in order since then.
 bool AxisStore::is_after_crash(const BoardStart& board) {
     if (!was_cut_off(board)) return false;
     if (permission_ == AutostartPermission::given) permission_ = AutostartPermission::after_crash;

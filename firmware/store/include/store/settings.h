@@ -15,13 +15,13 @@ using registers::gateway::is_setting;
 using registers::gateway::kSettings;
 using registers::gateway::Setting;
 
-/// A value for every setting; always an allowed one.
+/// A value for every setting, always an allowed one.
 class SettingValues {
   public:
     SettingValues();
     std::uint32_t get(Setting setting) const { return values_[index(setting)]; }
     bool is_on(Setting setting) const { return get(setting) != 0; }
-    /// Error: bad_setting, and nothing changes.
+    /// Error bad_setting: nothing has changed.
     base::Status set(Setting setting, std::uint32_t value);
     bool operator==(const SettingValues&) const = default;
 
@@ -30,12 +30,12 @@ class SettingValues {
     std::array<std::uint32_t, kSettings> values_{};
 };
 
-/// Stored as records of the setting's number and its value in four bytes, low byte first.
+/// Stored as records of the setting's number and its 4-byte value, little-endian.
 inline constexpr std::size_t kSettingBytes = 5;
 inline constexpr std::size_t kMaxSettingsBytes = kSettings * kSettingBytes;
 std::array<std::uint8_t, kMaxSettingsBytes> encode(const SettingValues& values);
-/// Settings without a record have their initial value; records of settings that this firmware does not know
-/// are left out. Error: bad_setting (a value that is not allowed, or bytes that are no whole records).
+/// Settings without a record get their initial value; records of unknown settings are ignored. Error:
+/// bad_setting (a value that is not allowed, or incomplete records).
 base::Result<SettingValues> decode_settings(std::span<const std::uint8_t> bytes);
 
 }  // namespace nplc::store
