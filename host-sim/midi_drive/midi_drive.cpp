@@ -6,7 +6,7 @@ namespace nplc::sim {
 namespace {
 
 constexpr std::uint32_t kCanRate = 250'000;
-/// How often a module on CAN is asked whether it has booted.
+/// Poll interval for a boot-up message of a module on CAN.
 constexpr Time kAskPeriod = std::chrono::milliseconds{1};
 constexpr int kGateway = 0;
 constexpr int kModule = 1;

@@ -53,7 +53,7 @@ void take_names(Program& program, const std::string& file, const std::string& ot
     program.symbols_text = std::move(text);
 }
 
-/// Symbols that stand beside a table by chance need not fit.
+/// Symbols next to a table by chance need not fit.
 void take_names_beside(Program& program, const std::string& file) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) return;

@@ -77,7 +77,7 @@ action::Cancel ActionParser::cancelled() {
     return {What::input, conditions_.input("an input, motor, line, gateway, log, end or all after cancel")};
 }
 
-/// A first word that is no signal most likely is a misspelt statement.
+/// A first word that is no signal is probably a misspelt statement.
 void ActionParser::check_known_word() {
     if (conditions_.knows(reader_.peek().text)) return;
     reader_.refuse_next(
@@ -191,7 +191,7 @@ void ActionParser::motor(Actions& list, Time after) {
     reader_.fail(kMotor);
 }
 
-/// What only some drives have.
+/// Actions on parts that only some drives have.
 bool ActionParser::motor_surroundings(Actions& list, Time after) {
     const auto take = [this](std::string_view word, DrivePart part) {
         if (!reader_.take(word)) return false;

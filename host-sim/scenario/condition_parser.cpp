@@ -13,7 +13,7 @@ namespace {
 
 using Relation = Condition::Relation;
 
-/// Conditions are read, judged and destroyed by recursion.
+/// Conditions are parsed, evaluated and destroyed recursively.
 constexpr int kDeepest = 100;
 
 constexpr std::array<std::pair<std::string_view, Relation>, 6> kRelations{{{"=", Relation::equal},

@@ -11,7 +11,7 @@ namespace nplc::sim {
 namespace {
 
 constexpr std::size_t kLongestLine = 1'000'000;
-constexpr std::size_t kMostMistakes = 1000;  // a file with more is something else
+constexpr std::size_t kMostMistakes = 1000;  // a file with more is probably not a scenario
 
 /// Statements of one line. Throws LineMistake.
 class LineParser {
@@ -213,7 +213,7 @@ void check_expectation_times(ParsedScenario& parsed) {
     }
 }
 
-/// From 1, in characters.
+/// Counted from 1, in characters.
 int column_of(std::string_view line, std::size_t byte) {
     const std::string_view before = line.substr(0, std::min(byte, line.size()));
     const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
@@ -230,7 +230,7 @@ std::string_view letters_at(std::string_view text, std::size_t at) {
         0, static_cast<std::size_t>(std::find_if_not(rest.begin(), rest.end(), is_of_word) - rest.begin()));
 }
 
-/// Of the words that a message offers, the one that was meant takes the place of the list.
+/// Replaces the list of words in a message by the most similar one.
 std::string with_guess(std::string_view line, const LineMistake& mistake) {
     constexpr std::string_view kOffer = "; write ";
     constexpr std::size_t kShortest = 3;

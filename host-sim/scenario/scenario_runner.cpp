@@ -13,7 +13,7 @@ void earliest(std::optional<Time>& best, std::optional<Time> candidate, Time aft
     if (candidate && *candidate > after && (!best || *candidate < *best)) best = candidate;
 }
 
-/// What `cancel` names an action by.
+/// The actions that `cancel` can name.
 struct KindOfAction {
     using What = action::Cancel::What;
     What operator()(const action::SetInput&) const { return What::input; }
@@ -108,7 +108,7 @@ bool ScenarioRunner::observe(const Snapshot& snapshot) {
     return followed || acted;
 }
 
-/// At the beginning an input is where its condition has it.
+/// At the start an input has the value of its condition.
 bool ScenarioRunner::follow(const Snapshot& snapshot) {
     bool any = false;
     for (std::size_t i = 0; i < followed_.size(); ++i) {
@@ -168,7 +168,7 @@ void ScenarioRunner::perform(const Planned& planned) {
         bool by_rule;
         void operator()(const action::SetInput& a) const { self.stage_.set_input(a.index, a.level); }
         void operator()(const action::ToggleInput& a) const { self.stage_.toggle_input(a.index); }
-        /// What has a time of its own was planned first and drops what rules have planned until then.
+        /// An action with a time of its own was planned first and drops what rules have planned until then.
         void operator()(const action::Cancel& a) const { self.cancel(a, by_rule ? batch : UINT64_MAX); }
         void operator()(const action::CutLine& a) const { self.stage_.cut_line(a.cut); }
         void operator()(const action::SpoilLine& a) const { self.stage_.spoil_line(a); }
@@ -237,7 +237,7 @@ bool ScenarioRunner::holds(Judgement& judgement, const Snapshot& snapshot) const
     return snapshot.time - *judgement.since >= wanted.hold;
 }
 
-/// In its window.
+/// Whether the event happens within its window.
 bool ScenarioRunner::event_happens(Judgement& judgement, const Snapshot& snapshot) const {
     const Expectation& wanted = *judgement.expectation;
     return judgement.watch.happens(snapshot, names_) && snapshot.time >= wanted.from &&

@@ -45,7 +45,7 @@ void ActionParser::set_points(Actions& list, Time after) {
                           reader_.source_since(begin)});
 }
 
-/// By their names. A scenario begins without any, so it loads what it has saved.
+/// By name. A scenario begins without recipes, so it can only load those it has saved.
 void ActionParser::recipe(Actions& list, Time after) {
     needs_set_points();
     const std::size_t begin = reader_.mark();

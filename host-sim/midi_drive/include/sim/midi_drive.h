@@ -11,7 +11,7 @@
 
 namespace nplc::sim {
 
-/// A CAN controller of the gateway's on a virtual bus, on which frames may be lost.
+/// The gateway's CAN controller on a virtual bus that may lose frames.
 class VirtualCanPort final : public ports::CanPort {
   public:
     VirtualCanPort(CanBus& bus, std::uint64_t seed) : bus_(bus), random_(seed) {}
@@ -26,7 +26,7 @@ class VirtualCanPort final : public ports::CanPort {
     /// A frame that has arrived.
     void receive(const base::CanFrame& frame);
     void set_state(ports::CanState state) { state_ = state; }
-    /// Share of the frames that nobody gets, in either direction.
+    /// Share of frames lost, in either direction.
     void lose(double share) { loss_ = share; }
     bool loses() { return std::uniform_real_distribution<>(0, 1)(random_) < loss_; }
     unsigned restarts() const { return restarts_; }
@@ -62,10 +62,10 @@ class MidiDrive {
     MidiModule& module() { return module_; }
     const MidiModule& module() const { return module_; }
 
-    /// Moves characters or frames on, after the module has done all that happens until then. True if
-    /// something has arrived at the gateway.
+    /// Moves characters or frames, after the module was advanced to `now`. True if something has arrived at
+    /// the gateway.
     bool service(Time now);
-    /// Of the line, and of the module as far as it could speak by itself.
+    /// Next event of the line, or of the module if it could send by itself.
     Time next_event(Time now) const;
 
     void cut(bool cut);
