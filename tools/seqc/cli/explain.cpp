@@ -57,7 +57,7 @@ Json page_object(const Explanation& info) {
     return object;
 }
 
-/// A word of the language, from the reference.
+/// Explains a word of the language, from the reference.
 int explain_word(const std::string& word, const std::vector<Paragraph>& passages, bool json) {
     if (json) {
         Json document;
@@ -84,7 +84,7 @@ int number_of(std::string_view code) {
     return number;
 }
 
-/// "E010, E011 and E012" for E015; nothing for what looks like no code at all.
+/// "E010, E011 and E012" for E015; empty for a word that does not look like a code.
 std::string nearest_codes(std::string_view wanted, std::vector<Explanation> all) {
     const int number = number_of(wanted);
     const std::string letter = upper(wanted.substr(0, 1));
@@ -120,7 +120,7 @@ int list(const std::vector<Explanation>& all, bool json) {
     return print_or_write(text, {});
 }
 
-/// CLEAR_P_IST for 03H or 63H, as the manuals call it; other words as they are.
+/// CLEAR_P_IST for 03H or 63H, the manuals' notation; other words unchanged.
 std::string command_of(const std::string& word) {
     constexpr unsigned kCommandMode = 0x60;
     unsigned byte = 0;
@@ -138,7 +138,7 @@ int explain(const ExplainArguments& options) {
     const auto found = std::find_if(
         all.begin(), all.end(), [&](const Explanation& info) { return same_name(info.code, options.code); });
     if (found == all.end()) {
-        constexpr std::string_view kMoving = "moving";  // the one word that is written small
+        constexpr std::string_view kMoving = "moving";  // the only lower-case word
         const std::string word =
             same_name(options.code, kMoving) ? std::string(kMoving) : command_of(upper(options.code));
         const std::vector<Paragraph> passages = passages_about(word);

@@ -71,7 +71,7 @@ int exit_code_of(const verify::Report& report) {
     return undecided ? kUndecided : kOk;
 }
 
-/// A wait of an hour has millions of scans: those that repeat the one before them are counted there.
+/// A wait of an hour has millions of scans: equal consecutive scans are counted instead.
 Json course_object(const verify::Course& course, const verify::Names& names) {
     Json scans = Json::array();
     for (const verify::PlayedScan& scan : course) {
@@ -157,7 +157,7 @@ std::string place_of_step(const Input& input, std::uint8_t step) {
                        before.size() - (before.rfind('\n') + 1) + 1);
 }
 
-/// Of a line that was counted over all files.
+/// For a line number counted over all files.
 std::string place_of_line(const Sources& sources, std::size_t line) {
     std::uint32_t offset = 0;
     for (const std::string& text = sources.text(); line > 1 && offset < text.size(); ++offset)
@@ -179,13 +179,13 @@ std::string assumption_text(const VerifyArguments& options, const Input& input,
     return text;
 }
 
-/// Of what is undecided, on demand: why the last course that was tried cannot be.
+/// For an undecided result, on request: why the last candidate course is impossible.
 std::string conflict_text(const verify::Result& result, const VerifyArguments& options) {
     if (!options.explains_undecided || result.conflict.empty()) return "";
     return fmt::format("  the last course: {}\n", result.conflict);
 }
 
-/// What a check found, where the step stands.
+/// The finding of a check, at the position of the step.
 std::string finding_text(const verify::Result& result, const VerifyArguments& options, const Input& input,
                          const verify::Names& names) {
     const bool is_fault = result.severity == verify::Severity::fault;
@@ -233,7 +233,7 @@ std::string text_of(const verify::Report& report, const Plays& plays, const Veri
                               assumption_text(options, input, report.assumptions));
 }
 
-/// What is read, and would be written over.
+/// Error if an output would overwrite an input.
 std::string clash(const VerifyArguments& options) {
     const std::vector<std::string> read = {options.table.file, options.properties, options.table.symbols,
                                            options.courses.plant};
@@ -254,7 +254,7 @@ std::string clash(const VerifyArguments& options) {
     return "";
 }
 
-/// What does not go together.
+/// Error for contradicting options.
 std::string contradiction(const VerifyArguments& options) {
     if (std::string wrong = clash(options); !wrong.empty()) return wrong;
     if (!options.courses.plant.empty() && options.courses.scenario.empty())

@@ -13,7 +13,7 @@ bool is_word_character(char c) {
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/// How often it stands there as a word; as code it counts three times.
+/// Number of occurrences as a word; in code formatting each counts three times.
 std::size_t weight(std::string_view text, std::string_view word) {
     std::size_t sum = 0;
     for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
@@ -32,7 +32,7 @@ bool ends_block(std::string_view line) {
     return line.empty() || line.starts_with("|") || line.starts_with("#") || line.starts_with("    ");
 }
 
-/// The next paragraph, row or rule of the text.
+/// Takes the next paragraph, row or rule of the text.
 std::string_view take_block(std::string_view& rest) {
     std::size_t length = 0;
     while (length < rest.size()) {
