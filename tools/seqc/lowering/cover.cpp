@@ -176,8 +176,8 @@ class Products {
     }
 
   private:
-    static constexpr std::uint8_t kInside = 1;  // intersects `need`
-    static constexpr std::uint8_t kUseful = 2;  // holds some of `need`
+    static constexpr std::uint8_t kInside = 1;  // contained in `allowed`
+    static constexpr std::uint8_t kUseful = 2;  // intersects `need`
 
     std::size_t digit(std::size_t number, std::size_t place) const { return number / powers_[place] % 3; }
 

@@ -68,7 +68,7 @@ class Sharing {
 
     const ReducedStep& half_;
     std::vector<Branch> branches_;
-    std::vector<Branches> sender_;  // by behaviour: the branch that it is, or none
+    std::vector<Branches> sender_;  // by behaviour: its branch, or none
     std::map<Branches, Regions> regions_;
     std::map<std::pair<Branches, bool>, std::optional<Way>> aligned_;
 };

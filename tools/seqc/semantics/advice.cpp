@@ -1,4 +1,4 @@
-// What is sound and yet seldom meant: a step may ALLOW it with a reason.
+// Advice about valid but rarely intended code: a step may ALLOW it with a reason.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ const Send* motion_of(const Rule& rule) {
     return nullptr;
 }
 
-/// The inputs with which a rule can hold while there is no ERROR, or with one.
+/// The input images in which a rule can be true without ERROR, or with it.
 Images images_of(const Truth& when, bool with_error) {
     Images images;
     for (std::size_t at = 0; at < kCases; ++at) {
@@ -55,16 +55,16 @@ Images images_of(const Truth& when, bool with_error) {
     return images;
 }
 
-/// The images in which an input is on.
+/// The images with an input on.
 Images images_with(std::size_t input) {
     Images images;
     for (std::size_t at = 0; at < images.size(); ++at) images.set(at, ((at >> input) & 1U) != 0);
     return images;
 }
 
-/// Whether the motor may move again after a fault while no input changes: an acknowledgement is an input that
-/// had to, or that must be on and is asked nowhere else. Steps that remember an edge are copies here, so that
-/// R_TRIG and F_TRIG hold for no input that stays.
+/// Whether the motor may move again after a fault without an input change: an acknowledgement is an input
+/// that had to change, or that must be on and is not used elsewhere. Steps with edge memory are copies here,
+/// so R_TRIG and F_TRIG are false for a constant input.
 class Restart {
   public:
     Restart(const Plan& plan, std::uint8_t fault, Report& report) : plan_(plan), report_(report) {
@@ -93,7 +93,7 @@ class Restart {
     }
 
   private:
-    /// By step, the inputs with which it can be active.
+    /// By step: the images with which it can be active.
     using Seen = std::array<Images, 64>;
 
     bool is_fault(std::uint8_t number) const {
@@ -114,7 +114,7 @@ class Restart {
                            [&](const Images& on) { return (when & ~on).none(); });
     }
 
-    /// Follows the steps with each image of the inputs held, as far as `goes_on` lets it.
+    /// Follows the steps with each image held constant, as far as `goes_on` allows.
     template <class GoesOn>
     void walk(Seen& seen, const GoesOn& goes_on) const {
         std::deque<std::uint8_t> open;
@@ -160,11 +160,11 @@ class Restart {
     Report& report_;
     std::array<const StepPlan*, 64> steps_{};
     Span fault_span_;
-    /// Of each input that only the fault step asks, the images with it on.
+    /// For each input that only the fault step tests: the images with it on.
     std::vector<Images> acknowledgements_;
 };
 
-/// IF INPOS OR TIMER.Q: whether the motor arrived is not asked.
+/// IF INPOS OR TIMER.Q: does not distinguish whether the motor arrived.
 bool takes_limit_for_arrival(const Truth& when) {
     for (std::size_t at = 0; at < kCases; ++at) {
         const auto bit = [](std::size_t number) { return std::size_t{1} << number; };

@@ -53,7 +53,7 @@ class Groups {
     std::map<std::string, std::pair<const ast::Name*, Steps>> groups_;
 };
 
-/// In the step that it leads to it does nothing.
+/// In its target step it has no effect.
 void warn_if_nowhere(const OnCondition& on, Scope& scope) {
     Steps left = on.steps;
     for (std::size_t i = 0; i < scope.steps().size(); ++i) {

@@ -92,7 +92,8 @@ class RelativeWalk {
         if (since.length != 0) d.notes.push_back({since, "positions become relative here"});
     }
 
-    /// Of a value that the program gives to P1..P8; null if each is exact, or made good by another.
+    /// The rounding of a value that the program writes to P1..P8; null if each is exact or compensated by
+    /// another.
     const Rounding* rounding_of(std::uint8_t index) const {
         const Rounding* found = nullptr;
         for_each_send(plan_, [&](const Send& send) {

@@ -65,7 +65,7 @@ void Scope::declare_set_points(const ast::Program& program) {
                 "make constants of those that no operator changes");
 }
 
-/// POWER_UP writes it, as a value of VAR_MOTOR.
+/// POWER_UP writes it, like a value of VAR_MOTOR.
 void Scope::declare_at(DeclaredSetPoint& declared, std::uint8_t number) {
     const ast::SetPoint& written = *declared.written;
     const Register* target = written.register_number ? reg(*written.register_number) : reg(written.address);
@@ -134,7 +134,7 @@ bool Scope::is_set_point(const ast::Value& value) const {
            });
 }
 
-/// Its values as literals; a unit that is left out is that of the others.
+/// Its values as literals; a missing unit is that of the others.
 std::optional<ast::SetPoint> Scope::worked_out(const ast::SetPoint& written, const Register* reg) {
     ast::SetPoint result = written;
     for (ast::Value* value : {&result.value, &result.low, &result.high}) {
@@ -170,7 +170,7 @@ bool Scope::decide(DeclaredSetPoint& declared, ValueKind kind, const Register* r
     return declared.is_sound;
 }
 
-/// A drive that can do both ends may not do what lies next to 0 between them: a speed too slow for it.
+/// A drive that supports both ends may not support values near 0 between them: a speed too low for it.
 bool Scope::is_for_drive_within(const ast::SetPoint& written, const Register& reg, std::int32_t low,
                                 std::int32_t high) {
     if (drive_ == nullptr) return true;
@@ -220,7 +220,7 @@ bool Scope::decide_register(DeclaredSetPoint& declared, const Register& reg) {
     return true;
 }
 
-/// Of the timer or the counter; 0 presets nothing (001 §6.1.7).
+/// For the timer or the counter; 0 has no effect (001 §6.1.7).
 bool Scope::decide_preset(DeclaredSetPoint& declared) {
     const auto literal = worked_out(*declared.written, nullptr);
     if (!literal) return false;

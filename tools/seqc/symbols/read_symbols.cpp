@@ -21,14 +21,14 @@ using Json = nlohmann::json;
 constexpr std::int64_t kMostLines = 0x7FFF'FFFF;
 constexpr std::int64_t kMostBytes = 0x7FFF'FFFF;
 constexpr std::int64_t kLastRegister = 127;
-constexpr int kDeepest = 16;  // nothing in the file is nested as deep
+constexpr int kDeepest = 16;  // deeper than any valid file
 
-/// What is wrong with the file, and where.
+/// An error in the file, with its position.
 struct Wrong {
     std::string what;
 };
 
-/// A value in the file and the way to it, for messages.
+/// A value in the file and its path, for messages.
 class Node {
   public:
     Node(const Json& json, std::string path) : json_(json), path_(std::move(path)) {}
@@ -80,14 +80,14 @@ class Node {
         return value;
     }
 
-    /// Letters, digits and _, so that it can stand in any message.
+    /// Letters, digits and _, so that it is safe in any message.
     std::string word() const {
         std::string value = text();
         if (!is_identifier(value)) fail("this is no name: letters, digits and _, no digit first");
         return value;
     }
 
-    /// A name as a program can give one.
+    /// A valid name of a program.
     std::string name() const {
         std::string value = word();
         if (is_reserved(value)) fail(fmt::format("'{}' is a word of the language, no name", value));
@@ -99,7 +99,7 @@ class Node {
     std::string path_;
 };
 
-/// Names that must differ, case aside.
+/// Names that must be unique, case-insensitive.
 class Different {
   public:
     void add(const Node& node, const std::string& name) {

@@ -7,7 +7,7 @@ void Parser::parse_property(ast::Program& program) {
     ++at_;
     ast::Name name;
     if (!expect_name(name, "the property's name", ast::Role::property, true)) {
-        if (is_symbol_at(1, ":")) ++at_;  // a word of the language: what follows is the claim all the same
+        if (is_symbol_at(1, ":")) ++at_;  // a keyword as name: the claim follows all the same
         return recover_claim();
     }
     if (!expect_symbol(":", "behind the property's name")) return recover_claim();
@@ -34,7 +34,7 @@ bool Parser::parse_single_fact() {
     return sound;
 }
 
-/// BETWEEN's second test: what follows in parentheses is the next condition.
+/// BETWEEN's second test: parentheses after it belong to the next condition.
 bool Parser::parse_before_fact() {
     before_fact_ = true;
     const bool sound = parse_single_fact();
@@ -121,7 +121,7 @@ bool Parser::parse_assumed() {
            expect("FOR", "behind STABLE") && parse_claimed_time();
 }
 
-/// What is taken for granted when properties are proved.
+/// An assumption for the proof of properties.
 void Parser::parse_assumption(ast::Program& program) {
     const Token first = token();
     ++at_;
@@ -137,7 +137,7 @@ bool Parser::at_step_test() const {
     return at("STEP") && (is_symbol_at(1, "=") || same_name(token(1).text, "IN"));
 }
 
-/// To its end; a step tested in it begins none.
+/// Skips to its end; STEP in a test does not begin a step.
 void Parser::recover_claim() {
     while (!at_symbol(";") && (!at_boundary() || at_step_test()) && token().kind != TokenKind::end) ++at_;
     take_symbol(";");

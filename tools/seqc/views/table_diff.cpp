@@ -16,14 +16,14 @@
 
 namespace nplc::seqc {
 
-/// Which step of one table is which of another.
+/// The corresponding steps of two tables.
 struct StepMatch {
     std::array<std::optional<std::uint8_t>, kStepNumbers> now_of{};     ///< by number in the older table
     std::array<std::optional<std::uint8_t>, kStepNumbers> before_of{};  ///< by number in the newer table
 };
 
-/// Step 0 is step 0. Steps that have names on both sides go by name; those left over are the same if they
-/// mostly do the same, which makes one renamed. Without names on one side they go by number.
+/// Step 0 is step 0. Steps with names on both sides correspond by name; the others if they mostly behave the
+/// same, which detects a renamed step. Without names on one side they correspond by number.
 StepMatch match_steps(const Machine& before, const Symbols* names_before, const Machine& now,
                       const Symbols* names_now);
 
@@ -70,8 +70,8 @@ class Matching {
         return both_named(a, b) && same_name(name_in(names_before_, a), name_in(names_now_, b));
     }
 
-    /// In at least half of the cases in which one of them does something, both do the same, as far as the
-    /// steps that follow are known to be the same.
+    /// In at least half of the cases in which one of them acts, both act the same, as far as the following
+    /// steps are known to correspond.
     bool mostly_same(std::uint8_t a, std::uint8_t b) const {
         std::size_t acting = 0;
         std::size_t same = 0;
@@ -125,8 +125,8 @@ struct Side {
         }
     }
 
-    /// Outputs that are the step's own affair: what a step that follows is entered with, or what a step that
-    /// stays always has. A step that is never reached may enter it with others.
+    /// Outputs determined by the step itself: those with which the following step is entered, or those that a
+    /// staying step always has. An unreachable step may enter it with others.
     std::uint8_t settled(std::uint8_t step, const ScanResult& outcome) const {
         const KnownOutputs& always =
             outcome.next == step ? machine.held[step] : machine.entered_with[outcome.next];
@@ -171,7 +171,7 @@ class Differ {
 
   private:
     std::string name_before(std::uint8_t step) const { return step_name(step, before_.symbols); }
-    /// As the newer table calls it, else as the older one does.
+    /// The name in the newer table, else in the older one.
     std::string name_now(std::uint8_t step) const {
         const Symbols* symbols = now_.symbols;
         const bool named =
@@ -259,7 +259,7 @@ class Differ {
         action.next = now ? name_now(*now) : name_before(step);
     }
 
-    /// Both lead to the same step, and differ only in what all ways into that step do.
+    /// Both lead to the same step and differ only in the common action of all transitions into it.
     bool is_only_entry(std::uint8_t a, std::uint8_t b, std::size_t c, StepAction before, StepAction now) {
         if (before.next_id < 0 || before.next_id != now.next_id) return false;
         before.orders = before_.without_entry(before_.machine.steps[a].in(c));
