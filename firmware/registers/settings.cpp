@@ -3,7 +3,7 @@
 namespace nplc::registers::gateway {
 namespace {
 
-// R: the manuals name none of these; ranges are what the firmware can do.
+// R: not in the manuals; the ranges are the firmware's limits.
 constexpr std::array<SettingInfo, kSettings> kAll{{
     {Setting::gateway_address, "gateway_address", "", 128, 1, 253, false, true,
      "address on the user's port from the next reset on, if kept"},
@@ -53,12 +53,12 @@ constexpr std::array<SettingInfo, kSettings> kAll{{
      "a poll so much later than due, while the sequence is not stopped, is an event"},
 }};
 
-/// What the firmware needs of a setting, in eight bytes: a board that shows no names has none in its memory.
+/// The firmware's part of a setting, in eight bytes: boards that show no names do not store any.
 struct Rule {
     std::uint32_t highest;
     std::uint16_t lowest;
     std::uint16_t initial;
-    /// Those that can be none are so initially.
+    /// Settings that can be kNone are so initially.
     constexpr bool has_none() const { return initial > highest; }
 };
 

@@ -58,7 +58,7 @@ void append(std::vector<std::uint8_t>& bytes, const SetPoint& point) {
     bytes.insert(bytes.end(), entry.begin(), entry.end());
 }
 
-/// As it was written: 0.1, not the double next to the single that the record has.
+/// The decimal number as written: 0.1, not the double nearest to the record's single.
 double written(float step) {
     return std::strtod(fmt::format("{}", step).c_str(), nullptr);
 }

@@ -9,7 +9,7 @@ namespace {
 using Json = nlohmann::json;
 namespace layout = nplc::registers::set_points;
 
-/// As `seqc build` writes it; throws Json::exception.
+/// Reads the form written by `seqc build`; throws Json::exception.
 SetPoint point_of(const Json& entry) {
     SetPoint point;
     point.name = entry.at("name").get<std::string>();

@@ -9,7 +9,7 @@
 namespace nplc::set_points {
 namespace {
 
-/// The fewest digits that come back as the same number of steps.
+/// The fewest digits that convert back to the same raw value.
 std::string number_text(const SetPoint& point, std::int32_t value) {
     const double exact = value / point.steps_per_unit;
     for (int digits = 1; digits < 17; ++digits) {
@@ -31,7 +31,7 @@ std::string lower(std::string_view text) {
     return result;
 }
 
-/// How many of the set-point's units one `unit` is; 0: it is none of them.
+/// Set-point units per `unit`; 0: not a unit of it.
 double factor_of(const SetPoint& point, std::string_view unit) {
     const std::string written = lower(unit);
     const std::string own = lower(point.unit);
@@ -41,7 +41,7 @@ double factor_of(const SetPoint& point, std::string_view unit) {
     return milliseconds / (own == "s" ? 1000 : 1);
 }
 
-/// The values of the STEP next to `number`, in the unit.
+/// The multiples of STEP next to `number`, in the unit.
 std::string steps_beside(const SetPoint& point, double number, double low) {
     const double below = low + std::floor((number - low) / point.step) * point.step;
     return fmt::format("{:.10g} or {:.10g}", below, below + point.step);
