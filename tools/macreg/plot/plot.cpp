@@ -147,7 +147,7 @@ class Plotter {
         }
     }
 
-    /// With more samples than pixels: of each pixel's the first, the least, the greatest and the last.
+    /// With more samples than pixels: the first, minimum, maximum and last of each pixel.
     std::vector<Point> curve(const Column& column, const Box& box) const {
         const double scale = in_ms_ ? 1e3 : 1;
         const auto point = [&](std::size_t i) {
