@@ -25,7 +25,7 @@ std::uint32_t pointer_to(std::size_t view) {
                   "the set-points cannot be read, another client reads them all the time; try again");
 }
 
-/// What the pointer leads to; other clients move the same one.
+/// The registers behind the pointer; other clients move the same pointer.
 Block read_part(GatewayClient& gateway, std::uint32_t pointer) {
     for (unsigned i = 0; i < kReads; ++i) {
         gateway.write(gw::SET_POINT_POINTER, pointer);
@@ -123,7 +123,7 @@ std::string read_dropped(GatewayClient& gateway, const set_points::Record& recor
 
 namespace {
 
-/// A request as it stands with the gateway, by its own number.
+/// A pending request in the gateway, identified by its number.
 class SentRequest {
   public:
     SentRequest(GatewayClient& gateway, std::vector<std::uint8_t> request)
@@ -132,7 +132,7 @@ class SentRequest {
         set_points::give_number(request_, number_);
     }
 
-    /// Sent again until its end is known: the gateway carries it out once.
+    /// Repeated until its result is known: the gateway carries it out once.
     GatewayClient::LastResult outcome() {
         for (unsigned i = 0; i < kAttempts; ++i) {
             if (i != 0) gateway_.look_for_interruption();
@@ -152,12 +152,12 @@ class SentRequest {
     static constexpr base::Milliseconds kLook{100};
     static constexpr base::Milliseconds kLongest{60'000};
 
-    /// Not of the request itself, so it was not begun.
+    /// The error is not of the request itself, so it was not begun.
     static bool is_of_the_line(gw::Result result) {
         return result == gw::Result::seat_taken || result == gw::Result::too_late;
     }
 
-    /// Nothing: the gateway does not know it.
+    /// nullopt: the gateway does not know it.
     std::optional<GatewayClient::LastResult> wait_for_end() {
         const base::Instant end = gateway_.master().wire().now() + kLongest;
         for (;;) {

@@ -108,7 +108,7 @@ Recipe recipe_named(const std::vector<Recipe>& recipes, const std::string& name)
     return *recipe;
 }
 
-/// `instead`: what becomes of the others.
+/// `instead`: what happens to the other set-points.
 std::string lack_text(const Recipe& recipe, const set_points::Record& record, std::string_view instead) {
     const std::string names = set_points::missing_values(recipe, record);
     return names.empty() ? "" : fmt::format("  (none for {}: {})", names, instead);
@@ -205,7 +205,7 @@ void store_all(Session& session, const KeptSetPoints& kept, const std::string& f
     }
 }
 
-/// All of the file is looked at before the first is stored.
+/// The whole file is checked before the first value is stored.
 void import_from(Session& session, const std::string& file) {
     const std::string text = command_line::read_text(file);
     const KeptSetPoints kept = read_set_points(session.gateway());
