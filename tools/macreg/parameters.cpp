@@ -116,7 +116,7 @@ struct Parser {
         std::size_t count = 0;
         const auto [rest, error] = std::from_chars(value.data(), value.data() + value.size(), count);
         const std::string_view unit = trimmed({rest, value.data() + value.size()});
-        // if only this line is cut off, all values before it are complete
+        // If only this line is cut off, all values before it are complete
         if (error != std::errc() || !std::string_view("registers").starts_with(unit))
             return problem(fmt::format("'end = {}': write `end = N registers`", value));
         declared = count;

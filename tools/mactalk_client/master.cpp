@@ -122,7 +122,7 @@ Master::Reply Master::ask(const mactalk::Request& request, std::size_t data_byte
 std::optional<Master::Reply> Master::ask_once(const Question& question) {
     if (question.bytes.empty())
         throw LineError(LineError::Kind::no_message, "MacTalk has no message for this register or length");
-    // an accept carries no address
+    // An accept carries no address
     counters_.stray_bytes += line_.settle(question.answer == mactalk::Answer::accept);
     line_.send(question.bytes);
     ++counters_.questions;

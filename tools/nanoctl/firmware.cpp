@@ -80,7 +80,7 @@ void abort_firmware(GatewayClient& gateway) {
     try {
         gateway.command(gw::Command::firmware_abort);
     } catch (const std::exception&) {
-        // the next begin cancels it too
+        // The next begin cancels it too
     }
 }
 

@@ -97,7 +97,7 @@ void RollOut::look(const Roster& roster, std::uint64_t now, const Publish& publi
         ++stage_;
 }
 
-/// What was ordered before, by whoever, is no other order.
+/// An existing order for the same table, from any client, is followed instead of repeated.
 void RollOut::begin(Outcome& outcome, const Heard& heard, std::uint64_t now, const Publish& publish) {
     const Standing standing = judge(heard, wanted_, now, plan_.oldest);
     if (standing.kind == Standing::Kind::silent) return end(outcome, Kind::silent, standing.text, now);

@@ -86,7 +86,7 @@ std::string formula_text(const Formula& formula, std::uint32_t hold_ms) {
     return {};
 }
 
-/// What a formula asks of a scan's beginning; none if nothing.
+/// The condition at a scan's beginning that a formula needs; null if none.
 const Condition* beginning_of(const Formula& formula) {
     if (formula.kind == Formula::Kind::began) return formula.condition;
     for (const Formula& part : formula.parts) {
@@ -116,7 +116,7 @@ std::string motion_text(const ManualTerm& term, const Question& question) {
 
 std::string commands_of(const ManualTerm& term, const Question& question) {
     const std::string motion = motion_text(term, question);
-    if (term.is_flexmac) return motion;  // an order to the motor and nothing else
+    if (term.is_flexmac) return motion;  // only a command to the motor
     std::string text = fmt::format("wrote = true; output_byte = {}", term.output_byte);
     if (term.names_next) text += fmt::format("; next_step = {}", term.next_state);
     if (term.word != 0)
@@ -125,7 +125,7 @@ std::string commands_of(const ManualTerm& term, const Question& question) {
     return text;
 }
 
-/// Spin takes no d_step of any length. Between two of them nothing is chosen, so a scan stays one course.
+/// Spin limits the length of a d_step. Between two of them there is no choice, so a scan stays deterministic.
 std::string terms_text(const Question& question) {
     constexpr unsigned kAtOnce = 16;
     struct Step {
@@ -282,7 +282,7 @@ class Model {
         return fmt::format("   if\n   :: watch = 0\n{}   fi;\n", choices_);
     }
 
-    /// What is told of a scan no more, so that it need not be kept apart.
+    /// Resets the facts of a scan that are not read any more, so that equal states merge.
     std::string forgotten(unsigned bits) const {
         std::string text;
         for (unsigned bit = 0; bit < 8; ++bit) {

@@ -71,7 +71,7 @@ class Clauses {
         return result + turns() + facts();
     }
 
-    /// While time passes, a relation of a state, and of what is remembered of scans, stays so.
+    /// The relations of a state and of the stored facts that do not change while time passes.
     std::string time(const std::string& relation, const std::string& remembered) const {
         const std::string from = fields_.here() + remembered;
         if (!times_moves()) {
@@ -265,7 +265,7 @@ class Clauses {
 
     Question question_;
     Fields fields_;
-    unsigned told_;  ///< bits of HW_INP that a scan's facts tell apart
+    unsigned told_;  ///< bits of HW_INP that the facts of a scan depend on
 };
 
 constexpr const char* kClausesHeader =
@@ -279,7 +279,7 @@ constexpr const char* kClausesHeader =
 ; IS REACHABLE. The next scan may come after any time, so WHENEVER is broken as soon as a scan leaves its deadline open.
 )";
 
-/// From which states no scan leads on to one of the condition.
+/// The states from which no sequence of scans leads to the condition.
 std::string ways_text(const Property& property, const Clauses& clauses) {
     const Fields& fields = clauses.fields();
     const std::string here = fields.here();
@@ -304,7 +304,7 @@ std::string ways_text(const Property& property, const Clauses& clauses) {
         clauses.times_moves() ? here : clauses.with_timer(here, "#b1"), asked);
 }
 
-/// What is remembered is followed along all scans.
+/// The stored facts are updated along all scans.
 std::string watch_text(const Property& property, const Watch& watch, const Clauses& clauses) {
     const Fields& fields = clauses.fields();
     const std::string& name = property.name;

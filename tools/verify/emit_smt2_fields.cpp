@@ -143,7 +143,7 @@ std::string formula_clause(const Formula& formula, const Fields& fields) {
             return joined("or", parts);
         case Of::odd_of:
             return joined("xor", parts);
-        case Of::held:  // not asked here
+        case Of::held:  // not used here
             break;
     }
     return {};

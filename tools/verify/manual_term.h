@@ -7,7 +7,7 @@
 /// The bytes of a table's terms, field by field as 001 §6.1.5 to §6.1.7 name them.
 namespace nplc::verify {
 
-/// What a term orders of the motor, as far as `moving` goes.
+/// The effect of a term's command on the motor, as far as `moving` depends on it.
 enum class ManualMotion : std::uint8_t {
     stands,
     to_place,

@@ -6,18 +6,18 @@
 
 #include "sequencer/state.h"
 
-/// What an order of a table means to a motor (001 §5.2.1.4).
+/// The meaning of a table's commands for a motor (001 §5.2.1.4).
 namespace nplc::verify {
 
 enum class OrderKind : std::uint8_t {
     nothing,      ///< neither mode nor motion
     init,         ///< INIT mode, whatever it selects
-    velocity,     ///< runs from now on
-    place,        ///< moves to a place
+    velocity,     ///< runs continuously
+    place,        ///< moves to a position
     holds_place,  ///< position mode, the target stays
     home,
     stop,    ///< V_SOLL = 0
-    speed,   ///< V_SOLL is something again, the mode stays
+    speed,   ///< V_SOLL is nonzero again, the mode stays
     set,     ///< USE_SET
     silent,  ///< a mode that never sets IN_POS
     reset_error,
@@ -31,14 +31,14 @@ std::uint8_t selected_register(const sequencer::MotorOrder& order);
 bool begins_motion(OrderKind kind);
 bool ends_motion(OrderKind kind);
 
-/// Whether the motor was ordered to move and is not known to have ended: `moving` in properties.
+/// Whether the motor was commanded to move and its end has not been detected: `moving` in properties.
 enum class Motion : std::uint8_t {
     none,
     to_place,
     endless,
     disturbed,  ///< to a place, and ERROR was seen since; told only where it counts how long moves last
 };
-/// What a scan saw of the motor.
+/// The motor's signals in a scan.
 struct Seen {
     bool in_pos = false;
     bool disturbs = false;  ///< ERROR, where it counts how long moves last

@@ -21,7 +21,7 @@ struct Operator {
     Kind kind;
 };
 
-/// Loosest first, as in programs.
+/// Lowest precedence first, as in programs.
 constexpr std::array kOperators = {
     Operator{"OR", Kind::any_of},
     Operator{"XOR", Kind::odd_of},
@@ -184,7 +184,7 @@ std::string PropertyParser::shown() const {
                                             : fmt::format("'{}'", token().text.substr(0, 40));
 }
 
-/// What may have been meant by the word at hand, or `otherwise`.
+/// A guess of the intended word, or `otherwise`.
 std::string PropertyParser::guess(std::span<const std::string> known, std::string_view otherwise) const {
     std::vector<std::string_view> names;
     for (const std::string& name : known) {
@@ -308,7 +308,7 @@ bool PropertyParser::parse_never(Property& property) {
            parse_time(property.within_ms) && needs_a_time(property);
 }
 
-/// A time of 0 ms is what the same without FOR says.
+/// FOR with 0 ms equals no FOR.
 bool PropertyParser::needs_a_time(const Property& property) {
     return property.within_ms != 0 || fail("FOR takes 1 ms at the least");
 }

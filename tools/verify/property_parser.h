@@ -10,7 +10,7 @@
 
 namespace nplc::verify {
 
-/// Reads properties a token at a time; the first mistake ends it.
+/// Reads properties a token at a time; stops at the first error.
 class PropertyParser {
   public:
     PropertyParser(std::string_view text, const Names& names);

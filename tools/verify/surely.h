@@ -4,9 +4,9 @@
 
 namespace nplc::verify {
 
-/// Whether from every scan that `ways` knows, outside of `target`, a course of the gateway's surely leads to
-/// `target`: with inputs that keep their levels for the debounce time, and a timer of which is known only
-/// that it runs. True is a proof; false says nothing. `ways` must be complete and know lost links.
+/// Whether from every scan in `ways` outside of `target` some course that is possible with the gateway
+/// certainly leads to `target`: with inputs that keep their levels for the debounce time, and a timer that is
+/// only known to run. True is a proof; false is no result. `ways` must be complete and include lost links.
 /// From each scan, or from `only` these.
 bool surely_possible(const Explorer& ways, const Target& target, const Explorer::Scans* only = nullptr);
 /// The same from power-up.

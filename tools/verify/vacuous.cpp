@@ -12,7 +12,7 @@
 namespace nplc::verify {
 namespace {
 
-/// What stands in a property's text after `begin` and before the first of `ends`.
+/// The part of a property's text after `begin` and before the first of `ends`.
 std::string part_of(const std::string& text, std::string_view begin,
                     std::initializer_list<std::string_view> ends) {
     std::string upper = text;
@@ -58,8 +58,7 @@ Property unfulfilled(Property property) {
     return property;
 }
 
-/// Whether it is the assumptions about inputs that leave nothing which breaks a NEVER or an ALWAYS, whatever
-/// the table does.
+/// Whether the assumptions about inputs alone prove a NEVER or an ALWAYS, for any table.
 bool is_ruled_out(const Machine& machine, const Property& property) {
     if (machine.permitted().all()) return false;
     const Target target{.condition = &property.condition, .negated = property.form == Form::always};

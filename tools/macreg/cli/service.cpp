@@ -50,7 +50,7 @@ void with_service(Session& session, const ServiceArguments& options,
     } catch (const mactalk_client::Ended& error) {
         constexpr const char* kOrders[] = {"not sent", "sent, not known to be done", "done"};
         const Trail& trail = service.trail();
-        // refused before anything was sent: nothing to report
+        // Refused before anything was sent: nothing to report
         if (error.exit_code() == command_line::kRefused && trail.ran_in.empty() && !trail.in_safe_mode) throw;
         throw command_line::Failure(error.exit_code(),
                                     fmt::format("{}; {}", error.what(), service.left_behind()),
@@ -148,7 +148,7 @@ void prepare(Session& session, const ServiceArguments& options) {
         try {
             changed = service.save();
         } catch (...) {
-            // restored as found: otherwise a later save would store what is in memory
+            // Restored as found: otherwise a later save would store what is in memory
             if (service.trail().order == Trail::Order::none) put_back(motor, bits, before);
             throw;
         }

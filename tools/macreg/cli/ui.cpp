@@ -24,7 +24,7 @@ void ui(Common& common) {
     if (common.json) throw UserError("ui is for people and knows no --json; see get, set and watch");
     UiOptions options;
     {
-        // finds the motors; the screen then opens the port itself
+        // Finds the motors; the screen then opens the port itself
         Session session(common);
         options.address = session.motor().address();
         options.model = session.motor().model();

@@ -224,7 +224,7 @@ FoundPlant found_plant(const Fit& fit, registers::Model model, const std::string
         &plant_file::Plant::dead_time};
     FoundPlant found;
     found.plant.motor = motor;
-    // motion yields torques only relative to the motor's own: a known inertia gives their scale
+    // Motion yields torques only relative to the motor's own: a known inertia gives their scale
     const Estimate& j = fit[Parameter::inertia];
     double constant = 1;
     if (known_inertia && j.told) {

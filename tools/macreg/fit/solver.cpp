@@ -79,7 +79,7 @@ VectorXd guess_at(const Problem& problem, double dead_time) {
         double sum = 0, twice = 0, signs = 0, signs_twice = 0, way = 0, ones = 0, ones_twice = 0;
         for (std::size_t i = 0; i < series.size(); ++i, ++row) {
             if (i > 0 && series.at_rest[i] == 0) {
-                // a torque moves the shaft in its own sample by half of what it does in later ones
+                // A torque moves the shaft in its own sample by half of what it does in later ones
                 const double velocity = series.velocity(i);
                 const double sign = velocity > 0.5 ? 1 : velocity < -0.5 ? -1 : 0;
                 twice += sum + torque[i] / 2;
@@ -214,7 +214,7 @@ VectorXd Problem::errors(const VectorXd& x) const {
 
 VectorXd solve(const Problem& problem) {
     constexpr std::array kDeadTimes{0.15, 0.6, 1.2, 2.0, 3.0, 4.5};
-    // small gains if the prediction fits, and larger ones
+    // Small gains if the prediction fits, and larger ones
     constexpr std::array<std::pair<double, double>, 2> kGainsTried{{{-2, -5}, {0, -2}}};
     constexpr int kSteps = 60;
     Problem held = problem;

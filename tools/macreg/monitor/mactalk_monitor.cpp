@@ -114,7 +114,7 @@ class MactalkMonitor final : public Monitor {
     }
 
     void reply(Side side, Frame& frame) {
-        // no number of bytes matches both forms: registers come 4 or 64 at a time, samples 8 or 16
+        // No number of bytes matches both forms: registers come 4 or 64 at a time, samples 8 or 16
         for (const auto& [form, data] : {std::pair{mactalk::Answer::registers, mactalk::kReadBytes},
                                          std::pair{mactalk::Answer::registers, mactalk::kBlockBytes},
                                          std::pair{mactalk::Answer::samples, mactalk::kSampleBytes},
