@@ -60,6 +60,12 @@ struct Question {
     /// `with_holds`: includes properties with a duration.
     Question(std::span<const std::uint8_t> table, const std::vector<Property>& asked,
              const std::vector<Assumption>& assumed, bool with_holds);
+    /// P_SOLL, P_IST and P_FNC may be cleared in one scan.
+    bool clears_all() const {
+        unsigned all = 0;
+        for (const ManualTerm& term : terms) all |= term.clears;
+        return all == kAllCleared;
+    }
     /// Else the timer is zero or runs.
     bool counts_time() const { return move_ms != 0 || longest_hold != 0; }
     /// The value at which it saturates.

@@ -47,7 +47,7 @@ Explorer::Node Explorer::slot_value(const Place& place) const {
 View Explorer::view_after(const Place& place, const Group& group) const {
     sequencer::State state{place.step, place.outputs, std::uint16_t{place.runs}, place.counter};
     sequencer::apply(group.pending, state);
-    const bool moving = motion_of(place, group) != Motion::none;
+    const bool moving = is_moving(motion_of(place, group));
     return {state.step, state.outputs, state.timer == 0, state.counter == 0, moving};
 }
 
@@ -131,7 +131,7 @@ void Explorer::successors(const Place& place, const Zone& zone, const Group& gro
     const Place next = after(place, group);
     Zone now = zone;
     if (part.begins || (place.pending && !part.pending)) now.begin_deadline();
-    const bool moves = times_moves_ && next.motion == Motion::to_place;
+    const bool moves = times_moves_ && is_timed(next.motion);
     if (times_moves_ && (!moves || begins_move(group.orders))) now.begin_move();
     if (group.pending.timer_preset != 0 && precision_.times_timer) {
         const PresetRange times = machine_.times_of(group.pending.timer_preset);
@@ -282,8 +282,8 @@ bool Explorer::is_covered(const Place& place, const Bounds& passed) {
 void Explorer::add(const Place& place, const Zone& zone, const Origin& origin) {
     const std::uint32_t depth = origin.parent == kNone ? 0 : depths_[origin.parent] + 1;
     if (uses_zones_) work_ += kLookUp;
-    const bool is_line = precision_.deadline != nullptr && zone.left == Bounds{} &&
-                         !(times_moves_ && place.motion == Motion::to_place);
+    const bool is_line =
+        precision_.deadline != nullptr && zone.left == Bounds{} && !(times_moves_ && is_timed(place.motion));
     if (is_line && is_covered(place, zone.passed)) return;
     Node node = is_line ? kNone : find(place, zone);
     if (precision_.guide != nullptr) {

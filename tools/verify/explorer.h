@@ -40,7 +40,7 @@ struct Place {
                (static_cast<unsigned>(motion) << 14U);
     }
     static constexpr unsigned kPlainBits = 13;
-    std::uint64_t packed() const { return packed_plain() | (std::uint64_t{counter} << 16U); }
+    std::uint64_t packed() const { return packed_plain() | (std::uint64_t{counter} << 18U); }
 };
 
 /// A scan of a course: its start, its actions, and the images that can cause it.
@@ -144,7 +144,7 @@ class Explorer {
     const Edge& first_edge_with(const Group& group) const;
     View view_after(const Place& place, const Group& group) const;
     static View view_of(const Place& place) {
-        return {place.step, place.outputs, !place.runs, place.counter == 0, place.motion != Motion::none};
+        return {place.step, place.outputs, !place.runs, place.counter == 0, is_moving(place.motion)};
     }
     /// The images with which a scan that begins there is possible.
     ImageSet allowed(const Place& place) const { return allowed_[static_cast<std::size_t>(place.motor)]; }
@@ -178,7 +178,7 @@ class Explorer {
     /// Scans as where they begin and their group, whatever the times.
     using Scans = std::unordered_set<std::uint64_t>;
     static std::uint64_t scan_key(const Place& place, std::uint32_t group) {
-        return place.packed() << 32U | group;
+        return place.packed() << 30U | group;
     }
     Scans scans() const;
     /// The first scan outside of `target` that cannot lead to it, by the `distances`; only among `only`, if

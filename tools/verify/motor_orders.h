@@ -31,14 +31,32 @@ std::uint8_t selected_register(const sequencer::MotorOrder& order);
 bool begins_motion(OrderKind kind);
 bool ends_motion(OrderKind kind);
 
-/// Whether the motor was commanded to move and its end has not been detected: `moving` in properties.
+/// What the motor was ordered to do, as far as it decides whether it may move: `moving` in properties. In
+/// velocity, gear and position modes V_SOLL = 0 ends a motion, which goes on when V_SOLL is something again;
+/// a homing and the torque modes do not heed it (001 §4.4). In position mode a new target is a move.
 enum class Motion : std::uint8_t {
-    none,
+    none,  ///< INIT
     to_place,
     endless,
-    disturbed,  ///< to a place, and ERROR was seen since; told only where it counts how long moves last
+    disturbed,  ///< to a place, and for how long is not known: an ERROR was seen, or V_SOLL or the target
+                ///< changed
+    in_place,   ///< in position mode, arrived
+    stopped_in_place,  ///< and V_SOLL is 0
+    halted,            ///< on its way to a place, V_SOLL is 0
+    halted_run,        ///< in velocity mode, V_SOLL is 0
+    homing,
+    homing_disturbed,
+    driven,  ///< in a torque or test mode
 };
-/// The motor's signals in a scan.
+constexpr bool is_moving(Motion motion) {
+    return motion == Motion::to_place || motion == Motion::endless || motion == Motion::disturbed ||
+           motion == Motion::homing || motion == Motion::homing_disturbed || motion == Motion::driven;
+}
+/// `ASSUME moving ENDS WITHIN` speaks of it.
+constexpr bool is_timed(Motion motion) {
+    return motion == Motion::to_place || motion == Motion::homing;
+}
+/// What a scan saw of the motor.
 struct Seen {
     bool in_pos = false;
     bool disturbs = false;  ///< ERROR, where it counts how long moves last
@@ -46,7 +64,7 @@ struct Seen {
 /// After a scan that saw this and gave these orders.
 Motion motion_after(Motion before, const Seen& seen, std::span<const sequencer::MotorOrder> orders);
 
-/// They begin a move to a place, and nothing after it ends it.
+/// They begin a move to a place or a homing, and nothing after it ends it.
 bool begins_move(std::span<const sequencer::MotorOrder> orders);
 
 /// Registers that are 0 whenever they are used, or may be: V1..V8 and V_SOLL count.

@@ -191,7 +191,7 @@ void bound_moves(Times& times, std::span<const CourseScan> scans, std::uint32_t 
     std::size_t ordered = 0;
     for (std::size_t k = 0; k < scans.size(); ++k) {
         const Group& group = *scans[k].group;
-        if (scans[k].place.motion == Motion::to_place && !group.in_pos && !group.disturbs) {
+        if (is_timed(scans[k].place.motion) && !group.in_pos && !group.disturbs) {
             const Cause cause{Cause::Kind::move, ordered, k};
             times.at_most(ordered, k, move_ms, cause);
             if (paced && scans[k].idle) times.at_most(ordered, k + 1, move_ms + Machine::kMostIdle, cause);

@@ -115,7 +115,7 @@ class Search {
             if (choice == kNone) {
                 choice = choices_.size();
                 const Group& group = ways_.group_of(edge);
-                const bool sees_no_end = here.motion == Motion::to_place && !group.in_pos && !group.disturbs;
+                const bool sees_no_end = is_timed(here.motion) && !group.in_pos && !group.disturbs;
                 choices_.push_back({.kind = kind_of(here, group, lost),
                                     .group = edge.group,
                                     .idle = ways_.is_idle(here, group),
