@@ -60,7 +60,6 @@ if(NPLC_HOSTED AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 # A three-stage pipeline gains little from instruction scheduling or jump threading, which would cost 400
 # bytes of flash.
-# 400 bytes of flash go for it.
 if(NOT NPLC_HOSTED)
   target_compile_options(nplc_options INTERFACE -fno-schedule-insns2 -fno-reorder-blocks -fno-move-loop-invariants
                                                 -fno-tree-dominator-opts)
