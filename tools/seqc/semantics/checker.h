@@ -56,6 +56,12 @@ void check_arrivals(const Plan& plan, Report& report);
 /// Reports waits for an INPOS that is already 1.
 void check_standing_in_position(const Plan& plan, Report& report);
 
+/// A STOP in a homing or a torque mode, another target in position mode, a speed that takes up a move again.
+void check_lasting_motion(const Plan& plan, std::string_view source, Report& report);
+
+/// Moves to where the axis stands, and time limits that end before the move can.
+void check_known_places(const Plan& plan, const Symbols& symbols, std::string_view source, Report& report);
+
 /// Reports motor limits set by a program whose violation does not set ERROR (001 §5.2.1.6).
 void check_invisible_limits(const Plan& plan, registers::Model model, Report& report);
 
