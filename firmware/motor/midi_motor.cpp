@@ -62,19 +62,20 @@ void MidiMotor::poll(base::Instant now) {
 }
 
 base::Instant MidiMotor::next_poll(base::Instant now) const {
-    if (link_.busy()) return link_.next_poll(now);
-    base::Instant next = std::min(link_.next_poll(now), session_.next_send(has_work(), now));
+    if (link_.busy() && !(kWholeMidiStop && stop_wanted_ && session_.is_blind())) return link_.next_poll(now);
+    base::Instant next = std::min(link_.next_poll(now), session_.next_send(has_work(now), now));
     if (!session_.is_up()) return next;
-    if (refusals_ != 0 && retry_at_ > now) next = std::min(next, retry_at_);
+    if ((refusals_ != 0 || (kWholeMidiStop && stop_wanted_)) && retry_at_ > now)
+        next = std::min(next, retry_at_);
     if (motion_.state() == MidiMotion::State::stopping)
         next = std::min(next, std::max(now, motion_.ramp_end()));
     return next;
 }
 
-bool MidiMotor::has_work() const {
-    return stop_wanted_ || reset_wanted_ || zero_wanted_ || registers_.awaits_position() ||
-           orders_.is_executing() || !orders_.empty() || !status_is_new_ || motion_.is_doubtful() ||
-           access_.is_open();
+bool MidiMotor::has_work(base::Instant now) const {
+    return (stop_wanted_ && (!kWholeMidiStop || now >= retry_at_)) || reset_wanted_ || zero_wanted_ ||
+           registers_.awaits_position() || orders_.is_executing() || !orders_.empty() || !status_is_new_ ||
+           motion_.is_doubtful() || access_.is_open();
 }
 
 // Outcomes of messages.
@@ -98,8 +99,8 @@ void MidiMotor::drop_orders() {
 
 void MidiMotor::lose_link(MidiFault why, base::Instant now) {
     drop_orders();
-    const bool stop_blindly = why != MidiFault::link_lost && why != MidiFault::restarted;
-    if (session_.lose(link_.busy(), stop_blindly, now)) raise(why);
+    if (why != MidiFault::link_lost && why != MidiFault::restarted) stop_wanted_ = true;
+    if (session_.lose(link_.busy(), stop_wanted_, now)) raise(why);
     access_.fail_open();
     reset_wanted_ = false;
     motion_.forget_goal();
@@ -108,10 +109,12 @@ void MidiMotor::lose_link(MidiFault why, base::Instant now) {
 
 void MidiMotor::on_outcome(const MidiOutcome& outcome, base::Instant now) {
     if (session_.ends_old_message()) return;
-    // A probe of a link that is down: its answer counts only if a single module gives it.
+    // A probe or a blind stop: its answer counts as soon as only one module gives it.
     if (session_.is_down()) {
         probe_ = outcome;
-        if (outcome.kind != Kind::value || link_.trouble() != MidiTrouble::none) return;
+        const bool counts = outcome.kind <= Kind::refused && link_.trouble() == MidiTrouble::none;
+        session_.note_probe(counts);
+        if (!counts) return;
     }
     switch (outcome.kind) {
         case Kind::none:
@@ -165,7 +168,7 @@ void MidiMotor::on_accepted(base::Instant now) {
         case midi::RESET:
             return begin_reset(now);
         default:
-            stop_wanted_ = stop_hard_ = false;
+            give_up_stop();
             motion_.begin_stop(drive_, now);
             break;
     }
@@ -185,7 +188,7 @@ void MidiMotor::on_status() {
     status_is_new_ = true;
     if (!session_.is_up() || !drive_.trips()) return;
     raise(MidiFault::tripped);
-    motion_.end_by_trip();
+    if (!kWholeMidiStop || !stop_wanted_) motion_.end_by_trip();
 }
 
 void MidiMotor::on_position(base::Instant now) {
@@ -195,7 +198,10 @@ void MidiMotor::on_position(base::Instant now) {
     }
     registers_.on_position(drive_.counts());
     if (access_.is_under_way() && !access_.access().is_write) finish_read();
-    on_motion(motion_.on_position(drive_, asked_at_, now));
+    const bool was_at_rest = motion_.at_rest();
+    const MidiMotion::Event event = motion_.on_position(drive_, asked_at_, now);
+    if (kWholeMidiStop && !was_at_rest && motion_.at_rest()) give_up_stop();  // confirmed
+    on_motion(event);
 }
 
 void MidiMotor::on_motion(MidiMotion::Event event) {
@@ -222,6 +228,7 @@ void MidiMotor::on_unclear(base::Instant now) {
     const bool in_run = message_.number == midi::RUN && motion_.state() == MidiMotion::State::running;
     const bool moved_origin = message_.number == midi::ZERO_POSITION && !motion_.at_rest();
     if (in_run || moved_origin || ++repeats_ > kMostRepeats) {
+        if (kWholeMidiStop && stop_wanted_) pause_stop(now);
         forget_parameter();
         raise(MidiFault::unclear);
         stop_wanted_ = true;
@@ -253,8 +260,7 @@ void MidiMotor::on_refused(base::Instant now) {
             stop_wanted_ = stop_hard_ = true;
             return;
         case midi::EMERGENCY_STOP:
-            stop_wanted_ = stop_hard_ = false;
-            motion_.forget();
+            pause_stop(now);
             break;
         default:
             forget_parameter();
@@ -263,7 +269,19 @@ void MidiMotor::on_refused(base::Instant now) {
     raise(MidiFault::refused);
 }
 
-/// The shaft moves, contrary to the state assumed so far.
+/// Nothing confirms the stop: the shaft may, before it is sent again.
+void MidiMotor::pause_stop(base::Instant now) {
+    if constexpr (kWholeMidiStop) {
+        stop_hard_ = stop_wanted_;
+        if (motion_.state() != MidiMotion::State::unknown) motion_.forget();
+        retry_at_ = now + session_.stop_pause();
+    } else {
+        stop_wanted_ = stop_hard_ = false;
+        motion_.forget();
+    }
+}
+
+/// It moves, whatever the driver has concluded before.
 void MidiMotor::on_refused_motion(base::Instant now) {
     motion_.wait_for_rest(refusals_ == 0 ? now + kPatience : base::Instant{});
     retry_at_ = now + kRetry;
@@ -311,7 +329,7 @@ void MidiMotor::raise_and_stop(MidiFault fault) {
 // Selection of the next message.
 
 void MidiMotor::work(base::Instant now) {
-    if (link_.busy()) return;
+    if (link_.busy() && !(stop_wanted_ && session_.is_stop_due(now))) return;
     const Message message = next_message(now);
     if (!message) return;
     message_ = *message;
@@ -320,7 +338,7 @@ void MidiMotor::work(base::Instant now) {
 }
 
 MidiMotor::Message MidiMotor::next_message(base::Instant now) {
-    if (!session_.is_up()) return session_.start_up(now);
+    if (!session_.is_up()) return session_.start_up(stop_wanted_, now);
     if (session_.must_ask()) return query(midi::GET_STATUS);
     for (;;) {
         if (const Message command = next_command(now)) return command;
@@ -343,7 +361,9 @@ MidiMotor::Message MidiMotor::next_query(base::Instant now) {
 /// wait for standstill.
 [[gnu::noinline]] MidiMotor::Message MidiMotor::next_command(base::Instant now) {
     if (motion_.stops_late(now)) stop_wanted_ = stop_hard_ = true;
-    if (stop_wanted_) return command(stop_hard_ ? midi::EMERGENCY_STOP : midi::STOP);
+    if (stop_wanted_)
+        return kWholeMidiStop && now < retry_at_ ? Message{}
+                                                 : command(stop_hard_ ? midi::EMERGENCY_STOP : midi::STOP);
     if (reset_wanted_) return command(midi::RESET);
     if (zero_unclear_ || motion_.is_doubtful()) return {};
     if (zero_wanted_) return command(midi::ZERO_POSITION);
@@ -490,6 +510,10 @@ void MidiMotor::stop() {
     registers_.set_word(MODE_REG, 0);
     access_.fail_waiting();
     stop_wanted_ = true;
+    if (!kWholeMidiStop) return;
+    retry_at_ = {};
+    motion_.begin_command();
+    session_.begin_stop();
 }
 
 // Reported state.

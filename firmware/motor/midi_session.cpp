@@ -15,9 +15,7 @@ constexpr std::uint8_t kMostFailures = 3;
 constexpr base::Microseconds kProbe{100'000};
 /// 000 §VI 00h: two seconds, with a margin.
 constexpr base::Microseconds kDeaf{2'100'000};
-/// Number of stops sent while answers cannot be read.
-constexpr std::uint8_t kBlindStops = 3;
-/// Detection time of a second drive: its longest answer time, and a margin.
+/// Its longest answer, and time for the proof.
 constexpr base::Microseconds kOthersShow{200'000};
 
 constexpr MidiMessage query(midi::Query number, std::uint8_t sub_index = 0) {
@@ -32,13 +30,16 @@ Link MidiSession::link() const {
     return link_error_ ? Link::unacknowledged : Link::up;
 }
 
-std::optional<MidiMessage> MidiSession::start_up(base::Instant now) {
+std::optional<MidiMessage> MidiSession::start_up(bool stop_wanted, base::Instant now) {
     switch (phase_) {
         case Phase::down:
             if (now < next_query_) return {};
             next_query_ = now + kProbe;
-            if (blind_stops_ == 0) return query(midi::GET_STATUS);
-            --blind_stops_;
+            if (!stop_wanted || !blind_) return query(midi::GET_STATUS);
+            if (kWholeMidiStop) {
+                next_query_ = now + stop_pause();
+                ignore_ = false;
+            }
             return MidiMessage{.number = midi::EMERGENCY_STOP};
         case Phase::resetting:
             if (now < deaf_until_) return {};
@@ -98,7 +99,7 @@ bool MidiSession::skips_refused() {
     return true;
 }
 
-bool MidiSession::lose(bool busy, bool stop_blindly, base::Instant now) {
+bool MidiSession::lose(bool busy, bool stop_wanted, base::Instant now) {
     const bool is_error = was_up_;
     if (is_error) {
         link_error_ = true;
@@ -107,12 +108,9 @@ bool MidiSession::lose(bool busy, bool stop_blindly, base::Instant now) {
     was_up_ = resetting_ = must_ask_ = false;
     phase_ = Phase::down;
     failures_ = 0;
-    next_query_ = now + kProbe;
+    next_query_ = stop_wanted ? now : now + kProbe;
     ignore_ = busy;
-    if (stop_blindly) {
-        blind_stops_ = kBlindStops;
-        next_query_ = now;
-    }
+    blind_ = true;
     return is_error;
 }
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "motor/stop_pace.h"
+#include "registers/midi.h"
+
 namespace nplc::motor {
 namespace {
 
@@ -46,6 +49,8 @@ void MidiV24Link::begin(const MidiMessage& message, base::Instant now) {
                                .index = static_cast<std::uint8_t>(index),
                                .sub_index = message.sub_index,
                                .data = message.data};
+    is_urgent_ =
+        kWholeMidiStop && message.number == registers::midi::EMERGENCY_STOP;  // no query has its number
     bytes_ = v24::encode(request);
     decoder_.expect(request);
     deadline_ = now + kLongestAnswer;
@@ -57,8 +62,9 @@ MidiOutcome MidiV24Link::poll(base::Instant now) {
     const MidiOutcome outcome = receive(now);
     if (outcome.kind != Kind::none || state_ == State::idle) return outcome;
     if (state_ == State::waiting_for_quiet) {
-        // On a line that never falls silent a request cannot be sent: it has not been taken.
-        if (noisy_ && now - heard_ < kQuiet) return now < deadline_ ? MidiOutcome{} : finish(Kind::not_taken);
+        // A line that never falls silent carries no request: it has not been taken.
+        if (noisy_ && !is_urgent_ && now - heard_ < kQuiet)
+            return now < deadline_ ? MidiOutcome{} : finish(Kind::not_taken);
         noisy_ = spoilt_ = heard_any_ = false;
         answers_.asked();
         sent_ = 0;

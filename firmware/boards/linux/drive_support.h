@@ -37,7 +37,11 @@ class DriveSupport {
     virtual std::string silence_in_words(const motor::AnyDriver&, const std::string& /*line*/) const {
         return {};
     }
-    /// The driver's number for the reason of the present ERROR; 0: none.
+    /// Why the link was lost, and what to do, where it is the line's fault; empty: not known.
+    virtual std::string loss_in_words(const motor::AnyDriver&, const std::string& /*line*/) const {
+        return {};
+    }
+    /// The driver's number of the cause of the present ERROR; 0: none.
     virtual std::uint8_t fault(const motor::AnyDriver&) const { return 0; }
     /// Text of that reason; empty without one, and for a lost link, which the log reports.
     virtual std::optional<LogMessage> fault_in_words(const motor::AnyDriver&) const { return std::nullopt; }

@@ -3,14 +3,15 @@
 #include <cstdint>
 
 #include "base/time.h"
+#include "motor/stop_pace.h"
 #include "protocol/flexmac.h"
 
 namespace nplc::motor {
 
-/// A stop for a motor that does not answer (001 §5.2): 7Fh and FFh twice each switch it to FlexMAC whatever
-/// its toggle, then MODE_REG := 0 twice, then 7Eh three times switch it back. A pause of two characters
-/// before each part ends a partial message that the motor may have received. Sent every 50 ms for 1 s, then
-/// every 500 ms. Only after the link has been declared lost, since it would desynchronize a working link.
+/// A stop for a motor from which nothing is heard (001 §5.2): 7Fh and FFh twice each bring it into FlexMAC
+/// whatever its toggle, MODE_REG := 0 twice, 7Eh three times bring it back. A pause of two characters before
+/// each part ends what the motor may have taken for the beginning of another message. Never before the link
+/// has been declared lost: a motor in step would be put out of it.
 class BlindStop {
   public:
     /// The first one is sent at `from` at the earliest.
@@ -19,8 +20,8 @@ class BlindStop {
         allowed_ = true;
     }
     bool is_allowed() const { return allowed_; }
-    /// For a new stop request: restarts the fast repetition.
-    void begin_anew() { count_ = 0; }
+    /// A new stop was asked for: the quick repetition begins again.
+    void begin_anew() { pace_.begin_anew(); }
 
     /// A sequence of parts has been started and not finished.
     bool is_under_way() const { return part_ != 0; }
@@ -33,8 +34,8 @@ class BlindStop {
 
   private:
     bool allowed_ = false;
-    std::uint8_t part_ = 0;   ///< the next one to send
-    std::uint8_t count_ = 0;  ///< repetitions since the stop request
+    std::uint8_t part_ = 0;  ///< that is to be sent next
+    StopPace pace_;
     base::Instant due_{};
 };
 

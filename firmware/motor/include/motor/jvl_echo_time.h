@@ -38,6 +38,8 @@ class MeasuredEchoTime {
     bool is_too_late() const { return is_known_ && measured() > kMost; }
     /// The last known estimate.
     base::Microseconds measured() const { return base::Microseconds(late_); }
+    /// By that: no line that is up has been.
+    bool was_too_late() const { return measured() > kMost; }
     base::Microseconds at_most() const { return is_known_ ? measured() : kMost; }
     /// Echo timeout where a repeat does no harm.
     base::Microseconds patience() const {
@@ -69,6 +71,7 @@ class NoEchoTime {
     bool is_known() const { return true; }
     bool was_known() const { return false; }
     bool is_too_late() const { return false; }
+    bool was_too_late() const { return false; }
     base::Microseconds measured() const { return {}; }
     base::Microseconds at_most() const { return {}; }
     base::Microseconds patience() const { return {}; }

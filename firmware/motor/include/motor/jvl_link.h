@@ -76,6 +76,8 @@ class JvlLink {
         return echo_.was_known() ? echo_.measured() + kEchoCharacters * character_ : base::Microseconds(0);
     }
     base::Microseconds late_by() const { return echo_.at_most(); }
+    /// It was given up because its echoes came later than EchoTime::kMost.
+    bool was_too_late() const { return echo_.was_too_late(); }
     base::Microseconds character() const { return character_; }
     bool framing_error_seen() const { return framing_seen_; }
     void clear_framing_error() { framing_seen_ = false; }

@@ -49,6 +49,8 @@ class JvlMotor final : public Motor {
     Counters counters() const override;
     bool longwords_only() const override { return registers_are_32_bit_; }
     base::Microseconds echo_time() const override { return link_.echo_time(); }
+    /// The last link was lost because its echoes came too late.
+    bool was_too_late() const { return link_.was_too_late(); }
 
   private:
     enum class Phase : std::uint8_t { down, look, first_safety, second_safety, first_nop, second_nop, up };

@@ -47,7 +47,10 @@ class MidiMotor final : public Motor {
     void send(const Order& order) override { orders_.push(order, session_.is_up()); }
     void stop() override;
     bool stop_confirmed() const override { return !stop_wanted_; }
-    void give_up_stop() override { stop_wanted_ = stop_hard_ = false; }
+    void give_up_stop() override {
+        stop_wanted_ = stop_hard_ = false;
+        if (kWholeMidiStop) retry_at_ = {};
+    }
     bool begin_access(const Access& access) override { return session_.is_up() && access_.begin(access); }
     AccessState access_state() const override { return access_.state(); }
     std::uint32_t access_value() const override { return access_.value(); }
@@ -90,6 +93,7 @@ class MidiMotor final : public Motor {
     void on_unclear(base::Instant now);
     void on_refused(base::Instant now);
     void on_refused_motion(base::Instant now);
+    void pause_stop(base::Instant now);
     void forget_parameter();
     void begin_reset(base::Instant now);
     void raise(MidiFault fault, Limitation limitation = Limitation::none);
@@ -103,7 +107,7 @@ class MidiMotor final : public Motor {
     Message next_query(base::Instant now);
     Message next_command(base::Instant now);
     Message next_access();
-    bool has_work() const;
+    bool has_work(base::Instant now) const;
 
     // Effects of an order.
     void execute(const Order& order);
@@ -139,7 +143,7 @@ class MidiMotor final : public Motor {
     AccessSlot access_;
     std::uint32_t resent_ = 0;
     MidiOutcome probe_;
-    base::Instant retry_at_{};
+    base::Instant retry_at_{};  ///< of what was refused, and of a stop
     OrderQueue orders_;
     MidiRegisters registers_;
 };

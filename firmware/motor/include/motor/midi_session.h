@@ -7,6 +7,7 @@
 #include "base/time.h"
 #include "motor/midi_link.h"
 #include "motor/motor.h"
+#include "motor/stop_pace.h"
 
 namespace nplc::motor {
 
@@ -21,9 +22,16 @@ class MidiSession {
     Link link() const;
     std::uint32_t losses() const { return losses_; }
 
-    /// While the link is not up: the next message to send.
-    std::optional<MidiMessage> start_up(base::Instant now);
-    /// While the link is up: a query must be answered before anything else is sent.
+    /// Nothing is heard: a stop that is wanted is sent all the same, in place of queries.
+    bool is_blind() const { return blind_ && is_down(); }
+    /// That stop is due, whatever message is under way.
+    bool is_stop_due(base::Instant now) const { return kWholeMidiStop && is_blind() && now >= next_query_; }
+    /// While it is not up: what is to be sent.
+    std::optional<MidiMessage> start_up(bool stop_wanted, base::Instant now);
+    void begin_stop() { stop_pace_.begin_anew(); }
+    /// A stop that was not confirmed: until it is sent again.
+    base::Microseconds stop_pause() { return stop_pace_.next(); }
+    /// While it is up: a query must be answered before anything else is sent.
     bool must_ask() const { return must_ask_; }
     /// The next cyclic query; empty during the pause after the last answer.
     std::optional<MidiMessage> next_query(bool needs_position, bool at_once, base::Instant now);
@@ -43,10 +51,12 @@ class MidiSession {
     void ask_first() { must_ask_ = is_up(); }
     void ask_at(base::Instant when) { next_query_ = when; }
 
-    /// `busy`: a message is in progress. `stop_blindly`: stops are sent although no answer can be read. True
-    /// if this is an error because the link had been up.
-    bool lose(bool busy, bool stop_blindly, base::Instant now);
-    /// The next loss counts as an error even if the link was never up.
+    /// `busy`: a message is under way. `stop_wanted`: it is sent at once. True if this is an error: the link
+    /// had been up.
+    bool lose(bool busy, bool stop_wanted, base::Instant now);
+    /// While it is down: whether the last message was answered.
+    void note_probe(bool answered) { blind_ = !answered; }
+    /// A loss counts as an error even if the link was never up.
     void expect_up() { was_up_ = true; }
     void acknowledge() { link_error_ = false; }
     /// RESET was sent: the module does not answer for a while.
@@ -60,9 +70,10 @@ class MidiSession {
     enum class Phase : std::uint8_t { down, status, imax, speeds, settings, position, up, resetting };
 
     Phase phase_ = Phase::down;
-    std::uint8_t failures_ = 0;     ///< in a row
-    std::uint8_t turn_ = 0;         ///< position in the query cycle
-    std::uint8_t blind_stops_ = 0;  ///< to be sent while the link is down
+    std::uint8_t failures_ = 0;  ///< in a row
+    std::uint8_t turn_ = 0;      ///< of the queries
+    StopPace stop_pace_;
+    bool blind_ = false;
     bool must_ask_ = false;
     bool link_error_ = false;
     bool was_up_ = false;

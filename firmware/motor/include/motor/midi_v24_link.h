@@ -9,8 +9,9 @@
 
 namespace nplc::motor {
 
-/// A MIDI module on a serial line (000 §II to §IV). After a damaged or late answer the line must be silent
-/// for 5 ms before the next request, so that a stale answer is not taken for that request's.
+/// A MIDI module on a serial line (000 §II to §IV). An answer that is damaged, or comes too late, makes the
+/// line fall silent for 5 ms before the next request, so that it is not taken for the answer to that one;
+/// only EMERGENCY_STOP (18h) does not wait.
 class MidiV24Link final : public MidiLink {
   public:
     struct Settings {
@@ -42,8 +43,9 @@ class MidiV24Link final : public MidiLink {
     std::uint8_t address_;
     std::uint8_t sent_ = 0;
     State state_ = State::idle;
-    bool noisy_ = false;      ///< unexpected characters were received, or may still come
-    bool spoilt_ = false;     ///< framing error since the request
+    bool is_urgent_ = false;  ///< 18h, which waits for no silence
+    bool noisy_ = false;      ///< something unexpected was heard, or may still come
+    bool spoilt_ = false;     ///< a framing error since the request
     bool heard_any_ = false;  ///< since the request
     protocol::AnswerCount answers_;
     protocol::midi_v24::AnswerDecoder decoder_;

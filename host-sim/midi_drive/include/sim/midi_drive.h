@@ -26,15 +26,21 @@ class VirtualCanPort final : public ports::CanPort {
     /// A frame that has arrived.
     void receive(const base::CanFrame& frame);
     void set_state(ports::CanState state) { state_ = state; }
-    /// Share of frames lost, in either direction.
-    void lose(double share) { loss_ = share; }
-    bool loses() { return std::uniform_real_distribution<>(0, 1)(random_) < loss_; }
+    /// Share of the frames that nobody gets, in either direction.
+    void lose(double share) { lose(share, share); }
+    void lose(double sent, double received) {
+        loss_of_sent_ = sent;
+        loss_of_received_ = received;
+    }
     unsigned restarts() const { return restarts_; }
 
   private:
+    bool loses(double share) { return std::uniform_real_distribution<>(0, 1)(random_) < share; }
+
     CanBus& bus_;
     std::mt19937_64 random_;
-    double loss_ = 0;
+    double loss_of_sent_ = 0;
+    double loss_of_received_ = 0;
     ports::CanState state_ = ports::CanState::active;
     std::deque<ports::CanFrame> received_;
     std::optional<std::vector<ports::CanFilter>> filters_;
@@ -69,6 +75,11 @@ class MidiDrive {
     Time next_event(Time now) const;
 
     void cut(bool cut);
+    /// What the gateway sends is lost, what it would receive is.
+    void cut(bool to_drive, bool from_drive);
+    /// What the drive sends comes later by `late`, and then at the next multiple of `together`, as from a USB
+    /// adapter.
+    void delay(Time late, Time together);
     void power(bool on);
 
   private:
@@ -84,6 +95,8 @@ class MidiDrive {
     VirtualCanPort can_port_;
     bool cut_ = false;
     Time asked_{0};
+    LineFaults lateness_;
+    std::deque<std::pair<Time, ports::CanFrame>> coming_;  ///< and when it arrives
 };
 
 }  // namespace nplc::sim
