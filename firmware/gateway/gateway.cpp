@@ -31,9 +31,9 @@ void Gateway::block_start(SafeReason reason) {
     stop_motor();
 }
 
-void Gateway::wait_for_first_run() {
-    waits_for_first_run_ = true;
-    block_start(SafeReason::not_started);
+void Gateway::wait_for_mark(SafeReason reason) {
+    waits_because_ = reason;
+    block_start(reason);
 }
 
 void Gateway::block(SafeReason reason) {
@@ -123,11 +123,11 @@ base::Status Gateway::run_until(After hold_after) {
     if (!enabled()) return base::Error::not_enabled;
     if (needs_proof()) return base::Error::no_proof;
     if (stop_unconfirmed()) return base::Error::stop_unconfirmed;
-    waits_for_first_run_ = false;
     if (run_state_ == RunState::stopped) {
         scan_.reset();
         stop_ordered_ = false;
         run_state_ = RunState::waiting_for_motor;
+        is_mark_refused_ = false;
     } else {
         if (!can_go_on()) return base::Error::cannot_go_on;
         if (!settings_.virtual_motor && !scan_.mode().is_passive())
@@ -193,6 +193,7 @@ void Gateway::serve_sequence(base::Instant now) {
 }
 
 void Gateway::start_when_ready(base::Instant now) {
+    if (is_mark_refused_) return enter_safe_state(SafeReason::bad_run_mark, now);
     if (!motor::delivers(motor_.link())) {
         stop_ordered_ = false;
         return;
@@ -201,7 +202,7 @@ void Gateway::start_when_ready(base::Instant now) {
         stop_motor();
         stop_ordered_ = true;
     }
-    if (!motor_.settled()) return;
+    if (needs_mark() || !motor_.settled()) return;
     run_state_ = RunState::running;
     settings_.on_start == OnStart::stop ? scan_.mode().set_passive() : scan_.mode().forget();
     stop_after_loss_ = false;
@@ -394,9 +395,10 @@ base::Instant Gateway::next_work(base::Instant now) const {
         case RunState::held:
             return base::kNever;
         case RunState::waiting_for_motor: {
+            if (is_mark_refused_) return now;
             if (!motor::delivers(motor_.link())) return base::kNever;
             const bool has_to_stop = settings_.on_start == OnStart::stop && !stop_ordered_;
-            return has_to_stop || motor_.settled() ? now : base::kNever;
+            return has_to_stop || (!needs_mark() && motor_.settled()) ? now : base::kNever;
         }
         case RunState::holding:
             if (motor_.settled()) return now;

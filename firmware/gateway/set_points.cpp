@@ -215,16 +215,11 @@ void SetPoints::read_window(std::span<std::uint8_t> out) {
 }
 
 void SetPoints::view_changes(std::size_t offset, std::span<std::uint8_t> out) const {
-    for (std::size_t at = 0; at + kChangeBytes <= out.size(); at += kChangeBytes) {
-        const std::size_t age = (offset + at) / kChangeBytes;
-        if (age >= shown_changes()) return;
-        const Change& one = change(age);
-        base::store_u32(&out[at], one.milliseconds);
-        out[at + 4] = one.index;
-        out[at + 5] = static_cast<std::uint8_t>(one.origin);
-        out[at + 6] = one.recipe;
-        base::store_u32(&out[at + 8], static_cast<std::uint32_t>(one.before));
-        base::store_u32(&out[at + 12], static_cast<std::uint32_t>(one.now));
+    const std::size_t end = shown_changes() * kChangeBytes;
+    for (std::uint8_t& byte : out) {
+        if (offset >= end) return;
+        byte = reinterpret_cast<const std::uint8_t*>(&change(offset / kChangeBytes))[offset % kChangeBytes];
+        ++offset;
     }
 }
 

@@ -156,7 +156,7 @@ void UserPort::begin_own(const Request& request, base::Instant now) {
             data_size_ = decoder_.data().size();
             std::copy(decoder_.data().begin(), decoder_.data().end(), data_.begin());
             if (SetPointsPart::kIsThere && request.reg == registers::gateway::SET_POINT_WRITE) {
-                set_points_ = {Origin::user_port, now};
+                set_points_.begin(Origin::user_port, now);
                 serving_ = Serving::set_points;
                 return;
             }

@@ -18,7 +18,7 @@ base::Result<SettingValues> SettingsStore::mount() {
 }
 
 base::Status SettingsStore::save(const SettingValues& values) {
-    bytes_ = encode(values);
+    encode(values, bytes_);
     return slots_.begin();
 }
 

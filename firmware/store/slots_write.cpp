@@ -158,7 +158,7 @@ void Slots::close_next() {
 }
 
 void Slots::check_next() {
-    std::array<std::uint8_t, ports::Storage::kReadAtOnce> piece{};
+    std::array<std::uint8_t, ports::Storage::kReadAtOnce> piece;
     const auto bytes = std::span(piece).first(std::min<std::size_t>(piece.size(), received_ - checked_));
     if (bytes.empty()) return end_check();
     if (const auto status = storage_.read(layout_.content(target_) + checked_, bytes); !status)
@@ -198,7 +198,7 @@ void Slots::program_record(Closing next) {
 }
 
 bool Slots::reads_back(std::size_t bytes) {
-    std::array<std::uint8_t, kHeaderBytes> piece{};
+    std::array<std::uint8_t, kHeaderBytes> piece;
     const auto record = std::span(piece).first(bytes);
     const auto status = storage_.read(flush_.begin, record);
     const bool same = status.ok() && std::equal(record.begin(), record.end(), flush_.bytes.begin());

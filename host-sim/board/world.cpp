@@ -59,8 +59,6 @@ World::World(std::vector<std::uint8_t> table, const WorldOptions& options)
 void World::start_gateway(gateway::StartCause cause) {
     const bool first = !controller_;
     ++starts_;
-    const bool waits_for_first_run =
-        controller_ ? controller_->sequence().waits_for_first_run() : options_.is_new;
     const bool uploaded =
         controller_ && tables().upload_state() == static_cast<std::uint32_t>(store::Phase::done);
     if (uploaded) table_.clear();
@@ -86,7 +84,7 @@ void World::start_gateway(gateway::StartCause cause) {
     controller_.emplace(ports, kTableArea, table_memory_, *settings_, cause);
     if (options_.polling != Polling::steadily) controller_->sequence().pace(base::Microseconds(250));
     controller_->sequence().observe(this);
-    if (waits_for_first_run) controller_->sequence().wait_for_first_run();
+    if (options_.is_new) settings_->keep_mark(cause == gateway::StartCause::watchdog);
     start_table(first);
 }
 

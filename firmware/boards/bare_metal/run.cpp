@@ -29,10 +29,14 @@ gateway::StartCause start_cause(bool for_service) {
     return crash_record().valid() ? gateway::StartCause::watchdog : gateway::StartCause::power_up;
 }
 
-void note_crash(gateway::Gateway& sequence) {
-    if (!crash_record().valid()) return;
-    sequence.note(gateway::Event::crashed, static_cast<std::uint16_t>(crash_record().cause()));
-    sequence.note(gateway::Event::crashed_at, static_cast<std::uint16_t>(crash_record().code_address()));
+void note_crash(gateway::Gateway& sequence, gateway::SettingsManager& settings) {
+    const bool has_crashed = crash_record().valid();
+    const auto cause = static_cast<std::uint16_t>(crash_record().cause());
+    const auto address = static_cast<std::uint16_t>(crash_record().code_address());
+    settings.keep_mark(has_crashed);
+    if (!has_crashed) return;
+    sequence.note(gateway::Event::crashed, cause);
+    sequence.note(gateway::Event::crashed_at, address);
     crash_record().clear();
 }
 
@@ -100,7 +104,7 @@ StartedObject<motor::AnyDriver> driver_memory;
                                                              start_cause(parts.for_service));
     if constexpr (gateway::FirmwarePart::kIsThere)
         controller.registers().firmware().attach(firmware_receiver());
-    note_crash(controller.sequence());
+    note_crash(controller.sequence(), settings);
     controller.tables().start(parts.clock.now());
     return controller;
 }

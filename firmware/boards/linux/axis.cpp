@@ -142,12 +142,12 @@ void Axis::block_start() {
         case AutostartPermission::given:
             return;
         case AutostartPermission::first_run:
-            return sequence.wait_for_first_run();
+            return sequence.wait_for_mark(SafeReason::not_started);
         case AutostartPermission::after_crash:
-            return sequence.block_start(SafeReason::watchdog);
+            return sequence.wait_for_mark(SafeReason::watchdog);
         case AutostartPermission::bad_mark:
         case AutostartPermission::lost:
-            return sequence.block_start(SafeReason::bad_run_mark);
+            return sequence.wait_for_mark(SafeReason::bad_run_mark);
     }
 }
 
@@ -185,10 +185,17 @@ void Axis::note_running(base::Instant now) {
     controller_->sequence().withdraw(SafeReason::bad_run_mark, now);
 }
 
-void Axis::keep_permission() {
-    if (controller_->sequence().run_state() != gateway::RunState::stopped) store_.note_run();
-    if (const std::string error = store_.look(); !error.empty())
-        journal_.write(LogLevel::error, error + "; the next start waits for `nanoctl run`");
+/// A run waits for it before its first scan; one that was stopped meanwhile has been commanded all the same.
+void Axis::give_permission(base::Instant now) {
+    gateway::Gateway& sequence = controller_->sequence();
+    is_giving_ = is_giving_ || sequence.wants_mark();
+    if (!is_giving_) return;
+    const auto outcome = store_.give_permission(now);
+    is_giving_ = !outcome.has_value();
+    if (!outcome) return;
+    if (outcome->empty()) return sequence.mark_run();
+    journal_.write(LogLevel::error, *outcome + "; it has not started, `nanoctl run` again");
+    if (sequence.wants_mark()) sequence.refuse_run_mark();
 }
 
 void Axis::note_orderly_end() {
@@ -256,7 +263,7 @@ void Axis::serve(base::Instant now) {
     if (is_back) watch_ports();
     watch_or_wait(now);
     watch_pins(now);
-    keep_permission();
+    give_permission(now);
     if (const auto news = faces_.seat().take_news())
         journal_.write(LogLevel::notice,
                        fmt::format("operator: {} took over from {}", news->by.name, news->from.name));
@@ -284,7 +291,7 @@ void Axis::watch_pins(base::Instant now) {
 }
 
 base::Instant Axis::next(base::Instant now) {
-    if (controller_->reset_asked()) return now + kBetweenLooks;
+    if (controller_->reset_asked() || is_giving_) return now + kBetweenLooks;
     base::Instant next = controller_->next_poll(now, motor_.next_poll(now));
     next = std::min(
         {next, unwatched_until_, reporter_.next_report(), try_at_, motor_.next_look(), user_.next_look(now)});

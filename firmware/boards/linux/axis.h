@@ -86,7 +86,7 @@ class Axis {
     void start(base::Instant now);
     void block_start();
     void load_table(base::Instant now);
-    void keep_permission();
+    void give_permission(base::Instant now);
     void tell_stored_settings();
     void reset(base::Instant now);
 
@@ -107,8 +107,9 @@ class Axis {
     Missing missing_;
     std::set<std::string> reported_missing_;
     base::Instant try_at_ = base::kNever;
-    std::optional<gateway::StartCause> cause_;  ///< of the next start; empty: unknown without the store
-    bool is_running_ = false;                   ///< note_running() was called
+    std::optional<gateway::StartCause> cause_;  ///< of the next start; nothing: not known without the store
+    bool is_running_ = false;                   ///< note_running()
+    bool is_giving_ = false;                    ///< give_permission() is under way
 
     AxisStore store_{journal_, config_.name};
     AxisPins pins_;

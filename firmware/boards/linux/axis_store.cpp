@@ -140,14 +140,20 @@ std::string AxisStore::mark_running() {
     return error;
 }
 
-void AxisStore::note_run() {
-    if (!owner_ || permission_ == AutostartPermission::given || owner_->is_writing()) return;
-    permission_ = AutostartPermission::given;
-    owner_->begin_write(permission_);
-}
-
-std::string AxisStore::look() {
-    return owner_ ? owner_->poll().value_or("") : std::string();
+/// A write that was given up may still be under way at the next command, which then waits for it.
+std::optional<std::string> AxisStore::give_permission(base::Instant now) {
+    constexpr base::Milliseconds kLongestWrite{1'000};
+    if (!owner_) return "there is no store";
+    if (!asked_) {
+        asked_ = now;
+        if (!owner_->is_writing()) owner_->begin_write(AutostartPermission::given);
+    }
+    std::optional<std::string> outcome = owner_->poll();
+    if (!outcome && now - *asked_ < kLongestWrite) return std::nullopt;
+    asked_.reset();
+    if (!outcome) return "the store takes longer than 1 s to be written";
+    if (outcome->empty()) permission_ = AutostartPermission::given;
+    return outcome;
 }
 
 std::string AxisStore::mark_ended() {

@@ -42,10 +42,9 @@ class AxisStore {
     /// Marks a run as begun and stores the permission. Leaves the record in a store of another axis
     /// unchanged. Empty, or a one-line error.
     std::string mark_running();
-    /// Run was commanded: gives the permission and writes it in the background.
-    void note_run();
-    /// To be called regularly after note_run(): the error of its write, one line, once.
-    std::string look();
+    /// Somebody has commanded run: what says so is written beside everything else, for a second at the most.
+    /// To be called until it is answered: empty, and the permission is given; or why it is not, one line.
+    std::optional<std::string> give_permission(base::Instant now);
     std::string mark_ended();
     bool is_marked() const { return is_marked_; }
 
@@ -63,6 +62,7 @@ class AxisStore {
     std::optional<StoreOwner> owner_;
     AutostartPermission permission_ = AutostartPermission::first_run;
     bool is_marked_ = true;
+    std::optional<base::Instant> asked_;  ///< when the permission was
     std::unique_ptr<hal_linux::FileStorage> file_;
     std::optional<hal_linux::BackgroundStorage> storage_;
     NoStorage no_storage_{kMemory};

@@ -74,10 +74,17 @@ class Gateway {
     void end_start_up() { permission_.end_start_up(); }
     /// For the start-up: disables automatic start and shows `reason` until run().
     void block_start(SafeReason reason);
-    /// The same for a store with which run was never commanded: waits_for_first_run() is true until run().
-    void wait_for_first_run();
-    bool waits_for_first_run() const { return waits_for_first_run_; }
-    /// As block_start(), and until unlock() run() is refused with not_enabled and no other reason is shown.
+    /// The same, and the store must say that somebody has commanded run before anything runs: a run() then
+    /// wants_mark() until mark_run(), or refuse_run_mark(), with which it has not started. not_started:
+    /// nobody has commanded run with this store yet.
+    void wait_for_mark(SafeReason reason);
+    bool needs_mark() const { return waits_because_ != SafeReason::none; }
+    bool waits_for_first_run() const { return waits_because_ == SafeReason::not_started; }
+    bool wants_mark() const { return needs_mark() && run_state_ == RunState::waiting_for_motor; }
+    void mark_run() { waits_because_ = SafeReason::none; }
+    bool is_mark_refused() const { return is_mark_refused_; }  ///< of the last run()
+    void refuse_run_mark() { is_mark_refused_ = needs_mark(); }
+    /// The same, and until unlock() run() is refused with not_enabled and no other reason is shown.
     void lock(SafeReason reason);
     void unlock(SafeReason reason);
 
@@ -221,9 +228,10 @@ class Gateway {
     bool is_proven_ = false;        ///< the table came with a certificate
     bool stop_ordered_ = false;     ///< since the start, or the hold, began
     bool stop_after_loss_ = false;  ///< the motor is to be stopped once the link delivers again
-    bool stop_watched_ = false;     ///< its confirmation is to be logged
-    bool waits_for_first_run_ = false;
-    std::uint8_t motor_fault_ = 0;  ///< the last one logged
+    bool stop_watched_ = false;     ///< its confirmation is to be noted in the log
+    bool is_mark_refused_ = false;  ///< of the last run()
+    SafeReason waits_because_ = SafeReason::none;  ///< until somebody's run() is marked in the store
+    std::uint8_t motor_fault_ = 0;                 ///< as noted in the log
     StartPermission permission_;
     SafeState safe_;
     std::uint32_t stop_asked_ = 0;

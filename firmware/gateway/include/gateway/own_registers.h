@@ -61,8 +61,8 @@ class OwnRegisters {
     static constexpr bool kHasSetPoints = SetPointsPart::kIsThere;
     static constexpr bool kHasFirmware = FirmwarePart::kIsThere;
 
-    /// What poll_write() still waits for.
-    enum class Waiting : std::uint8_t { nothing, room, activation, reset, saving };
+    /// What poll_write() still has to wait for.
+    enum class Waiting : std::uint8_t { nothing, room, activation, reset, saving, mark };
 
     std::uint32_t value(std::uint8_t reg, base::Instant now) const;
     std::uint32_t live_value(std::uint8_t reg, base::Instant now) const;
@@ -80,6 +80,7 @@ class OwnRegisters {
     Progress write_value(std::uint8_t reg, std::uint32_t value, base::Instant now);
     Result force(std::uint8_t reg, std::uint32_t value, base::Instant now);
     Progress command(std::uint32_t value, base::Instant now);
+    Progress started(const base::Status& status);
     Progress reset(base::Instant now);
     Progress table_command(registers::gateway::Command command, base::Instant now);
     Progress write_table(std::span<const std::uint8_t> bytes);

@@ -49,6 +49,11 @@ class SetPoints final : public ValueSource {
         Origin origin{};
         base::Instant since{};
         std::uint32_t request = 0;  ///< 0: not begun
+        void begin(Origin who, base::Instant now) {
+            origin = who;
+            since = now;
+            request = 0;
+        }
     };
     /// One request at a time is stored, and a request that has begun is completed even if its client no
     /// longer waits. `bytes` must stay valid until it has begun; if it cannot begin within kLongestWait it
@@ -70,16 +75,19 @@ class SetPoints final : public ValueSource {
     /// The data that SET_POINT_POINTER points at; 0 beyond its end.
     void read(std::uint32_t pointer, std::span<std::uint8_t> out);
 
-    /// For event journals: `age` 0 is the last change.
+    /// Of what happened, for journals: the `age`th last change, 0 the last one.
+    /// In memory as they are read.
     struct Change {
         std::uint32_t milliseconds = 0;  ///< of uptime
         std::uint8_t index = 0;
         Origin origin{};
-        std::uint8_t recipe = 0;  ///< the recipe that was loaded; 0: a single value was set
+        std::uint8_t recipe = 0;  ///< that was loaded; 0: a value was set
+        std::uint8_t unused = 0;
         std::int32_t before = 0;
         std::int32_t now = 0;
     };
-    /// Changes whenever the record or a recipe may have changed.
+    static_assert(sizeof(Change) == registers::gateway::kChangeBytes && sizeof(Origin) == 1);
+    /// Another number whenever the record or a recipe may be another one.
     std::uint32_t edition() const { return edition_; }
     static constexpr std::size_t kKeptChanges = 16;
     std::uint32_t changes() const { return changes_; }
@@ -152,7 +160,7 @@ class SetPoints final : public ValueSource {
     std::uint32_t edition_ = 0;
     Values in_force_{};
     Values wanted_{};
-    Values after_{};  ///< the wanted values once the request is stored
+    Values after_;  ///< what is wanted once the request is stored
     std::array<Change, kKeptChanges> ring_{};
     store::SetPointStore store_;
 };
@@ -171,8 +179,7 @@ struct NoSetPoints {
     static void use(std::span<std::uint8_t>, std::span<const std::uint8_t>) {}
     static void show_defaults(std::span<std::uint8_t>, std::size_t) {}
     struct Writer {
-        Writer() = default;
-        Writer(Origin, base::Instant) {}
+        static void begin(Origin, base::Instant) {}
         static constexpr std::uint32_t request = 0;
     };
     static Progress serve(const Writer&, std::span<const std::uint8_t>, base::Instant) {

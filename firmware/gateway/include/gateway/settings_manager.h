@@ -42,13 +42,26 @@ class SettingsManager {
     Progress poll_save() const;
     void poll();
     base::Instant next_poll(base::Instant now) { return store_.next_poll(now); }
+    /// For boards that keep with the settings that somebody has commanded run; after attach(), before a table
+    /// is loaded. Without it the gateway waits for run(); after a crash it is taken back, in the store too.
+    void keep_mark(bool is_after_crash);
+    /// On such a board: somebody commands run. Settings that were not kept are not kept by it.
+    void begin_mark();
+
     bool differ() const { return values_ != stored_; }
     bool were_damaged() const { return damaged_; }
 
   private:
+    void begin_saving();
+    void store_wait(SafeReason reason);
+    SafeReason stored_wait() const {
+        return static_cast<SafeReason>(stored_.get(store::Setting::waits_for_run));
+    }
+
     Gateway* gateway_ = nullptr;
     base::Status begun_;
     bool is_saving_ = false;
+    bool keeps_mark_ = false;
     bool damaged_ = false;
     store::SettingValues values_;
     store::SettingValues at_start_;

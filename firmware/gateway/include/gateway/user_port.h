@@ -10,7 +10,7 @@
 #include "protocol/mactalk.h"
 #include "registers/mac.h"
 
-#ifndef NPLC_MODE_STOPS  // 0: the image has no room for it
+#ifndef NPLC_MODE_STOPS  // 0 in an image that has no room for it
 #define NPLC_MODE_STOPS 1
 #endif
 

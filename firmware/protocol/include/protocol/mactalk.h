@@ -50,7 +50,7 @@ inline constexpr std::size_t kMac800SampleBytes = 16;  ///< the same as longword
 
 template <std::size_t N>
 struct Encoded {
-    std::array<std::uint8_t, N> bytes{};
+    std::array<std::uint8_t, N> bytes;  ///< `size` of them
     std::size_t size = 0;
     std::span<const std::uint8_t> view() const { return {bytes.data(), size}; }
 };

@@ -29,6 +29,7 @@ inline constexpr std::uint8_t kCount = 0x81;
 enum Flag : std::uint8_t {
     kAtPowerUp = 1,  ///< POWER_UP writes it; written to the motor at a step that takes set-points
     kLongword = 2,
+    kGrid = 4,  ///< behind the texts: the lower end as written, from which tools lay the steps
 };
 
 /// One set-point in a record. Numbers are signed, in the raw steps of their target.

@@ -10,6 +10,9 @@ namespace nplc::registers::gateway {
 
 /// The numbers are stored and must not change.
 enum class Setting : std::uint8_t {
+    /// Not the user's to set, and in no list: the SafeReason for which nothing starts by itself until
+    /// somebody has commanded run; `none` once somebody has, initially `not_started`.
+    waits_for_run = 0,
     gateway_address = 1,
     user_baud = 2,
     motor_baud = 3,
@@ -56,6 +59,7 @@ const std::array<SettingInfo, kSettings>& all_settings();
 const SettingInfo* find_setting(std::uint8_t id);
 /// Standard baud rates: 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800 and 921600.
 bool is_standard_rate(std::uint32_t baud);
+/// Of the user's.
 bool is_setting(std::uint8_t id);
 std::uint32_t initial_value(Setting setting);
 /// Also false for an unknown setting.

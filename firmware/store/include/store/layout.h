@@ -21,8 +21,8 @@ struct Area {
 };
 
 struct Header {
-    Kind kind = Kind::table;
-    std::uint32_t sequence = 0;  ///< increases with each write, modulo 2^32
+    Kind kind{};
+    std::uint32_t sequence = 0;  ///< the later writing has the higher one, modulo 2^32
     std::uint32_t length = 0;    ///< bytes of content
     std::uint32_t crc = 0;       ///< of the content, base/crc32.h
     bool operator==(const Header&) const = default;

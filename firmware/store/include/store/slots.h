@@ -87,8 +87,8 @@ class Slots {
         Header header{};
     };
     struct Buffer {
-        std::array<std::uint8_t, kBuffer> bytes{};
-        std::uint32_t begin = 0;  ///< content offset of its first byte; for a record its address
+        std::array<std::uint8_t, kBuffer> bytes;  ///< `used` of them
+        std::uint32_t begin = 0;  ///< offset in the content of its first byte; of a record its address
         std::uint32_t used = 0;
     };
     /// From `clearing` on the new content is current, and the other slot is marked as superseded.
@@ -104,7 +104,7 @@ class Slots {
     };
 
     base::Status examine(Slot& slot, unsigned number);
-    base::Result<std::uint32_t> crc_of(unsigned slot, std::uint32_t length);
+    base::Result<std::uint32_t> crc_of(unsigned slot, std::uint32_t length, std::span<std::uint8_t> out);
     void choose();
 
     bool wait_for_storage();

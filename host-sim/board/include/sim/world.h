@@ -38,8 +38,9 @@ struct WorldOptions {
     LineFaults faults;  ///< both directions
     bool safe_communication = true;
     bool old_register_codes = false;
-    bool is_new = false;                              ///< run was never commanded with its store
-    Servo::Depth depth = Servo::Depth::current_loop;  ///< depth of the motor's computation
+    /// It starts by itself only once somebody has commanded run with its store.
+    bool is_new = false;
+    Servo::Depth depth = Servo::Depth::current_loop;  ///< of the motor's computation
     Load load{};                                      ///< of the motor's shaft
     gateway::Settings gateway{};                      ///< used while nothing is stored
     std::uint32_t user_baud =
