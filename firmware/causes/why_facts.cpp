@@ -124,6 +124,38 @@ std::string supply_words(const Facts& f) {
         f.text("U_SUPPLY"), f.at("U_SUPPLY") * 537 / 10'000 * 3 / 4, mend);
 }
 
+/// What ends the gateway's safe state.
+std::string safe_remedy(const Facts& f) {
+    using enum registers::gateway::SafeReason;
+    switch (static_cast<registers::gateway::SafeReason>(f.gateway()->safe_reason)) {
+        case link_down:
+            return "Mend the line to the motor, or switch it on; the sequence goes on once it has sent "
+                   "RESET_ERROR.";
+        case enable_lost:
+            return "Switch the enable input on, then `nanoctl run`.";
+        case bad_table:
+            return "`nanoctl upload` the table again, or `nanoctl run` for the one in use.";
+        case no_proof:
+            return "`nanoctl upload` the table with its certificate: `seqc verify --proof` makes one.";
+        case bad_settings:
+            return "Look at `nanoctl settings list` and keep them with `nanoctl settings set NAME=VALUE "
+                   "--keep`.";
+        case bad_run_mark:
+            return "`nanoctl run` starts it; where that is refused the service must be restarted.";
+        case no_lines:
+        case no_store:
+        case no_port:
+            return "The gateway's journal names what its board lacks, and the gateway tries to have it "
+                   "again.";
+        case bad_set_points:
+            return "Set the set-points anew with `nanoctl set-points`, or `nanoctl run` with those in use.";
+        case motor_stuck:
+            return "Look at the motor's line and supply, then `nanoctl run`.";
+        default:
+            return "`nanoctl run` starts it.";
+    }
+}
+
 const char* level(bool high) {
     return high ? "high" : "low";
 }
@@ -154,6 +186,7 @@ constexpr Word kWords[] = {
          using namespace registers::gateway;
          return std::string(name_of(static_cast<SafeReason>(f.gateway()->safe_reason)));
      }},
+    {"safe remedy", safe_remedy},
     {"set load factor",
      [](const Facts& f) -> std::string {
          return f.is_passive() ? "`macreg set KVOUT 1`, more with inertia at the shaft."

@@ -172,7 +172,7 @@ constexpr Rule<Facts> kRules[] = {
     // who commands the motor
     {"gateway_safe", stops, [](F f) { return f.gateway_has(registers::gateway::kSafe); },
      "The gateway is in its safe state: {safe reason}.", "",
-     "`nanoctl status` names the reason and what ends it.", Lets::nothing, [](F f) { return f.moves(); }},
+     "{safe remedy}", Lets::nothing, [](F f) { return f.moves(); }},
     {"gateway_held", stops,
      [](F f) { return f.gateway_is(RunState::held) || f.gateway_is(RunState::holding); },
      "The gateway's sequence is held, the motor stopped.", "",
@@ -191,6 +191,16 @@ constexpr Rule<Facts> kRules[] = {
     {"acceleration_zero", stops, [](F f) { return f.has_demands() && f.at("A_SOLL") == 0; },
      "A_SOLL, the acceleration, is 0: the velocity can never change.", "A_SOLL",
      "`macreg set A_SOLL 10000rpm/s`, for example.", Lets::turn},
+    {"velocity_zero", stops,
+     [](F f) {
+         return f.demands_velocity() && f.at("V_SOLL") == 0 && f.gateway_is(RunState::running) &&
+                !shuts_down_by_supply(f);
+     },
+     "V_SOLL, the velocity or its limit, is 0: the gateway's sequence has stopped the motor and gives it the "
+     "next order itself.",
+     "V_SOLL",
+     "Give its step what it waits for, such as an acknowledgement: `nanoctl status` names the step and what is "
+     "on, `seqc report` what ends it."},
     {"velocity_zero", stops,
      [](F f) { return f.demands_velocity() && f.at("V_SOLL") == 0 && !shuts_down_by_supply(f); },
      "V_SOLL, the velocity or its limit, is 0.", "V_SOLL UV_HANDLE",

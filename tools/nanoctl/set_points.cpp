@@ -35,9 +35,13 @@ Block read_part(GatewayClient& gateway, std::uint32_t pointer) {
     give_up();
 }
 
-std::vector<std::uint8_t> read_view(GatewayClient& gateway, std::size_t view, std::size_t length) {
+/// `part`: how much of each block counts. Gateways before showed changes only from their first byte on, whole
+/// ones.
+std::vector<std::uint8_t> read_view(GatewayClient& gateway, std::size_t view, std::size_t length,
+                                    std::size_t part = gw::kSetPointDataBytes) {
     std::vector<std::uint8_t> bytes;
-    for (std::size_t at = 0; at < length; at += gw::kSetPointDataBytes) {
+    for (std::size_t at = 0; at < length; at += part) {
+        bytes.resize(at);
         const Block block = read_part(gateway, pointer_to(view) | static_cast<std::uint32_t>(at));
         for (std::size_t word = 1; word < block.size(); ++word) {
             bytes.resize(bytes.size() + 4);
@@ -105,8 +109,9 @@ KnownChanges read_changes(GatewayClient& gateway) {
     constexpr std::size_t kKept = 16;
     if ((gateway.read(gw::SET_POINT_COUNT) & 0xFF) == 0) return {};
     KnownChanges known{read_record(gateway), {}};
-    const auto bytes =
-        read_view(gateway, static_cast<std::size_t>(gw::SetPointView::changes), kKept * gw::kChangeBytes);
+    constexpr std::size_t kWhole = gw::kSetPointDataBytes / gw::kChangeBytes * gw::kChangeBytes;
+    const auto bytes = read_view(gateway, static_cast<std::size_t>(gw::SetPointView::changes),
+                                 kKept * gw::kChangeBytes, kWhole);
     known.changes = set_points::decode_changes(bytes, known.record);
     return known;
 }

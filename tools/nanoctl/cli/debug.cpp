@@ -33,8 +33,8 @@ std::uint64_t steps_mask(Session& session, const std::vector<std::string>& texts
     for (const std::string& text : texts) {
         const auto step = session.right_names().find_step(text);
         if (!step)
-            throw UserError(
-                fmt::format("'{}' is no step: write 0..62, or a name of the program with --sym", text));
+            throw UserError(fmt::format("'{}' is no step: write 0..62, or a name of the program with --sym{}",
+                                        text, session.right_names().guess(text, true)));
         mask |= session.right_names().with_copies(*step);
     }
     return mask;
@@ -89,8 +89,8 @@ void parse_force(Session& session, const std::string& text, Force& in, Force& ou
     if ((!input && !output) || (level != "0" && level != "1"))
         throw UserError(
             fmt::format("'{}': write IN0..IN5 or OUT0..OUT3, or a name of the program with --sym, and "
-                        "=0 or =1",
-                        text));
+                        "=0 or =1{}",
+                        text, input || output ? "" : session.right_names().guess(name, false)));
     if (input ? (in.mask >> *input & 1U) != 0 : (out.mask >> *output & 1U) != 0)
         throw UserError(fmt::format("'{}': {} is named twice; name it once", text, name));
     if (input)

@@ -74,7 +74,10 @@ NewValue parse_value(const std::string& text, const set_points::Record& record) 
     if (point == nullptr) {
         std::string names;
         for (const set_points::SetPoint& one : record.values) names += (names.empty() ? "" : ", ") + one.name;
-        throw UserError(fmt::format("the table has no set-point '{}'; it has {}", name, names));
+        throw UserError(
+            fmt::format("the table has no set-point '{}'; it has {} (one that no step uses is left "
+                        "out)",
+                        name, names));
     }
     const set_points::Reading value = set_points::read_value(*point, text.substr(equals + 1));
     if (!value.error.empty()) throw UserError(fmt::format("{}; nothing was changed", value.error));

@@ -16,7 +16,13 @@ std::optional<std::int32_t> steps_of(const SetPoint& point, double number);
 /// Decimals that its values need: those of STEP, or those that distinguish adjacent values; at most 6, and so
 /// few that every value of the range times 10^decimals fits in 32 bits.
 unsigned decimals_of(const SetPoint& point);
-/// "80 mm": in the unit, with as many digits as distinguish adjacent values.
+/// A value is on the grid of STEP if it is what a step in the unit, from the lower end as it was written on,
+/// rounds to. True without STEP.
+bool is_on_grid(const SetPoint& point, std::int32_t value);
+/// "1200 or 1300": the steps next to a value that is on none, in the unit; only the one before it where the
+/// other is outside of the range.
+std::string grid_beside(const SetPoint& point, std::int32_t value);
+/// "80 mm": in the unit, with as many digits as tell it from its neighbours.
 std::string text_of(const SetPoint& point, std::int32_t value);
 /// "10 mm to 200 mm in steps of 0.1 mm"
 std::string range_text(const SetPoint& point);
@@ -26,8 +32,9 @@ struct Reading {
     std::string error;  ///< the error, with the name and the limits; empty if valid
 };
 
-/// "80", "80 mm", "80mm": in the unit of the set-point, or without; for times also ms and s. Errors: no
-/// number, another unit, out of range, a fractional count, or not a multiple of STEP from the lower end on.
+/// "80", "80 mm", "80mm": the unit of the set-point, or none; of times ms and s too. Refused: what is no
+/// number, another unit, what lies outside of the range, a count that is no whole number, and what is not on
+/// the grid.
 Reading read_value(const SetPoint& point, std::string_view text);
 
 }  // namespace nplc::set_points

@@ -56,7 +56,9 @@ class Names {
     std::optional<unsigned> find_input(const std::string& text) const;
     std::optional<unsigned> find_output(const std::string& text) const;
     std::optional<unsigned> find_step(const std::string& text) const;
-    /// One bit for the step and one for each copy that the compiler made of it.
+    /// "; did you mean Feed?" of the steps, else of the inputs and outputs; empty without a guess.
+    std::string guess(const std::string& text, bool of_steps) const;
+    /// A bit for the step and for each copy that the compiler made of it.
     std::uint64_t with_copies(unsigned step) const;
 
   private:
