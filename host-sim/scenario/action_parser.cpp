@@ -92,7 +92,7 @@ void ActionParser::pulse(Actions& list, Time after) {
     if (length <= Time{0})
         reader_.refuse_time("a pulse must be longer than 0; write such as pulse IN0 50 ms");
     add(list, after, action::SetInput{index, true});
-    add(list, after + length, action::SetInput{index, false});
+    add(list, after + length, action::SetInput{index, false}, true);
 }
 
 void ActionParser::line(Actions& list, Time after) {

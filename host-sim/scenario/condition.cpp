@@ -220,6 +220,10 @@ bool EventWatch::sets_in(const Snapshot& snapshot, const Names& names) {
     return false;
 }
 
+std::string Condition::in_its_unit(double number) const {
+    return in_unit(number, unit);
+}
+
 std::string normal_order(const std::string& words) {
     std::string text;
     for (const char c : lower(words)) {

@@ -86,6 +86,14 @@ class Reader {
     std::size_t time_at_ = 0;  ///< first token of the time read last
 };
 
+/// An order as conditions compare it, from the words of the timeline or with the program's names of
+/// registers.
+struct OrderReading {
+    std::string order{};
+    std::string mistake{};  ///< empty: there is none
+};
+OrderReading read_order(std::string_view text, const Names& names);
+
 /// Conditions and events of the language. All functions throw LineMistake.
 class ConditionParser {
   public:
@@ -115,6 +123,7 @@ class ConditionParser {
     void operand(Condition& condition);
     void quantity(Condition& condition);
     double step_number();
+    void check_step(unsigned number) const;
     Condition group();
     struct Measure {
         double value;  ///< in the value's own unit
@@ -171,15 +180,16 @@ class ActionParser {
 
   private:
     template <class What>
-    static void add(Actions& list, Time after, What what) {
-        list.push_back({after, std::move(what)});
+    static void add(Actions& list, Time after, What what, bool takes_back = false) {
+        list.push_back({after, std::move(what), takes_back});
     }
 
     /// Also adds the reverse action where `for TIME` follows.
     template <class What>
     void add_for(Actions& list, Time after, What what, What back) {
         add(list, after, std::move(what));
-        if (const Time span = reader_.lasting(); span != Time{0}) add(list, after + span, std::move(back));
+        if (const Time span = reader_.lasting(); span != Time{0})
+            add(list, after + span, std::move(back), true);
     }
 
     void action(Actions& list, Time after);
@@ -213,6 +223,7 @@ class ActionParser {
     void gateway(Actions& list, Time after);
     // set_point_parser.cpp
     void needs_set_points() const;
+    std::string no_such_point(std::string_view name) const;
     void set_points(Actions& list, Time after);
     void recipe(Actions& list, Time after);
     void seed(Actions& list, Time after);

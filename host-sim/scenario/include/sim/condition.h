@@ -58,6 +58,8 @@ struct Condition {
     bool holds(const Snapshot& snapshot, const Names& names) const;
     /// The snapshot's values for all operands of the condition.
     std::string seen(const Snapshot& snapshot, const Names& names) const;
+    /// A number of the value in the unit in which it was asked for.
+    std::string in_its_unit(double number) const;
 };
 
 /// An event: a condition becomes true or false, or a value changes, possibly after a duration.

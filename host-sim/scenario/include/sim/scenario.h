@@ -121,18 +121,21 @@ struct Action {
                  action::MotorTemperature, action::BreakEncoder, action::Gateway, action::SetPoints,
                  action::Log, action::End>
         what;
+    bool takes_back = false;  ///< what the action before it did
 };
 using Actions = std::vector<Action>;
 
 struct AtRule {
     Time time{0};
     Actions actions;
+    int line = 0;
 };
 struct EveryRule {
     Time period{0};
     Time from{0};
     std::optional<Time> until;
     Actions actions;
+    int line = 0;
 };
 struct WhenRule {
     Event event;

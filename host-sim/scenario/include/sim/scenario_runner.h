@@ -99,7 +99,8 @@ class ScenarioRunner {
         std::uint64_t events = 0;
         std::uint64_t fulfilled = 0;
         std::vector<Time> deadlines;
-        std::optional<Time> since{};  ///< since when the condition has been true
+        std::optional<Time> since{};      ///< the condition has been true
+        std::optional<double> nearest{};  ///< of a value that is awaited, what came nearest to it
     };
 
     void plan(const Actions& actions, Time now, int line, bool by_rule);
@@ -112,6 +113,7 @@ class ScenarioRunner {
     void judge(Judgement& judgement, const Snapshot& snapshot);
     void judge_at(Judgement& judgement, const Snapshot& snapshot);
     void judge_by(Judgement& judgement, const Snapshot& snapshot);
+    std::string nearest_text(const Judgement& judgement) const;
     void judge_always(Judgement& judgement, const Snapshot& snapshot);
     void judge_after_event(Judgement& judgement, const Snapshot& snapshot);
     void judge_during(Judgement& judgement, const Snapshot& snapshot);

@@ -61,6 +61,8 @@ struct Names {
     std::map<std::uint8_t, std::uint8_t> copy_of;  ///< steps that are copies: `step = Name` includes them
     std::map<std::string, std::vector<std::uint8_t>> groups;  ///< meaning of `step in Name`
     std::map<std::string, std::uint32_t> times;               ///< in milliseconds
+    std::map<std::string, std::string> registers;             ///< the motor's, by the program's names
+    std::uint64_t numbers = 0;                                ///< bit n: the table has step n; 0: not known
     registers::Model motor = registers::Model::mac140;
     const registers::DriveModel* drive = nullptr;  ///< of another family, instead of the motor
     std::optional<MachineUnit> machine;
