@@ -28,7 +28,9 @@ constexpr const char* kNotSurely =
 
 std::string out_of_bounds(const Explorer& explorer) {
     return fmt::format(
-        "{} states were explored, and there are more{}; what leaves fewer may decide it: ASSUME "
+        "{} states were explored, and there are more{}; what leaves fewer may decide it: a count or a RANGE "
+        "of "
+        "counts that ends sooner (each count is a state of its own), ASSUME "
         "NEVER ERROR, ASSUME NEVER of inputs that cannot be together, a shorter time, or --assume "
         "any, which knows no times",
         explorer.size(), explorer.complete() ? " scans between them than are kept" : "");

@@ -272,6 +272,18 @@ bool PropertyParser::parse_stable(Assumption& assumption) {
            parse_time(assumption.stable_ms);
 }
 
+/// NEVR Head, IF Head: a word, and then one that cannot follow a condition.
+bool PropertyParser::begins_no_claim() const {
+    if (token().kind != Token::Kind::word || token(1).kind != Token::Kind::word) return false;
+    for (const char* first : {"NOT", "STEP", "ANY"}) {
+        if (at(first)) return false;
+    }
+    for (const char* second : {"AND", "OR", "XOR", "IS", "ONLY", "CHANGES"}) {
+        if (at(second, 1)) return false;
+    }
+    return true;
+}
+
 bool PropertyParser::parse_form(Property& property) {
     if (take("NEVER")) return parse_never(property);
     if (at("ALWAYS") && at("POSSIBLE", 1)) {
@@ -296,12 +308,23 @@ bool PropertyParser::parse_form(Property& property) {
                expect("ENDS", "behind FROM's condition") && expect("IN", "behind ENDS") &&
                parse_condition(property.then);
     }
+    if (begins_no_claim()) {
+        const std::array<std::string, 6> words = {"NEVER",   "ALWAYS", "WHENEVER",
+                                                  "BETWEEN", "AFTER",  "EVERY_SCAN"};
+        return fail(fmt::format(
+            "a claim is expected, not {}; {}", shown(),
+            guess(words,
+                  "it begins with NEVER, ALWAYS, WHENEVER, AFTER, BETWEEN or EVERY_SCAN, or is 'c IS "
+                  "REACHABLE', 'c ONLY AFTER d', 'c ONLY FROM d' or 'x CHANGES ONLY IN c'")));
+    }
     return parse_condition_first(property);
 }
 
 bool PropertyParser::parse_never(Property& property) {
     property.form = Form::never;
     if (!parse_condition(property.condition)) return false;
+    if (at("WITHIN"))
+        return fail("NEVER takes no WITHIN: write NEVER c WHILE d FOR 5 s, or WHENEVER c THEN d WITHIN 5 s");
     if (!take("WHILE")) return true;
     property.form = Form::never_while;
     return parse_condition(property.then) && expect("FOR", "behind WHILE's condition") &&
@@ -477,6 +500,7 @@ bool PropertyParser::parse_primary(Condition& result) {
 bool PropertyParser::parse_step(Condition& result) {
     std::optional<std::uint8_t> number;
     const std::string_view text = token().text;
+    if (at("=")) return fail("= stands twice: write it once, as in STEP = Idle");
     const bool is_name = token().kind != Token::Kind::number;
     if (!is_name) {
         unsigned value = 0;
@@ -487,6 +511,10 @@ bool PropertyParser::parse_step(Condition& result) {
         number = named(text, names_.steps);
         if (!number && same_word(text, "POWER_UP")) number = std::uint8_t{0};
     }
+    const bool is_group = !number && is_name &&
+                          std::any_of(names_.groups.begin(), names_.groups.end(),
+                                      [&](const StepGroup& group) { return same_word(group.name, text); });
+    if (is_group) return fail(fmt::format("{} is a group of steps: write STEP IN {}", shown(), text));
     if (!number)
         return fail(fmt::format("there is no step {}; {}", shown(),
                                 guess(names_.steps, "a step is a name or 0 to 62")));

@@ -44,6 +44,7 @@ class PropertyParser {
     bool parse_whenever(Property& property);
     bool parse_only(Property& property);
     bool parse_condition_first(Property& property);
+    bool begins_no_claim() const;
     bool parse_form(Property& property);
     const NamedTime* time_named(const Token& token) const;
     bool parse_time(std::uint32_t& milliseconds);

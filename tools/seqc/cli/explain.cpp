@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <memory>
@@ -98,9 +99,24 @@ std::string nearest_codes(std::string_view wanted, std::vector<Explanation> all)
     return fmt::format("; near it are {}, {} and {}", all[0].code, all[1].code, all[2].code);
 }
 
+/// "; did you mean WITHIN?", or where a word of scenarios stands.
+std::string nearest_word(std::string_view wanted) {
+    constexpr std::array<std::string_view, 21> kOfScenarios{
+        "at",    "every",   "when",   "once",  "follows", "appears", "disappears",
+        "pulse", "toggle",  "cancel", "motor", "expect",  "ordered", "rises",
+        "falls", "changes", "recipe", "seed",  "log",     "never",   "eventually"};
+    const auto is_wanted = [&](std::string_view word) { return same_name(word, wanted); };
+    if (std::any_of(kOfScenarios.begin(), kOfScenarios.end(), is_wanted))
+        return "; it is a word of scenarios, which host-sim/scenario/README.md explains";
+    const std::string guess = suggestion(wanted, reference_words());
+    return guess.empty() ? guess : "; " + guess;
+}
+
 int unknown(const ExplainArguments& options, const std::vector<Explanation>& all) {
-    const std::string problem = fmt::format("there is no code '{}'{} (seqc explain lists all)",
-                                            options.code.substr(0, 40), nearest_codes(options.code, all));
+    const std::string codes = nearest_codes(options.code, all);
+    const std::string problem =
+        fmt::format("there is no code '{}'{} (seqc explain lists all)", options.code.substr(0, 40),
+                    codes.empty() ? nearest_word(options.code) : codes);
     if (!options.json) return file_problem(problem);
     Json document;
     document["error"] = problem;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -211,6 +212,39 @@ std::string finding_text(const verify::Result& result, const VerifyArguments& op
     return text;
 }
 
+/// Findings of one check in a step and in the copies that the compiler made of it are one: that of the step.
+/// Null: this one is told with another.
+const verify::Result* told_for(const verify::Report& report, const verify::Result& result,
+                               const verify::Names& names, std::string& copies) {
+    if (!result.step) return &result;
+    const auto origin_of = [&](std::uint8_t step) { return names.copy_of[step].value_or(step); };
+    const verify::Result* first = nullptr;
+    for (const verify::Result& other : report.results) {
+        const bool is_same = other.step && other.code == result.code && other.verdict == result.verdict &&
+                             other.allowed == result.allowed &&
+                             origin_of(*other.step) == origin_of(*result.step);
+        if (!is_same) continue;
+        const bool is_origin = *other.step == origin_of(*other.step);
+        if (first == nullptr || is_origin) first = &other;
+    }
+    if (first != &result) return nullptr;
+    for (const verify::Result& other : report.results) {
+        const bool is_copy = &other != first && other.step && other.code == result.code &&
+                             other.verdict == result.verdict && other.allowed == result.allowed &&
+                             origin_of(*other.step) == origin_of(*result.step);
+        if (is_copy) copies += fmt::format("{}{}", copies.empty() ? "" : ", ", names.steps[*other.step]);
+    }
+    return first;
+}
+
+std::string undecided_text(const verify::Report& report) {
+    std::set<std::string> open;
+    for (const verify::Result& result : report.results) {
+        if (!result.code.empty() && result.verdict == Verdict::undecided) open.insert(result.code);
+    }
+    return open.empty() ? "" : fmt::format(", {} undecided", open.size());
+}
+
 std::string text_of(const verify::Report& report, const Plays& plays, const VerifyArguments& options,
                     const Input& input, const verify::Names& names) {
     std::string text;
@@ -219,7 +253,10 @@ std::string text_of(const verify::Report& report, const Plays& plays, const Veri
         if (!result.code.empty()) {
             const bool holds = result.verdict == Verdict::proved;
             checks_that_hold += holds ? 1 : 0;
-            if (!holds) text += finding_text(result, options, input, names);
+            std::string copies;
+            if (holds || told_for(report, result, names, copies) == nullptr) continue;
+            text += finding_text(result, options, input, names);
+            if (!copies.empty()) text += fmt::format("  and in its copies: {}\n", copies);
             continue;
         }
         const char* shade = result.verdict == Verdict::proved ? "1;32" : "1;31";
@@ -232,8 +269,8 @@ std::string text_of(const verify::Report& report, const Plays& plays, const Veri
         if (const auto play = plays.find(result.name); play != plays.end())
             text += fmt::format("  {}\n", told(play->second));
     }
-    return text + fmt::format("{} of {} checks hold; {} states explored{}; assumed: {}\n", checks_that_hold,
-                              verify::checks().size(), report.states,
+    return text + fmt::format("{} of {} checks hold{}; {} states explored{}; assumed: {}\n", checks_that_hold,
+                              verify::checks().size(), undecided_text(report), report.states,
                               report.complete ? ", all there are" : ", not all",
                               assumption_text(options, input, report.assumptions));
 }

@@ -186,9 +186,12 @@ class AllValues {
             if (result.verdict != Verdict::proved) continue;
             result.verdict = Verdict::undecided;
             result.reason = fmt::format(
-                "it holds at the ends of the ranges; between them it is not decided, since a count's range "
-                "goes to {}",
+                "it holds at the ends of the ranges; a RANGE of a count that goes to {} is too large to be "
+                "decided between them: let it end sooner, as RANGE 1 .. 2000 does, or look at the defaults "
+                "alone "
+                "with --set-points default",
                 kMostPreset);
+            report_.complete = false;
         }
     }
 

@@ -74,4 +74,23 @@ std::vector<Paragraph> passages_about(std::string_view word) {
     return passages;
 }
 
+std::vector<std::string_view> reference_words() {
+    constexpr std::size_t kShortest = 3;
+    std::vector<std::string_view> words;
+    const std::string_view text = kReference;
+    for (std::size_t at = 0; at < text.size();) {
+        std::size_t end = at;
+        bool is_small = false;
+        for (; end < text.size() && is_word_character(text[end]); ++end)
+            is_small = is_small || (text[end] >= 'a' && text[end] <= 'z');
+        const bool begins_with_letter = text[at] >= 'A' && text[at] <= 'Z';
+        if (end - at >= kShortest && !is_small && begins_with_letter)
+            words.push_back(text.substr(at, end - at));
+        at = std::max(end, at + 1);
+    }
+    std::sort(words.begin(), words.end());
+    words.erase(std::unique(words.begin(), words.end()), words.end());
+    return words;
+}
+
 }  // namespace nplc::seqc

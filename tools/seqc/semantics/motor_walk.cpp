@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "semantics/checker.h"
 #include "semantics/commands.h"
 #include "semantics/step_walk.h"
+#include "syntax/names.h"
 
 namespace nplc::seqc {
 namespace {
@@ -238,13 +240,24 @@ class MotorWalk {
             names += fmt::format("{}{}", names.empty() ? "" : ", ", name_of(selection));
             writes += fmt::format("{}_SOLL := ..; ", letter_of(selection.group));
         }
-        const std::string first = fmt::format("INIT({}); POSITION({});", names, place);
+        const std::string_view entry = is_in_entry(send) ? "ENTRY " : "";
+        const std::string first = fmt::format("{0}INIT({1}); {0}POSITION({2});", entry, names, place);
         if (state.modes == kInit || !writable) return fmt::format("select it first: {}", first);
+        if (!entry.empty()) return fmt::format("select it first, if the motor may stop for it: {}", first);
         return fmt::format("write the value itself: {}POSITION({}); or, if the motor may stop for it, {}",
                            writes, place, first);
     }
 
-    /// Its value is set by the operator, not derived from a constant of another register (E026).
+    /// In the list behind ENTRY, where `first` could not stand as it is.
+    bool is_in_entry(const Send& send) const {
+        constexpr std::string_view kWord = "ENTRY";
+        std::string_view before = source_.substr(0, send.span.offset);
+        while (!before.empty() && std::isspace(static_cast<unsigned char>(before.back())) != 0)
+            before.remove_suffix(1);
+        return before.size() >= kWord.size() && same_name(before.substr(before.size() - kWord.size()), kWord);
+    }
+
+    /// Its value is the operator's, and no constant of another register (E026).
     bool is_set_point(const Selection& selection) const {
         return std::any_of(set_points_.begin(), set_points_.end(), [&](std::uint8_t number) {
             const auto own = selection_of(number);

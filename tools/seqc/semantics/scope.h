@@ -130,6 +130,7 @@ class Scope {
     bool decide_register(DeclaredSetPoint& declared, const registers::Register& reg);
     bool decide_preset(DeclaredSetPoint& declared);
     bool is_sound_range(DeclaredSetPoint& declared);
+    bool is_default_on_grid(const DeclaredSetPoint& declared);
     bool is_new_name(const ast::Name& name);
     /// In the order of the program with its INCLUDEs.
     bool stands_before(Span a, Span b) const;

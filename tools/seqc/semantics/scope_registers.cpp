@@ -107,8 +107,9 @@ void Scope::note_drive_value(const ast::Value& value, const Register& reg, std::
         fmt::format("{} := {} is {}, on a {} {} ({:.6g}{}{}, {:+.3f} %)", shown_name, text(value.span),
                     static_cast<std::int64_t>(number_of_bits(bits, reg.format)), motor_name(),
                     text_of(*drive), drive->raw / per_unit, unit.empty() ? "" : " ", unit, error * 100);
+    // The gateway adds distances up in counts and rounds each target for the drive by itself.
     result_.roundings.push_back(
-        {value.span, what, exact - drive->raw, per_unit, std::string(unit), exact < 0});
+        {value.span, what, exact - number_of_bits(bits, reg.format), per_unit, std::string(unit), exact < 0});
     if (std::fabs(error) <= kWorthAWarning) return;
     Diagnostic& d =
         report_.add("W002", value.span, fmt::format("the drive is too coarse for this value: {}", what),
@@ -262,6 +263,15 @@ void Scope::report_no_value(const ast::Name& name, const Register* reg) {
             for (const registers::NamedValue& one : field.values) names.push_back(one.name);
         }
     }
+    if (std::any_of(set_points_.begin(), set_points_.end(), [&](const DeclaredSetPoint& declared) {
+            return same_name(declared.written->name.text, text);
+        })) {
+        report_.add(
+            "E021", name.span, fmt::format("'{}' is a set-point, and a constant belongs here", text),
+            "a set-point is for := alone; a time limit of the operator's is ENTRY TIMER := Limit; and "
+            "TIMER.Q tested in the step, instead of WITHIN, FOR or BLINKING");
+        return;
+    }
     std::string help = suggestion(text, names);
     if (find_register(text) != nullptr)
         help =
@@ -289,6 +299,8 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& written, const Regis
     if (!is_on_drive(reg, written.span)) return std::nullopt;
     const auto result = worked_out(written, &reg);
     if (!result) return std::nullopt;
+    const std::size_t roundings = result_.roundings.size();
+    const bool makes_good = written.kind != ast::Value::Kind::literal && !constants_.registers_met().empty();
     const ast::Value& value = *result;
     double number = value.number;
     std::string_view unit = value.unit.text;
@@ -334,6 +346,8 @@ std::optional<std::uint32_t> Scope::value(const ast::Value& written, const Regis
         note_drive_value(value, reg, shown_name, exact, *per_unit, bits);
     else if (!note_rounding(value, reg, shown_name, exact, raw, *per_unit))
         return std::nullopt;
+    for (std::size_t i = roundings; i < result_.roundings.size(); ++i)
+        result_.roundings[i].makes_good = makes_good;
     return bits;
 }
 
@@ -419,7 +433,7 @@ bool Scope::note_rounding(const ast::Value& value, const Register& reg, std::str
         return false;
     }
     result_.roundings.push_back({value.span, what, exact - raw, per_unit, std::string(unit), exact < 0});
-    if (std::fabs(error) > kWorthAWarning) {
+    if (std::fabs(error) > kWorthAWarning && !report_.has("W039", value.span)) {
         Diagnostic& d = report_.add("W002", value.span,
                                     fmt::format("the register is too coarse for this value: {}", what),
                                     meant_as_thousands(text(value.span))

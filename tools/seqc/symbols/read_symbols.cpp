@@ -80,7 +80,12 @@ class Node {
         return value;
     }
 
-    /// Letters, digits and _, so that it is safe in any message.
+    double any_number() const {
+        if (!json_.is_number()) fail("this must be a number");
+        return json_.get<double>();
+    }
+
+    /// Letters, digits and _, so that it can stand in any message.
     std::string word() const {
         std::string value = text();
         if (!is_identifier(value)) fail("this is no name: letters, digits and _, no digit first");
@@ -189,6 +194,7 @@ set_points::SetPoint read_set_point(const Node& node) {
     point.unit_code = static_cast<std::uint8_t>(node["unit_code"].whole(0, 255));
     point.steps_per_unit = node["steps_per_unit"].positive();
     if (node.has("step")) point.step = node["step"].positive();
+    if (node.has("grid_from")) point.grid_from = node["grid_from"].any_number();
     const auto number = [&](const char* name) {
         return static_cast<std::int32_t>(node[name].whole(INT32_MIN, INT32_MAX));
     };

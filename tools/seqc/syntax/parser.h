@@ -219,6 +219,9 @@ class Parser {
 
     // parse_properties.cpp
     void parse_property(ast::Program& program);
+    bool refuse_claim(std::string_view word);
+    bool begins_no_claim() const;
+    bool parse_never();
     bool parse_claim();
     bool parse_single_fact();
     bool parse_before_fact();
@@ -231,6 +234,7 @@ class Parser {
     bool parse_claimed_time();
     bool parse_assumed();
     bool parse_step_test(ast::Expression& result);
+    bool parse_step_name(ast::Expression& result);
     bool at_step_test() const;
 
     static constexpr int kDeepest = 100;

@@ -107,6 +107,7 @@ class Drawing {
         if (!model_.motor.empty()) text += small("Motor: " + model_.motor);
         if (!model_.scale.empty()) text += small("Scale: " + model_.scale);
         for (const auto& [terminal, name] : model_.terminals) text += small(terminal + " = " + name);
+        for (const std::string& point : model_.set_points) text += small(point);
         return text;
     }
 

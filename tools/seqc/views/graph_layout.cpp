@@ -87,6 +87,7 @@ Lines heading_of(const GraphModel& model, double width) {
         }
         lines.add(TextKind::terminal, terminals, ", ", width);
     }
+    lines.add(TextKind::terminal, model.set_points, "; ", width);
     return lines;
 }
 

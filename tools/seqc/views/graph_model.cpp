@@ -9,6 +9,7 @@
 #include "base/crc32.h"
 #include "semantics/motors.h"
 #include "views/graph_ways.h"
+#include "views/set_points_text.h"
 #include "views/table_text.h"
 
 namespace nplc::seqc {
@@ -179,6 +180,8 @@ class Builder {
                             .outputs = source_.outputs(step),
                             .entry = source_.entry(step),
                             .ways = {}};
+        if (step != 0 && symbols_ != nullptr && (symbols_->set_points.takes >> step & 1U) != 0)
+            box.outputs.emplace_back("TAKES SET_POINTS");
         box.is_of_compiler = !box.made_as.empty() && !box.made_as.starts_with("of SEQUENCE");
         for (const GraphWays::Way& way : ways_[step]) box.ways.push_back(way.shown);
         return box;
@@ -248,6 +251,8 @@ GraphModel graph_model_of(std::span<const std::uint8_t> table, const Symbols* sy
     if (symbols != nullptr) {
         add_terminals("IN", symbols->inputs, model);
         add_terminals("OUT", symbols->outputs, model);
+        for (const set_points::SetPoint& point : symbols->set_points.values)
+            model.set_points.push_back(fmt::format("Set-point {}: {}", point.name, text_of(point)));
         if (const auto& scale = symbols->scale)
             model.scale = fmt::format("{:g} rev = {:g} {}", scale->revolutions, scale->length, scale->unit);
     }

@@ -45,7 +45,8 @@ struct GraphModel {
     std::string footer;  ///< identification of the table
     std::size_t terms = 0;
     std::uint32_t crc32 = 0;
-    std::vector<std::pair<std::string, std::string>> terminals;  ///< "IN0", "Pedal"; only named ones
+    std::vector<std::pair<std::string, std::string>> terminals;  ///< "IN0", "Pedal"; those that have names
+    std::vector<std::string> set_points;  ///< "Set-point Speed: 1000 rpm, 500 rpm to 2500 rpm"
     std::vector<Box> boxes;
     std::vector<Note> notes;
 };

@@ -165,6 +165,7 @@ class Differ {
         for (std::uint8_t step = 0; step < kStepNumbers; ++step) {
             if (match_.before_of[step]) compare(*match_.before_of[step], step);
         }
+        compare_takers(before.symbols, now.symbols);
         for (const std::uint8_t step : changed_entries_) add_entry(*match_.before_of[step], step);
     }
 
@@ -202,6 +203,23 @@ class Differ {
     bool has_same_name(std::uint8_t before, std::uint8_t now) const {
         if (before_.symbols == nullptr || now_.symbols == nullptr) return true;
         return name_before(before) == name_now(now);
+    }
+
+    /// Only where both have set-points: else it is told of these.
+    void compare_takers(const Symbols* before, const Symbols* now) {
+        if (before == nullptr || now == nullptr) return;
+        const set_points::Record& old = before->set_points;
+        const set_points::Record& young = now->set_points;
+        if (old.values.empty() || young.values.empty()) return;
+        const auto takes = [](const set_points::Record& record, std::optional<std::uint8_t> step) {
+            return step && (record.takes >> *step & 1U) != 0;
+        };
+        for (std::uint8_t step = 0; step < kStepNumbers; ++step) {
+            const auto earlier = match_.before_of[step];
+            if (takes(young, step) && !takes(old, earlier)) diff_.take_now.push_back(name_now(step));
+            if (earlier && takes(old, earlier) && !takes(young, step))
+                diff_.take_no_more.push_back(name_now(step));
+        }
     }
 
     void compare(std::uint8_t a, std::uint8_t b) {
@@ -314,7 +332,8 @@ bool TableDiff::same_behaviour() const {
     const auto counts = [](const Step& step) {
         return step.kind == Step::Kind::added || step.kind == Step::Kind::removed;
     };
-    return set_points.empty() && values.empty() && outputs.empty() && entries.empty() && reactions.empty() &&
+    return set_points.empty() && take_now.empty() && take_no_more.empty() && values.empty() &&
+           outputs.empty() && entries.empty() && reactions.empty() &&
            std::none_of(steps.begin(), steps.end(), counts);
 }
 

@@ -48,7 +48,11 @@ struct TableDiff {
     std::vector<Change> reactions;
     std::vector<SetPointChange> set_points;
 
-    /// Names and numbers of steps are ignored.
+    /// Steps that take changed set-points now, or no more.
+    std::vector<std::string> take_now;
+    std::vector<std::string> take_no_more;
+
+    /// Names and numbers of steps do not count.
     bool same_behaviour() const;
 };
 

@@ -102,11 +102,13 @@ struct TermOrigin {
 struct Rounding {
     Span span;
     std::string text;  ///< "V1 := 1500 rpm is 3146 (1500.13 rpm, +0.009 %)"
-    double lost = 0;   ///< written value minus register value, raw
+    double lost =
+        0;  ///< what was written minus what a place or a distance adds up to, in the register's steps
     double per_unit = 1;
     std::string unit = {};
     bool is_negative = false;
-    bool is_made_good = false;  ///< another register's value compensates the rounding
+    bool is_made_good = false;  ///< a value of another register counts on the rounded one
+    bool makes_good = false;    ///< it counts on another one itself
 };
 
 struct Compilation {
