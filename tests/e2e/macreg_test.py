@@ -209,7 +209,7 @@ class Files(Case):
         self.assertIn("3 problems, nothing was written", result.stderr)
         self.assertEqual([one["line"] for one in self.reg("load", three, exit_code=2)["problems"]], [3, 4, 6])
         self.refused(2, "bad.txt: no line says 'model", "load", self.put("bad.txt", ""))
-        self.refused(2, "write a file's name", "dump", "-o", "")
+        self.refused(2, "--output: its value is empty", "dump", "-o", "")
         self.refused(2, "may be cut short", "load", self.put("bad.txt", head + "A_SOLL = 397"))
         self.refused(2, "cannot be read", "load", self.path("none.txt"))
         self.refused(2, "folder", "load", self.folder.name)
@@ -421,7 +421,7 @@ class Line(Case):
                 (2, "no command", "fly"),
                 (2, "--address", "--address", "0", "get", "1"), (2, "--address", "--address", "256", "get", "1"),
                 (2, "MAC15", "--model", "MAC15", "get", "1"), (2, "has no register", "get", "FOO"),
-                (2, "required", "get"), (2, "required", "flash"), (3, "asked 10 times", "--address", "77", "get", "1")):
+                (2, "required", "get"), (2, "a command is missing: save, defaults, reload", "flash"), (3, "asked 10 times", "--address", "77", "get", "1")):
             with self.subTest(arguments):
                 self.refused(exit_code, part, *arguments, patience=20)
         self.refused(3, "no such port", "get", "1", port="/dev/ttyNONE")

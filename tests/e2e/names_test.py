@@ -40,7 +40,7 @@ class Names(program_case.ProgramCase):
 
     def commands(self, endpoint, number=1):
         """Name and command line of each program that serves there."""
-        table = self.path("table.bin")
+        table = self.path(f"table{number}.bin")
         with open(table, "wb") as file:
             file.write(bytes.fromhex("C000003E80010000 3F00000000000000"))
         commands = {
