@@ -121,6 +121,7 @@ std::string turn(MidiSession& session, base::Microseconds time, bool keys) {
         session.link().pause(
             std::min<base::Microseconds>(base::Microseconds{50'000}, end - session.link().now()));
     }
+    look_for_interruption();  // a terminal that hangs up reads like Enter
     return {};
 }
 
