@@ -118,7 +118,7 @@ MODULES = [
          "mactalk_client", "command_line", "digest", "proof", "set_points", "signature", "spelling", "update", "uploads", "whole_files"),
     ),
     Module("tools/registers_reference", "registers_reference", ("base", "registers")),
-    Module("tools/verify", "verify", ("base", "sequencer", "protocol", "registers", "spelling")),
+    Module("tools/verify", "verify", ("base", "sequencer", "protocol", "registers")),
     Module("tools/seqc", "seqc", ("arguments", "base", "sequencer", "protocol", "registers", "host", "dap", "digest", "intel_hex",
                                     "proof", "rehearsal", "rpc", "set_points", "spelling", "verify", "whole_files")),
     Module("tools/seqc/dap", "dap", ("base", "host", "mactalk_client", "nanoctl", "registers", "rehearsal", "rpc", "seqc", "spelling",

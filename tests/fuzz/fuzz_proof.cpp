@@ -1,33 +1,29 @@
 // Any text is properties, or is refused with its line; any text is a certificate that comes back from what is
 // written of it, or is refused.
-#include <algorithm>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "fuzz.h"
 #include "proof/certificate.h"
-#include "verify/property.h"
+#include "seqc/properties.h"
 
 namespace {
 
 using namespace nplc;
 
 void properties(std::string_view text) {
-    verify::Names names;
+    seqc::Symbols names;
     names.steps[1] = "Idle";
     names.steps[2] = "Go";
     names.inputs[0] = "Start";
     names.outputs[0] = "Clamp";
-    const verify::PropertyReading read = verify::read_properties(text, names);
-    const auto lines = static_cast<std::size_t>(1 + std::count(text.begin(), text.end(), '\n'));
-    if (!read.error.empty()) {
-        require(read.line >= 1 && read.line <= lines);
-        return;
-    }
+    const seqc::PropertyReading read = seqc::read_properties(text, names);
+    for (const seqc::Diagnostic& mistake : read.diagnostics) require(mistake.span.offset <= text.size());
     for (const verify::Property& property : read.properties) {
         require(!property.name.empty() && !property.text.empty());
-        require(verify::read_properties("PROPERTY " + property.name + ": " + property.text + ";", names)
-                    .properties.size() == 1);
+        const std::string again = "PROPERTY " + property.name + ": " + property.text + ";";
+        require(seqc::read_properties(again, names).properties.size() == 1);
     }
 }
 

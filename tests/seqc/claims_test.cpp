@@ -1,11 +1,11 @@
-// What check says of properties agrees with what tools/verify can read.
+// Properties are refused in a program for the same reasons as in a file.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <bit>
 
+#include "seqc/properties.h"
 #include "support.h"
-#include "views/verify_question.h"
 
 namespace nplc::seqc {
 namespace {
@@ -85,14 +85,18 @@ std::string program_with(std::string_view claim) {
            std::string(claim) + "\nEND_PROGRAM\n";
 }
 
-TEST(Claims, CheckSaysWhatTheProofCouldNotRead) {
+TEST(Claims, AreRefusedInAProgramAsInAFile) {
+    const Symbols symbols = compile(program_with("")).symbols;
     for (const std::string_view claim : kClaims) {
         const std::string source = program_with(claim);
         const Compilation program = compile(source);
-        const auto reading = properties_in(program, source, verify_names(program.symbols));
-        EXPECT_EQ(program.ok, reading.error.empty()) << claim << "\n"
-                                                     << reading.error << "\n"
-                                                     << test::shown(program, source);
+        EXPECT_EQ(program.ok, read_properties(claim, symbols).diagnostics.empty())
+            << claim << "\n"
+            << test::shown(program, source);
+        if (!program.ok) continue;
+        const PropertyReading reading = properties_of(Sources({{}, source}), program.symbols);
+        EXPECT_TRUE(reading.diagnostics.empty()) << claim;
+        EXPECT_EQ(reading.properties.size() + reading.assumptions.size(), 1U) << claim;
     }
 }
 

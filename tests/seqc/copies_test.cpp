@@ -4,10 +4,9 @@
 
 #include <string>
 
+#include "seqc/properties.h"
 #include "seqc/seqc.h"
 #include "seqc/symbol_file.h"
-#include "verify/property.h"
-#include "views/verify_question.h"
 
 namespace nplc::seqc {
 namespace {
@@ -59,9 +58,8 @@ TEST(Copies, ComeBackFromTheFileOfSymbols) {
 
 TEST(Copies, AreMeantByTheNameOfTheirStepInProperties) {
     const Compilation result = compile(kClamping);
-    const verify::Names names = verify_names(result.symbols);
-    const auto read = verify::read_properties(
-        "PROPERTY A: NEVER STEP = Down; PROPERTY B: NEVER STEP = Down_Clamp_on;", names);
+    const PropertyReading read = read_properties(
+        "PROPERTY A: NEVER STEP = Down; PROPERTY B: NEVER STEP = Down_Clamp_on;", result.symbols);
     ASSERT_EQ(read.properties.size(), 2U);
     const auto& whole = read.properties[0].condition;
     ASSERT_EQ(whole.kind, verify::Condition::Kind::any_of);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "seqc/properties.h"
 #include "verify/verify.h"
 
 namespace nplc::verify {
@@ -36,8 +37,8 @@ std::vector<Result> results_of(const Bytes& table, const std::string& properties
                                std::vector<PresetRange> ranges) {
     const auto loaded = sequencer::Table::load(table);
     EXPECT_TRUE(loaded.ok);
-    const PropertyReading reading = read_properties("ASSUME NEVER ERROR; " + properties, {});
-    EXPECT_EQ(reading.error, "");
+    const seqc::PropertyReading reading = seqc::read_properties("ASSUME NEVER ERROR; " + properties, {});
+    EXPECT_TRUE(reading.diagnostics.empty());
     Options options;
     options.assume = assume;
     options.order_time = [](std::span<const sequencer::MotorOrder>) { return Delay{4, 8, 0}; };

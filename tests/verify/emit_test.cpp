@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "seqc/properties.h"
+
 namespace nplc::verify {
 namespace {
 
@@ -17,8 +19,8 @@ Bytes example() {
 }
 
 std::vector<Property> properties(const std::string& text) {
-    const PropertyReading reading = read_properties(text, {});
-    EXPECT_EQ(reading.error, "");
+    const seqc::PropertyReading reading = seqc::read_properties(text, {});
+    EXPECT_TRUE(reading.diagnostics.empty());
     return reading.properties;
 }
 
@@ -73,7 +75,7 @@ TEST(Emit, WhatLinearTimeCannotSayIsLeftOutOfPromela) {
 /// Step 0 orders POSITION(P1), 40h (001 §5.2.1.4), whatever inputs are.
 TEST(Emit, MovesAndAssumptionsArePartOfTheModel) {
     const Bytes table = {0xC0, 0, 0, 0x01, 0x40, 0, 0, 0, 0x3F, 0, 0, 0, 0, 0, 0, 0};
-    const PropertyReading reading = read_properties(
+    const seqc::PropertyReading reading = seqc::read_properties(
         "ASSUME NEVER IN0 AND IN1; ASSUME moving ENDS WITHIN 20 ms; PROPERTY P: NEVER moving AND IN0;", {});
     const std::string promela = promela_of(table, reading.properties, reading.assumptions).text;
     EXPECT_TRUE(contains(promela, "next_step = 1; motion = 1; moved = 0 :: else fi;"));

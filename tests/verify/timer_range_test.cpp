@@ -1,6 +1,7 @@
 // A preset that stands for any time of a range: what is proved holds for each of them.
 #include <gtest/gtest.h>
 
+#include "seqc/properties.h"
 #include "verify/verify.h"
 
 namespace nplc::verify {
@@ -17,8 +18,9 @@ const std::vector<std::uint8_t> kTable = {0xC0, 0x01, 0x01, 1, 0x80, 0, 0xFF, 0x
 Verdict verdict(const std::string& form, std::uint16_t least, std::uint16_t most) {
     const auto loaded = sequencer::Table::load(kTable);
     EXPECT_TRUE(loaded.ok);
-    const PropertyReading reading = read_properties("ASSUME NEVER ERROR; PROPERTY P: " + form + ";", {});
-    EXPECT_EQ(reading.error, "");
+    const seqc::PropertyReading reading =
+        seqc::read_properties("ASSUME NEVER ERROR; PROPERTY P: " + form + ";", {});
+    EXPECT_TRUE(reading.diagnostics.empty());
     Options options;
     options.assume = Assume::driver;
     options.order_time = [](std::span<const sequencer::MotorOrder>) { return Delay{4, 8, 0}; };

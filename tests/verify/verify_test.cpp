@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "seqc/properties.h"
+
 namespace nplc::verify {
 namespace {
 
@@ -34,8 +36,9 @@ class Bench {
     }
 
     Result judge(const std::string& form, Assume assume) {
-        const PropertyReading reading = read_properties(assumed_ + "PROPERTY P: " + form + ";", {});
-        EXPECT_EQ(reading.error, "");
+        const seqc::PropertyReading reading =
+            seqc::read_properties(assumed_ + "PROPERTY P: " + form + ";", {});
+        EXPECT_TRUE(reading.diagnostics.empty());
         Options options;
         options.assumptions = reading.assumptions;
         options.assume = assume;

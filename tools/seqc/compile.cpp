@@ -220,7 +220,6 @@ Compilation compile(const Sources& sources) {
     for (const Diagnostic& problem : sources.problems()) report.add(problem);
     ast::Program program = Parser(sources, report).parse();
     const bool syntax_sound = !report.has_errors();
-    result.properties = program.properties;
     Report checks;
     expand_sequences(program, checks);
     Scope scope(program, sources.text(), checks, result);
@@ -235,7 +234,7 @@ Compilation compile(const Sources& sources) {
     add_copies_to_groups(result.symbols);
     const bool is_whole = syntax_sound && !checks.has_errors();
     Report claims;
-    check_claims(program, scope, is_whole, claims);
+    resolve_claims(program, scope, is_whole, claims);
     for (const StepPlan& step : plan.steps) result.steps.push_back({step.number, step.span, step.outputs});
     result.written = written_of(program, plan, scope.initial_values());
     collect_allowances(program, plan, result);

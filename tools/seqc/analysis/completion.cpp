@@ -59,8 +59,8 @@ Context context_at(const Program& program, std::uint32_t offset) {
         if (use.span.offset < context.replaced.offset && !use.declares && use.role == Role::register_name)
             context.last_register = program.text(use.span);
     }
-    context.in_property = std::any_of(tree.properties.begin(), tree.properties.end(),
-                                      [&](Span span) { return holds(span, offset); }) ||
+    context.in_property = std::any_of(tree.claims.begin(), tree.claims.end(),
+                                      [&](const ast::Claim& claim) { return holds(claim.span, offset); }) ||
                           program.in_property(offset);
     return context;
 }

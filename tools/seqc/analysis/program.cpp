@@ -258,8 +258,8 @@ std::optional<std::uint8_t> Program::number_of_step(std::string_view name) const
 }
 
 bool Program::in_property(std::uint32_t offset) const {
-    return std::any_of(tree_.properties.begin(), tree_.properties.end(),
-                       [&](Span span) { return holds(span, offset); });
+    return std::any_of(tree_.claims.begin(), tree_.claims.end(),
+                       [&](const ast::Claim& claim) { return holds(claim.span, offset); });
 }
 
 bool Program::in_comment(std::uint32_t offset) const {

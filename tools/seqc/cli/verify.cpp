@@ -18,6 +18,7 @@
 #include "cli/verify_emit.h"
 #include "cli/verify_proof.h"
 #include "cli/verify_set_points.h"
+#include "seqc/properties.h"
 #include "sequencer/table.h"
 #include "verify/story.h"
 #include "views/verify_question.h"
@@ -161,15 +162,6 @@ std::string place_of_step(const Input& input, std::uint8_t step) {
     const std::string_view before = input.sources->text_of(file).substr(0, offset - file.offset);
     return fmt::format("{}:{}:{}", file.name, 1 + std::count(before.begin(), before.end(), '\n'),
                        before.size() - (before.rfind('\n') + 1) + 1);
-}
-
-/// For a line number counted over all files.
-std::string place_of_line(const Sources& sources, std::size_t line) {
-    std::uint32_t offset = 0;
-    for (const std::string& text = sources.text(); line > 1 && offset < text.size(); ++offset)
-        line -= text[offset] == '\n' ? 1U : 0U;
-    const ShownPlace place = Places(sources).of(offset);
-    return fmt::format("{}:{}", place.file->name, place.at.line);
 }
 
 std::string assumption_text(const VerifyArguments& options, const Input& input,
@@ -340,20 +332,19 @@ int run(const VerifyArguments& options) {
             fmt::format("{}: {}", options.table.file, sequencer::describe(loaded.fault.error)));
     }
     const verify::Names names = names_for(input);
-    verify::PropertyReading reading;
-    if (input.program) reading = properties_in(*input.program, input.sources->text(), names);
-    if (!reading.error.empty())
-        return file_problem(
-            fmt::format("{}: {}", place_of_line(*input.sources, reading.line), reading.error));
+    PropertyReading reading;
+    if (input.program) reading = properties_of(*input.sources, *input.symbols);
     std::vector<verify::Property> properties = std::move(reading.properties);
     std::vector<verify::Assumption> assumptions = std::move(reading.assumptions);
     if (!options.properties.empty()) {
         const whole_files::FileText text = whole_files::read_text(options.properties);
         if (!text.error.empty()) return file_problem(text.error);
-        reading = verify::read_properties(text.text, names);
-        if (!reading.error.empty())
-            return file_problem(
-                fmt::format("{}:{}:{}: {}", options.properties, reading.line, reading.column, reading.error));
+        reading = read_properties(text.text, input.symbols.value_or(Symbols{}));
+        if (!reading.diagnostics.empty()) {
+            for (const Diagnostic& mistake : reading.diagnostics)
+                std::fputs(render(mistake, text.text, options.properties, colour_of(stderr)).c_str(), stderr);
+            return kUsageOrFile;
+        }
         properties.insert(properties.end(), reading.properties.begin(), reading.properties.end());
         assumptions.insert(assumptions.end(), reading.assumptions.begin(), reading.assumptions.end());
     }

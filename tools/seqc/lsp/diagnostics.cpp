@@ -58,7 +58,6 @@ Json scenario_diagnostics(Workspace& workspace, const Document& document) {
     return list;
 }
 
-/// Syntax errors, and then the first error of the property parser.
 Json property_diagnostics(Workspace& workspace, const Document& document) {
     Json list = Json::array();
     const View view = workspace.view_of(document);
@@ -67,12 +66,6 @@ Json property_diagnostics(Workspace& workspace, const Document& document) {
         if (diagnostic.severity == Severity::error && view.in_property_file(diagnostic.span.offset))
             list.push_back(diagnostic_json(workspace, view, diagnostic));
     }
-    if (!list.empty()) return list;
-    const verify::PropertyReading reading =
-        verify::read_properties(document.text(), verify_names(compiled.symbols));
-    if (reading.error.empty()) return list;
-    list.push_back(
-        line_diagnostic(workspace, document.lines(), static_cast<int>(reading.line), 0, reading.error));
     return list;
 }
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "seqc/properties.h"
 #include "sequencer/table.h"
-#include "syntax/lexer.h"
 #include "verify/course_scenario.h"
 #include "verify/story.h"
 #include "views/verify_question.h"
@@ -27,14 +27,9 @@ Span span_of_step(const Compilation& program, std::uint8_t step) {
     return program.steps.empty() ? Span{} : program.steps.front().span;
 }
 
-/// Position of the name after PROPERTY.
-Span span_of_property(const Compilation& program, std::string_view source, const std::string& name) {
-    for (const Span& span : program.properties) {
-        const std::string_view text = source.substr(span.offset, span.length);
-        Report noise;
-        const std::vector<Token> words = tokens_of(text, noise);
-        if (words.size() > 1 && words[1].text == name)
-            return {span.offset + words[1].span.offset, words[1].span.length};
+Span span_of_property(const PropertyReading& reading, const std::string& name) {
+    for (std::size_t i = 0; i < reading.properties.size(); ++i) {
+        if (reading.properties[i].name == name) return reading.names[i];
     }
     return {};
 }
@@ -56,14 +51,14 @@ std::vector<Note> related_of(const verify::Course& course, const Compilation& pr
     return notes;
 }
 
-Finding finding_of(const verify::Result& result, const Compilation& program, std::string_view source,
+Finding finding_of(const verify::Result& result, const Compilation& program, const PropertyReading& reading,
                    const verify::Names& names) {
     const bool is_property = result.code.empty();
     Finding finding;
     finding.code = result.code;
     finding.name = result.name;
-    finding.span = is_property ? span_of_property(program, source, result.name)
-                               : span_of_step(program, result.step.value_or(0));
+    finding.span =
+        is_property ? span_of_property(reading, result.name) : span_of_step(program, result.step.value_or(0));
     const bool broken = result.verdict == Verdict::broken;
     using Level = Finding::Level;
     finding.level = result.verdict == Verdict::proved    ? Level::hint
@@ -91,18 +86,7 @@ VerifyOutcome verify_program(const VerifyJob& job) {
     const auto loaded = sequencer::Table::load(program.table);
     if (!loaded.ok) return outcome;
     const verify::Names names = verify_names(program.symbols);
-    verify::PropertyReading reading = properties_in(program, text, names);
-    if (!reading.error.empty()) {
-        const auto property =
-            std::find_if(program.properties.begin(), program.properties.end(), [&](Span span) {
-                const std::string_view before = std::string_view(text).substr(0, span.offset + span.length);
-                return static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1 >=
-                       reading.line;
-            });
-        const Span span = property == program.properties.end() ? Span{} : *property;
-        outcome.findings.push_back({span, "", "property", reading.error, Finding::Level::error, {}, {}});
-        return outcome;
-    }
+    const PropertyReading reading = properties_of(job.sources, program.symbols);
     verify::Options options;
     options.order_time = order_times(program.symbols.drive != nullptr);
     options.most_states = kMostStates;
@@ -114,7 +98,7 @@ VerifyOutcome verify_program(const VerifyJob& job) {
     outcome.complete = report.complete;
     for (const verify::Result& result : report.results) {
         const bool silent_check = !result.code.empty() && result.verdict == Verdict::proved;
-        if (!silent_check) outcome.findings.push_back(finding_of(result, program, text, names));
+        if (!silent_check) outcome.findings.push_back(finding_of(result, program, reading, names));
     }
     return outcome;
 }

@@ -1,13 +1,24 @@
 #pragma once
 
+#include <vector>
+
 #include "diagnostics/report.h"
 #include "semantics/scope.h"
 #include "syntax/ast.h"
+#include "verify/property.h"
 
 namespace nplc::seqc {
 
-/// Resolves the names in properties and assumptions as `tools/verify` will. `is_whole`: all
-/// compiler-generated steps have their names.
-void check_claims(const ast::Program& program, Scope& scope, bool is_whole, Report& report);
+/// Properties and assumptions in numbers of steps, signals and milliseconds.
+struct Claims {
+    std::vector<verify::Property> properties;
+    std::vector<verify::Assumption> assumptions;
+};
+
+/// Resolves the names in a program's properties and assumptions. `is_whole`: all compiler-generated steps
+/// have their names.
+Claims resolve_claims(const ast::Program& program, Scope& scope, bool is_whole, Report& report);
+/// The same for a table whose names are known.
+Claims resolve_claims(const ast::Program& claims, const Symbols& symbols, Report& report);
 
 }  // namespace nplc::seqc

@@ -277,14 +277,37 @@ struct Sequence {
     bool is_broken = false;  ///< its parameters could not be parsed
 };
 
-/// PROPERTY or ASSUME: the names in it.
+/// PROPERTY Name: form; or ASSUME form;
 struct Claim {
-    enum class Kind : std::uint8_t { property, never, stable, ends };  ///< the last three are for ASSUME
-    Kind kind = Kind::property;
-    Name name;
+    /// `conditions` stand in the order of the words here, `time` is T.
+    enum class Form : std::uint8_t {
+        never,             ///< NEVER c
+        never_while,       ///< NEVER c WHILE d FOR T
+        always,            ///< ALWAYS c
+        always_possible,   ///< ALWAYS POSSIBLE c
+        after_possible,    ///< AFTER c ALWAYS POSSIBLE d
+        whenever,          ///< WHENEVER c THEN d [WITHIN T]
+        whenever_for,      ///< WHENEVER c FOR T THEN d
+        followed_by,       ///< WHENEVER c FOLLOWED BY d THEN e
+        stays_on,          ///< BETWEEN c AND d e STAYS ON
+        stays_off,         ///< BETWEEN c AND d e STAYS OFF
+        scan_ends,         ///< EVERY_SCAN FROM c ENDS IN d
+        only_from,         ///< c ONLY FROM d
+        only_after,        ///< c ONLY AFTER d
+        only_after_both,   ///< c ONLY AFTER d FOLLOWED BY e
+        changes_only_in,   ///< c CHANGES ONLY IN d
+        reachable,         ///< c IS REACHABLE
+        assume_never,      ///< ASSUME NEVER c
+        assume_stable,     ///< ASSUME c STABLE FOR T
+        assume_move_ends,  ///< ASSUME c ENDS WITHIN T
+    };
+    Form form = Form::never;
+    Name name;  ///< empty text for ASSUME
+    Span span;
     std::vector<Expression> conditions;
-    std::vector<Value> times;
-    bool time_may_be_zero = false;  ///< WHENEVER .. WITHIN
+    std::optional<Value> time;
+    std::vector<std::string_view> words;  ///< its tokens behind `PROPERTY Name:`
+    bool is_assumed() const { return form >= Form::assume_never; }
 };
 
 struct Scale {
@@ -318,8 +341,7 @@ struct Program {
     std::vector<std::string_view> faulty_names;  ///< declared, but with an error
     std::vector<RawTerm> terms;
     std::vector<Span> includes;     ///< texts after INCLUDE, with their quotes
-    std::vector<Span> properties;   ///< PROPERTY Name: ... ; each
-    std::vector<Claim> claims;      ///< the same, as far as they could be parsed
+    std::vector<Claim> claims;      ///< of PROPERTY and ASSUME, in source order
     std::deque<std::string> texts;  ///< of units written with blanks or comments in them
     std::vector<Use> uses;          ///< every parsed name, in source order
     std::vector<Block> blocks;      ///< in the order of their ends

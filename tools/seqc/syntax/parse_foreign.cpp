@@ -202,7 +202,7 @@ bool Parser::refuse_comparison(const Token& first, ast::Expression& result, bool
 bool Parser::refuse_call_or_part() {
     if (token().kind != TokenKind::identifier || at("NOT")) return false;
     const Token first = token();
-    const bool calls = !before_fact_ && is_symbol_at(1, "(") && is_word_at(0);
+    const bool calls = !before_condition_ && is_symbol_at(1, "(") && is_word_at(0);
     const bool has_part = is_symbol_at(1, ".") && !at("TIMER") && !at("COUNTER");
     if (!calls && !has_part) return false;
     at_ += 2;

@@ -8,58 +8,62 @@
 
 namespace nplc::seqc {
 
+ast::Program Parser::parse_claims() {
+    ast::Program program;
+    while (token().kind != TokenKind::end && !report_.full_of_errors()) {
+        if (at("PROPERTY")) {
+            parse_property(program);
+        } else if (at("ASSUME")) {
+            parse_assumption(program);
+        } else {
+            if (!mend({"PROPERTY", "ASSUME"}, "PROPERTY or ASSUME") && !report_.has_errors())
+                error_here("PROPERTY or ASSUME", "such a file has PROPERTY Name: claim; and ASSUME alone");
+            if (!at("PROPERTY") && !at("ASSUME")) ++at_;
+        }
+    }
+    hand_over(program);
+    return program;
+}
+
 void Parser::parse_property(ast::Program& program) {
     const Token first = token();
     ++at_;
-    ast::Name name;
-    if (!expect_name(name, "the property's name", ast::Role::property, true)) {
+    claim_ = {};
+    if (!expect_name(claim_.name, "the property's name", ast::Role::property, true)) {
         if (is_symbol_at(1, ":")) ++at_;  // a keyword as name: the claim follows all the same
         return recover_claim();
     }
     if (!expect_symbol(":", "behind the property's name")) return recover_claim();
-    claim_ = {};
-    claim_.name = name;
+    claim_begin_ = at_;
     in_property_ = true;
-    const bool sound = parse_claim();
+    const bool is_sound = parse_form();
     in_property_ = false;
-    if (!sound) return recover_claim();
-    add_claim(first, program);
+    finish_claim(first, is_sound, program);
 }
 
-bool Parser::parse_fact() {
-    ast::Expression condition;
-    const bool sound = parse_expression(condition);
-    claim_.conditions.push_back(std::move(condition));
-    return sound;
+void Parser::parse_assumption(ast::Program& program) {
+    const Token first = token();
+    claim_ = {};
+    claim_begin_ = at_++;
+    in_property_ = true;
+    const bool is_sound = parse_assumed();
+    in_property_ = false;
+    finish_claim(first, is_sound, program);
 }
 
-bool Parser::parse_single_fact() {
-    ast::Expression condition;
-    const bool sound = parse_primary(condition);
-    claim_.conditions.push_back(std::move(condition));
-    return sound;
+void Parser::finish_claim(const Token& first, bool is_sound, ast::Program& program) {
+    if (!is_sound) return recover_claim();
+    claim_.span = span_since(first);
+    if (at_symbol(";")) claim_.span.length = token().span.offset + token().span.length - claim_.span.offset;
+    for (std::size_t i = claim_begin_; i < at_; ++i) claim_.words.push_back(tokens_[i].text);
+    program.claims.push_back(std::move(claim_));
+    end_statement();
 }
 
-/// BETWEEN's second test: parentheses after it belong to the next condition.
-bool Parser::parse_before_fact() {
-    before_fact_ = true;
-    const bool sound = parse_single_fact();
-    before_fact_ = false;
-    return sound;
-}
-
-bool Parser::parse_claimed_time() {
-    ast::Value time;
-    const bool is_name = token().kind == TokenKind::identifier;
-    if (is_name) {
-        time.kind = ast::Value::Kind::name;
-        time.span = token().span;
-        if (!expect_name(time.name, "a time or the name of one", ast::Role::constant)) return false;
-    } else if (!parse_literal(time)) {
-        return false;
-    }
-    claim_.times.push_back(std::move(time));
-    return true;
+/// Skips to its end; STEP in a test does not begin a step.
+void Parser::recover_claim() {
+    while (!at_symbol(";") && (!at_boundary() || at_step_test()) && token().kind != TokenKind::end) ++at_;
+    take_symbol(";");
 }
 
 /// What can begin a claim, in the place of a word that cannot.
@@ -85,107 +89,113 @@ bool Parser::begins_no_claim() const {
                         [&](std::string_view word) { return same_name(token(1).text, word); });
 }
 
+bool Parser::parse_form() {
+    if (take("NEVER")) return parse_never();
+    if (take("ALWAYS"))
+        return as(take("POSSIBLE") ? Form::always_possible : Form::always) && parse_condition();
+    if (take("WHENEVER")) return parse_whenever();
+    if (take("BETWEEN")) return parse_between();
+    if (take("AFTER")) {
+        return as(Form::after_possible) && parse_condition() &&
+               expect("ALWAYS", "behind AFTER's condition") && expect("POSSIBLE", "behind ALWAYS") &&
+               parse_condition();
+    }
+    if (take("EVERY_SCAN")) {
+        return as(Form::scan_ends) && expect("FROM", "behind EVERY_SCAN") && parse_condition() &&
+               expect("ENDS", "behind FROM's condition") && expect("IN", "behind ENDS") && parse_condition();
+    }
+    if (begins_no_claim()) return refuse_claim(token().text);
+    return parse_condition_first();
+}
+
 bool Parser::parse_never() {
-    if (!parse_fact()) return false;
+    if (!parse_condition()) return false;
     if (at("WITHIN")) {
         report_.add("E010", token().span, "NEVER takes no WITHIN",
                     "write NEVER c WHILE d FOR 5 s, or WHENEVER c THEN d WITHIN 5 s");
         return false;
     }
-    return !take("WHILE") ||
-           (parse_fact() && expect("FOR", "behind WHILE's condition") && parse_claimed_time());
-}
-
-bool Parser::parse_claim() {
-    if (take("NEVER")) return parse_never();
-    if (take("ALWAYS")) {
-        take("POSSIBLE");
-        return parse_fact();
-    }
-    if (take("WHENEVER")) return parse_whenever();
-    if (take("BETWEEN")) {
-        return parse_single_fact() && expect("AND", "behind BETWEEN's first condition") &&
-               parse_before_fact() && parse_fact() && expect("STAYS", "behind what is to stay") &&
-               (take("OFF") || expect("ON", "or OFF behind STAYS"));
-    }
-    if (take("AFTER")) {
-        return parse_fact() && expect("ALWAYS", "behind AFTER's condition") &&
-               expect("POSSIBLE", "behind ALWAYS") && parse_fact();
-    }
-    if (take("EVERY_SCAN")) {
-        return expect("FROM", "behind EVERY_SCAN") && parse_fact() &&
-               expect("ENDS", "behind FROM's condition") && expect("IN", "behind ENDS") && parse_fact();
-    }
-    if (begins_no_claim()) return refuse_claim(token().text);
-    if (!parse_fact()) return false;
-    if (take("ONLY")) return parse_only();
-    if (take("CHANGES")) {
-        return expect("ONLY", "behind CHANGES") && expect("IN", "behind ONLY") && parse_fact();
-    }
-    return expect("IS", "behind a condition that begins a property") && expect("REACHABLE", "behind IS");
+    if (!take("WHILE")) return as(Form::never);
+    return as(Form::never_while) && parse_condition() && expect("FOR", "behind WHILE's condition") &&
+           parse_claimed_time();
 }
 
 bool Parser::parse_whenever() {
-    if (!parse_fact()) return false;
+    if (!parse_condition()) return false;
     if (take("FOLLOWED")) {
-        return expect("BY", "behind FOLLOWED") && parse_fact() && expect("THEN", "behind BY's condition") &&
-               parse_fact();
+        return as(Form::followed_by) && expect("BY", "behind FOLLOWED") && parse_condition() &&
+               expect("THEN", "behind BY's condition") && parse_condition();
     }
     const bool lasts = take("FOR");
-    if ((lasts && !parse_claimed_time()) || !expect("THEN", "behind WHENEVER's condition") || !parse_fact())
+    as(lasts ? Form::whenever_for : Form::whenever);
+    if ((lasts && !parse_claimed_time()) || !expect("THEN", "behind WHENEVER's condition") ||
+        !parse_condition())
         return false;
-    claim_.time_may_be_zero = !lasts;
     return lasts || !take("WITHIN") || parse_claimed_time();
 }
 
+/// The second condition is a single one: parentheses behind it belong to the third.
+bool Parser::parse_between() {
+    if (!parse_single_condition() || !expect("AND", "behind BETWEEN's first condition")) return false;
+    before_condition_ = true;
+    const bool is_sound = parse_single_condition();
+    before_condition_ = false;
+    if (!is_sound || !parse_condition() || !expect("STAYS", "behind what is to stay")) return false;
+    as(take("OFF") ? Form::stays_off : Form::stays_on);
+    return claim_.form == Form::stays_off || expect("ON", "or OFF behind STAYS");
+}
+
+bool Parser::parse_condition_first() {
+    if (!parse_condition()) return false;
+    if (take("ONLY")) return parse_only();
+    if (take("CHANGES")) {
+        return as(Form::changes_only_in) && expect("ONLY", "behind CHANGES") && expect("IN", "behind ONLY") &&
+               parse_condition();
+    }
+    return as(Form::reachable) && expect("IS", "behind a condition that begins a property") &&
+           expect("REACHABLE", "behind IS");
+}
+
 bool Parser::parse_only() {
-    if (take("FROM")) return parse_fact();
-    if (!expect("AFTER", "or FROM behind ONLY") || !parse_fact()) return false;
-    return !take("FOLLOWED") || (expect("BY", "behind FOLLOWED") && parse_fact());
+    if (take("FROM")) return as(Form::only_from) && parse_condition();
+    if (!expect("AFTER", "or FROM behind ONLY") || !parse_condition()) return false;
+    if (!take("FOLLOWED")) return as(Form::only_after);
+    return as(Form::only_after_both) && expect("BY", "behind FOLLOWED") && parse_condition();
 }
 
 bool Parser::parse_assumed() {
-    if (take("NEVER")) {
-        claim_.kind = ast::Claim::Kind::never;
-        return parse_fact();
-    }
-    if (parse_single_fact() && take("ENDS")) {
-        claim_.kind = ast::Claim::Kind::ends;
-        return expect("WITHIN", "behind ENDS") && parse_claimed_time();
-    }
-    claim_.kind = ast::Claim::Kind::stable;
-    return expect("STABLE", "behind ASSUME's input, or ENDS behind moving") &&
+    if (take("NEVER")) return as(Form::assume_never) && parse_condition();
+    if (!parse_single_condition()) return false;
+    if (take("ENDS"))
+        return as(Form::assume_move_ends) && expect("WITHIN", "behind ENDS") && parse_claimed_time();
+    return as(Form::assume_stable) && expect("STABLE", "behind ASSUME's input, or ENDS behind moving") &&
            expect("FOR", "behind STABLE") && parse_claimed_time();
 }
 
-/// An assumption for the proof of properties.
-void Parser::parse_assumption(ast::Program& program) {
-    const Token first = token();
-    ++at_;
-    claim_ = {};
-    in_property_ = true;
-    const bool sound = parse_assumed();
-    in_property_ = false;
-    if (!sound) return recover_claim();
-    add_claim(first, program);
+bool Parser::parse_condition() {
+    ast::Expression condition;
+    const bool is_sound = parse_expression(condition);
+    claim_.conditions.push_back(std::move(condition));
+    return is_sound;
+}
+
+bool Parser::parse_single_condition() {
+    ast::Expression condition;
+    const bool is_sound = parse_primary(condition);
+    claim_.conditions.push_back(std::move(condition));
+    return is_sound;
+}
+
+bool Parser::parse_claimed_time() {
+    ast::Value& time = claim_.time.emplace();
+    if (token().kind != TokenKind::identifier) return parse_literal(time);
+    time.kind = ast::Value::Kind::name;
+    time.span = token().span;
+    return expect_name(time.name, "a time or the name of one", ast::Role::constant);
 }
 
 bool Parser::at_step_test() const {
     return at("STEP") && (is_symbol_at(1, "=") || same_name(token(1).text, "IN"));
-}
-
-/// Skips to its end; STEP in a test does not begin a step.
-void Parser::recover_claim() {
-    while (!at_symbol(";") && (!at_boundary() || at_step_test()) && token().kind != TokenKind::end) ++at_;
-    take_symbol(";");
-}
-
-void Parser::add_claim(const Token& first, ast::Program& program) {
-    Span span = span_since(first);
-    if (at_symbol(";")) span.length = token().span.offset + token().span.length - span.offset;
-    program.properties.push_back(span);
-    program.claims.push_back(std::move(claim_));
-    end_statement();
 }
 
 /// STEP = Name, or its number; STEP IN Group.
@@ -208,13 +218,12 @@ bool Parser::parse_step_test(ast::Expression& result) {
 }
 
 bool Parser::parse_step_name(ast::Expression& result) {
-    const Token target = token();
-    result.name = name_of(target);
+    result.name = name_of(token());
     if (take("POWER_UP")) return true;
-    if (target.kind == TokenKind::identifier)
-        return expect_name(result.name, "the name of a step", ast::Role::step);
-    ast::Value number;
-    return parse_literal(number);
+    if (token().kind != TokenKind::number)
+        return expect_name(result.name, "the name of a step, or its number", ast::Role::step);
+    ++at_;
+    return true;
 }
 
 }  // namespace nplc::seqc

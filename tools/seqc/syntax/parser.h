@@ -43,6 +43,8 @@ class Parser {
     ast::Program parse();
     /// Parses the contents of an include file.
     ast::Program parse_part();
+    /// Parses a file of properties: PROPERTY and ASSUME alone.
+    ast::Program parse_claims();
     /// Whether this is an include file: it begins like one, and has no PROGRAM or END_PROGRAM.
     bool at_part() const { return at_item() && !is_program(); }
 
@@ -218,21 +220,27 @@ class Parser {
     void parse_takes(ast::Step& step);
 
     // parse_properties.cpp
+    using Form = ast::Claim::Form;
     void parse_property(ast::Program& program);
+    void parse_assumption(ast::Program& program);
+    void finish_claim(const Token& first, bool is_sound, ast::Program& program);
+    void recover_claim();
     bool refuse_claim(std::string_view word);
     bool begins_no_claim() const;
+    bool parse_form();
     bool parse_never();
-    bool parse_claim();
-    bool parse_single_fact();
-    bool parse_before_fact();
     bool parse_whenever();
+    bool parse_between();
+    bool parse_condition_first();
     bool parse_only();
-    void recover_claim();
-    void parse_assumption(ast::Program& program);
-    void add_claim(const Token& first, ast::Program& program);
-    bool parse_fact();
-    bool parse_claimed_time();
     bool parse_assumed();
+    bool as(Form form) {
+        claim_.form = form;
+        return true;
+    }
+    bool parse_condition();
+    bool parse_single_condition();
+    bool parse_claimed_time();
     bool parse_step_test(ast::Expression& result);
     bool parse_step_name(ast::Expression& result);
     bool at_step_test() const;
@@ -257,8 +265,9 @@ class Parser {
     bool comment_is_open_;
     bool end_reported_ = false;
     bool in_property_ = false;
-    ast::Claim claim_;          ///< the property being parsed
-    bool before_fact_ = false;  ///< another condition follows: its ( is no call
+    ast::Claim claim_;               ///< the property being parsed
+    std::size_t claim_begin_ = 0;    ///< its first token behind PROPERTY Name:
+    bool before_condition_ = false;  ///< another condition follows: its ( is no call
     bool in_term_ = false;
     bool in_value_ = false;
 };

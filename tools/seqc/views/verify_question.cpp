@@ -34,8 +34,6 @@ verify::Delay order_time(std::span<const sequencer::MotorOrder> orders, bool tra
 
 verify::Names verify_names(const Symbols& symbols) {
     verify::Names names{symbols.steps, symbols.inputs, symbols.outputs, symbols.copy_of};
-    for (const StepGroup& group : symbols.groups) names.groups.push_back({group.name, group.steps});
-    for (const NamedTime& time : symbols.times) names.times.push_back({time.name, time.milliseconds});
     for (std::size_t step = 0; step < symbols.made_for.size(); ++step) {
         if (symbols.made_for[step].starts_with("helper step")) names.helpers |= std::uint64_t{1} << step;
     }
@@ -53,23 +51,6 @@ verify::OrderTime order_times(bool translated) {
     return [translated](std::span<const sequencer::MotorOrder> orders) {
         return order_time(orders, translated);
     };
-}
-
-verify::PropertyReading properties_in(const Compilation& program, std::string_view source,
-                                      const verify::Names& names) {
-    std::string text(source);
-    std::size_t at = 0;
-    const auto blank = [&](std::size_t end) {
-        for (; at < end; ++at) {
-            if (text[at] != '\n') text[at] = ' ';
-        }
-    };
-    for (const Span& span : program.properties) {
-        blank(span.offset);
-        at = span.offset + span.length;
-    }
-    blank(text.size());
-    return verify::read_properties(text, names);
 }
 
 std::vector<verify::Allowance> allowances_in(const Compilation& program) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string_view>
-
 #include "seqc/seqc.h"
 #include "verify/verify.h"
 
@@ -15,10 +13,6 @@ verify::Names verify_names();
 /// The times of `seqc report`. `translated`: for a drive whose orders the gateway translates; their time is
 /// known only as the gateway's longest wait.
 verify::OrderTime order_times(bool translated);
-
-/// The properties of a program, with their lines.
-verify::PropertyReading properties_in(const Compilation& program, std::string_view source,
-                                      const verify::Names& names);
 
 std::vector<verify::Allowance> allowances_in(const Compilation& program);
 

@@ -118,7 +118,6 @@ struct Compilation {
     std::vector<TermOrigin> origins;
     std::vector<StepOrigin> steps;  ///< by number, POWER_UP first
     std::vector<Rounding> roundings;
-    std::vector<Span> properties;  ///< PROPERTY Name: ... ; in source order, names in it not resolved
     std::vector<Allowance> allowances;
     Written written;
     bool more_diagnostics = false;  ///< there were more than 100

@@ -6,24 +6,12 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "sequencer/state.h"
 
 /// Properties in a machine builder's terms, and whether a scan fulfils a condition.
 namespace nplc::verify {
-
-/// Several steps under one name.
-struct StepGroup {
-    std::string name;
-    std::uint64_t steps = 0;  ///< a bit for each
-};
-
-struct NamedTime {
-    std::string name;
-    std::uint32_t milliseconds = 0;
-};
 
 /// Names for the numbers of a table. Steps without a name have an empty one.
 struct Names {
@@ -32,8 +20,6 @@ struct Names {
     std::array<std::string, 4> outputs;
     /// The step of which it is a copy: `step = Name` includes the copies.
     std::array<std::optional<std::uint8_t>, 63> copy_of = {};
-    std::vector<StepGroup> groups = {};
-    std::vector<NamedTime> times = {};
     /// A bit for each step that the compiler made for what a branch does a scan later, asking nothing again.
     std::uint64_t helpers = 0;
     /// With names and units; none: bytes and numbers.
@@ -118,16 +104,5 @@ struct Assumption {
     std::uint32_t stable_ms = 0;  ///< minimum duration; 0 if it is no such assumption
     std::uint32_t move_ms = 0;    ///< a move to a place ends within; 0 if it is about something else
 };
-
-struct PropertyReading {
-    std::vector<Property> properties;
-    std::vector<Assumption> assumptions;
-    std::string error;       ///< the error and its correction; empty if there is none
-    std::size_t line = 0;    ///< of the error, from 1
-    std::size_t column = 0;  ///< in characters
-};
-
-/// A file of properties: `PROPERTY Name: FORM;` one after the other, comments as in programs.
-PropertyReading read_properties(std::string_view text, const Names& names);
 
 }  // namespace nplc::verify

@@ -1,12 +1,18 @@
-#include "verify/property.h"
+#include "seqc/properties.h"
 
 #include <gtest/gtest.h>
 
-namespace nplc::verify {
+#include <string>
+
+namespace nplc::seqc {
 namespace {
 
-Names names() {
-    Names result;
+using verify::Form;
+using verify::Property;
+using verify::View;
+
+Symbols names() {
+    Symbols result;
     result.steps[0] = "POWER_UP";
     result.steps[1] = "Idle";
     result.steps[2] = "Push";
@@ -17,9 +23,21 @@ Names names() {
     return result;
 }
 
+/// Line, column, message and help of the first mistake; empty if there is none.
+std::string mistake_in(std::string_view text) {
+    const PropertyReading reading = read_properties(text, names());
+    EXPECT_EQ(reading.diagnostics.empty(), !reading.properties.empty() || !reading.assumptions.empty())
+        << text;
+    if (reading.diagnostics.empty()) return "";
+    const Diagnostic& first = reading.diagnostics.front();
+    const std::string shown = render(first, text, "F");
+    const std::string place = shown.substr(2, shown.find(": ") - 2);
+    return place + ": " + first.message + "; " + first.help;
+}
+
 Property only(std::string_view text) {
     const PropertyReading reading = read_properties(text, names());
-    EXPECT_EQ(reading.error, "");
+    EXPECT_EQ(mistake_in(text), "");
     EXPECT_EQ(reading.properties.size(), 1U);
     return reading.properties.empty() ? Property{} : reading.properties[0];
 }
@@ -42,8 +60,8 @@ TEST(Property, AGroupIsAnyOfItsSteps) {
     EXPECT_FALSE(condition("STEP IN Both", 0, {.step = 0}));
     EXPECT_FALSE(condition("STEP IN Nobody", 0, {.step = 0}));
     EXPECT_TRUE(condition("STEP IN Push", 0, {.step = 2}));
-    EXPECT_NE(read_properties("PROPERTY P: NEVER STEP IN Moving;", names()).error.find("no group 'Moving'"),
-              std::string::npos);
+    EXPECT_EQ(mistake_in("PROPERTY P: NEVER STEP IN Moving;"),
+              "1:27: there is no group 'Moving'; write GROUP Moving: steps; or STEP = Name");
 }
 
 TEST(Property, NotBindsTightestAndOrLoosest) {
@@ -97,7 +115,8 @@ TEST(Property, ATimeCanHaveItsName) {
     EXPECT_EQ(property.within_ms, 250U);
     EXPECT_EQ(property.text, "WHENEVER IN0 THEN IN1 WITHIN 250 ms");
     EXPECT_EQ(only("PROPERTY P: NEVER IN0 WHILE IN1 FOR Pause;").within_ms, 250U);
-    EXPECT_NE(read_properties("PROPERTY P: NEVER IN0 WHILE IN1 FOR Start;", names()).error, "");
+    EXPECT_EQ(mistake_in("PROPERTY P: NEVER IN0 WHILE IN1 FOR Puase;"),
+              "1:37: there is no time 'Puase'; did you mean 'Pause'?");
 }
 
 TEST(Property, AssumptionsAreOfInputs) {
@@ -105,7 +124,6 @@ TEST(Property, AssumptionsAreOfInputs) {
         "ASSUME Start STABLE FOR 50 ms; ASSUME NEVER Start AND Door; ASSUME NEVER ERROR;"
         "ASSUME moving ENDS WITHIN 2 s;",
         names());
-    EXPECT_EQ(reading.error, "");
     ASSERT_EQ(reading.assumptions.size(), 4U);
     EXPECT_EQ(reading.assumptions[3].move_ms, 2000U);
     EXPECT_EQ(reading.assumptions[0].stable_ms, 50U);
@@ -115,30 +133,38 @@ TEST(Property, AssumptionsAreOfInputs) {
                               "ASSUME Clamp STABLE FOR 5 ms;", "ASSUME NEVER moving;", "ASSUME Start STABLE;",
                               "ASSUME Start;", "ASSUME moving ENDS;", "ASSUME moving ENDS WITHIN 0 ms;",
                               "ASSUME Start ENDS WITHIN 2 s;", "ASSUME moving STABLE FOR 2 s;"})
-        EXPECT_NE(read_properties(wrong, names()).error, "") << wrong;
+        EXPECT_NE(mistake_in(wrong), "") << wrong;
 }
 
-TEST(Property, MistakesNameTheirLine) {
-    const auto error = [](std::string_view text) {
-        const PropertyReading reading = read_properties(text, names());
-        EXPECT_TRUE(reading.properties.empty()) << text;
-        return std::to_string(reading.line) + ":" + std::to_string(reading.column) + ": " + reading.error;
-    };
-    EXPECT_EQ(error("(* a\n*)\nPROPERTY P: NEVER Stert;"),
-              "3:19: an input, an output, INPOS, ERROR, TIMER.Q, COUNTER.Q, moving or 'step = Name' is "
-              "expected, not 'Stert'; did you mean 'Start'?");
-    EXPECT_EQ(error("(* \u00fc\n *) PROPERTY P: NEVER step = Idel;").substr(0, 53),
+TEST(Property, MistakesNameTheirPlace) {
+    EXPECT_EQ(mistake_in("(* a\n*)\nPROPERTY P: NEVER Stert;"),
+              "3:19: there is no input or output 'Stert'; did you mean 'Start'?");
+    EXPECT_EQ(mistake_in("(* \u00fc\n *) PROPERTY P: NEVER step = Idel;"),
               "2:30: there is no step 'Idel'; did you mean 'Idle'?");
-    EXPECT_EQ(error("PROPERTY P: NEVER step = Nowhere;"),
-              "1:26: there is no step 'Nowhere'; a step is a name or 0 to 62");
-    EXPECT_EQ(error("PROPERTY P: NEVER step = 63;"),
-              "1:26: there is no step '63'; a step is a name or 0 to 62");
-    EXPECT_EQ(error("PROPERTY P: NEVER IN0"),
-              "1:22: ';' is expected at the end of the property, not the end of the text");
-    EXPECT_EQ(error("PROPERTY P: NEVER IN0; PROPERTY p: NEVER IN1;"), "1:33: there are two properties 'p'");
-    EXPECT_NE(error("PROPERTY P: WHENEVER IN0 THEN IN1 WITHIN 1.5 ms;"), "");
-    EXPECT_NE(error("PROPERTY P: NEVER " + std::string(200, '(') + "IN0"), "");
+    EXPECT_EQ(mistake_in("PROPERTY P: NEVER step = Nowhere;"),
+              "1:26: there is no step 'Nowhere'; name one of the steps there are");
+    EXPECT_EQ(mistake_in("PROPERTY P: NEVER step = 63;"),
+              "1:26: there is no step 63; steps are named, or have the numbers 0 to 62");
+    EXPECT_EQ(mistake_in("PROPERTY P: NEVER step = Both;"),
+              "1:26: there is no step 'Both'; it is the name of several steps: write STEP IN Both");
+    EXPECT_NE(mistake_in("PROPERTY P: NEVER IN0"), "");
+    EXPECT_NE(mistake_in("PROPERTY P: NEVER step = 5 ms;"), "");
+    EXPECT_NE(mistake_in("PROPERTY P: NEVER IN0; STEP Idle: END_STEP"), "");
+    EXPECT_EQ(mistake_in("PROPERTY P: NEVER IN0; PROPERTY p: NEVER IN1;"),
+              "1:33: property 'p' stands twice; give one of them another name");
+    EXPECT_NE(mistake_in("PROPERTY P: WHENEVER IN0 THEN IN1 WITHIN 1.5 ms;"), "");
+    EXPECT_NE(mistake_in("PROPERTY P: NEVER " + std::string(200, '(') + "IN0"), "");
+}
+
+TEST(Property, AllMistakesOfAFileAreTold) {
+    const PropertyReading reading = read_properties(
+        "PROPERTY A: NEVER Stert;\nPROPERTY B: NEVR Start;\nASSUME Door STABLE FOR 5;\n", names());
+    ASSERT_FALSE(reading.diagnostics.empty());
+    EXPECT_TRUE(reading.properties.empty());
+    const PropertyReading names_alone =
+        read_properties("PROPERTY A: NEVER Stert;\nASSUME Door STABLE FOR 5;\n", names());
+    EXPECT_EQ(names_alone.diagnostics.size(), 2U);
 }
 
 }  // namespace
-}  // namespace nplc::verify
+}  // namespace nplc::seqc
