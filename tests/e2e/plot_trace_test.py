@@ -61,6 +61,23 @@ class PlotTrace(FolderCase):
             self.assertIn(text, texts)
         self.assertTrue({"IN0", "OUT0", "2", "counts"}.isdisjoint(texts))
 
+    def test_a_step_that_blinks_is_one_box(self):
+        self.write("b.seq", """PROGRAM Blink
+MOTOR MAC140;
+VAR_INPUT Start AT IN0 : BOOL; END_VAR
+VAR_OUTPUT Lamp AT OUT0 : BOOL; END_VAR
+POWER_UP NEXT := Idle; END_POWER_UP
+STEP Idle: OWN ERROR; OUT Lamp BLINKING 100 ms; IF R_TRIG(Start) THEN NEXT := Work; END_IF END_STEP
+STEP Work: OWN ERROR; IF NOT Start THEN NEXT := Idle; END_IF END_STEP
+END_PROGRAM
+""")
+        self.write("b.scn", "at 1200 ms Start := 1\nend at 2 s\n")
+        done = self.run_program(NANOPLC_SIM, "run", "b.seq", "--scenario", "b.scn", "--quiet", "--trace", "b.csv")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual(self.plot("b.csv", "-o", "b.svg").returncode, 0)
+        texts = re.findall(r">([^<]*)</text>", self.read("b.svg"))
+        self.assertEqual((texts.count("Idle"), texts.count("Work")), (1, 1), texts)
+
     def test_what_a_count_is_comes_from_the_motor_that_ran(self):
         self.write("p.seq", "PROGRAM P MOTOR MAC800; SCALE 1 rev = 360 deg; STEP A: OWN ERROR; IF IN0 THEN NEXT := POWER_UP; END_IF "
                             "END_STEP END_PROGRAM\n")

@@ -87,6 +87,26 @@ TEST_F(Courses, AProofOfNothingIsToldInWordsAndInJson) {
     }
 }
 
+TEST_F(Courses, JsonHasTheOrdersOfACourse) {
+    write("p.seq",
+          "PROGRAM P\nMOTOR MAC140;\n"
+          "VAR_MOTOR Near AT P1 := 2 rev; Fast AT V1 := 100 rpm; END_VAR\n"
+          "POWER_UP INIT(Fast); NEXT := A; END_POWER_UP\n"
+          "STEP A: OWN ERROR; IF IN0 THEN POSITION(Near); COUNTER := 3; NEXT := B; END_IF END_STEP\n"
+          "STEP B: OWN ERROR; OUT OUT1; IF NOT IN0 THEN NEXT := A; END_IF END_STEP\n"
+          "PROPERTY Dark: NEVER OUT1;\nEND_PROGRAM\n");
+    run("verify --json p.seq");
+    for (const Json& result : Json::parse(read("out"))["results"]) {
+        if (result["name"] != "Dark") continue;
+        const Json& course = result["course"];
+        EXPECT_EQ(course.front()["orders"], (Json{"Near := 2 rev", "Fast := 100 rpm", "INIT(Fast)"}));
+        EXPECT_EQ(course.back()["orders"], Json{"POSITION(Near)"});
+        EXPECT_EQ(course.back()["counter"], 3);
+        return;
+    }
+    FAIL() << read("out");
+}
+
 TEST_F(Courses, AnAllowedFaultIsToldWithItsReasonAndIsNoFault) {
     const std::string program =
         "PROGRAM P\nMOTOR MAC140;\nON ERROR NEXT := Fault;\n"

@@ -186,6 +186,7 @@ void check_motion(const ast::Program& program, const Plan& plan, Scope& scope, c
     check_home_mode(plan, symbols.motor, checks);
     check_lasting_selections(plan, symbols, sources.text(), checks);
     check_standing_in_position(plan, checks);
+    check_known_places(plan, symbols, sources.text(), checks);
     check_restart(program, plan, scope, checks);
     check_arrivals(plan, checks);
     if (symbols.drive == nullptr) return;

@@ -63,6 +63,7 @@ class Symbols:
             self.program = str(file["program"])
             self.crc32 = str(file["table"]["crc32"])
             self.steps = {int(step["number"]): str(step["name"]) for step in file["steps"]}
+            self.copies = {int(step["number"]): int(step["copy_of"]) for step in file["steps"] if "copy_of" in step}
             names = [("IN", file["inputs"]), ("OUT", file["outputs"])]
             self.signals = {f"{kind}{i}": str(name) for kind, all_names in names for i, name in enumerate(all_names)}
             free = {entry.get("register") for entry in file.get("set_points", [])}
@@ -112,6 +113,11 @@ def check_fit(trace, trace_path, symbols, own):
         if differs and any(r in writes for r in symbols.initial):
             raise Bad(f"{symbols.path}: {symbols.program} begins by writing {value} to register {register}, "
                       f"{trace_path} does not; {advice}")
+
+
+def without_copies(trace, symbols):
+    """The trace with the steps of the program: a step that blinks, or waits for an edge, is one."""
+    return [row | {"step": symbols.copies.get(int(row["step"]), row["step"])} for row in trace]
 
 
 def symbols_for(trace, trace_path, named):

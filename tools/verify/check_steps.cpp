@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <optional>
@@ -45,12 +46,24 @@ std::optional<std::vector<CourseScan>> course_into(const Subject& subject, std::
     return std::nullopt;
 }
 
+/// A copy of a step is that step.
+Steps without_copies(Steps steps, const Names& names) {
+    Steps result = 0;
+    for (; steps != 0; steps &= steps - 1) {
+        const auto step = static_cast<std::uint8_t>(std::countr_zero(steps));
+        result |= bit_of(step < names.copy_of.size() ? names.copy_of[step].value_or(step) : step);
+    }
+    return result;
+}
+
 void find_never_reached(const Subject& subject, std::vector<Finding>& findings) {
     const Machine& machine = subject.explorer.machine();
+    const Steps begun = without_copies(subject.explorer.steps_begun(), subject.names);
+    const Steps copies = ~without_copies(~Steps{0}, subject.names);
     for (std::uint8_t step = 1; step <= sequencer::kLastStep; ++step) {
         const bool is_there =
             !subject.names.steps[step].empty() || ((machine.steps_with_terms() >> step) & 1U) != 0;
-        if (!is_there || ((subject.explorer.steps_begun() >> step) & 1U) != 0) continue;
+        if (!is_there || ((begun | copies) & bit_of(step)) != 0) continue;
         findings.push_back(
             {"V001", step, fmt::format("no course reaches step {}", step_name(subject.names, step)), {}});
     }
@@ -61,10 +74,14 @@ void find_never_left(const Subject& subject, std::vector<Finding>& findings) {
     const Steps begun = subject.explorer.steps_begun();
     if (std::has_single_bit(begun)) return;
     Steps told = 0;
+    Steps told_alone = 0;  // by the step of which they are copies
+    std::vector<Steps> told_groups;
     for (std::uint8_t step = 0; step <= sequencer::kLastStep; ++step) {
         if ((begun & bit_of(step)) == 0) continue;
         const Steps group = graph.reached_from(step);
         if (group == bit_of(step)) {
+            if ((told_alone & without_copies(group, subject.names)) != 0) continue;
+            told_alone |= without_copies(group, subject.names);
             if (auto course = course_into(subject, step))
                 findings.push_back({"V002", step,
                                     fmt::format("nothing leaves step {}", step_name(subject.names, step)),
@@ -76,6 +93,9 @@ void find_never_left(const Subject& subject, std::vector<Finding>& findings) {
         const bool all_meet = graph.reached_from(static_cast<std::uint8_t>(std::countr_zero(one))) == group;
         if (!all_meet || (graph.reached_from(step) & bit_of(step)) == 0) continue;
         told |= group;
+        const Steps named = without_copies(group, subject.names);
+        if (std::find(told_groups.begin(), told_groups.end(), named) != told_groups.end()) continue;
+        told_groups.push_back(named);
         auto course = course_into(subject, step);
         if (!course) continue;
         findings.push_back({"V003", step,
@@ -109,6 +129,7 @@ std::optional<std::vector<CourseScan>> Courses::to(Explorer::Node node, std::vec
 
 std::string names_of(Steps steps, const Names& names) {
     std::string text;
+    steps = without_copies(steps, names);
     for (; steps != 0; steps &= steps - 1)
         text +=
             (text.empty() ? "" : ", ") + step_name(names, static_cast<std::uint8_t>(std::countr_zero(steps)));

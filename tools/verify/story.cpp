@@ -40,7 +40,7 @@ std::vector<std::string> order_lines(const std::vector<sequencer::MotorOrder>& o
     constexpr std::size_t kLongest = 60;
     std::vector<std::string> lines;
     for (const auto& order : orders) {
-        const std::string text = names.order ? names.order(order) : bare_orders({order}).substr(1);
+        const std::string text = order_text(order, names);
         if (!lines.empty() && lines.back().size() + 2 + text.size() <= kLongest) {
             lines.back() += "; " + text;
         } else {
@@ -137,6 +137,10 @@ std::string end_text(const Result& result) {
 }
 
 }  // namespace
+
+std::string order_text(const sequencer::MotorOrder& order, const Names& names) {
+    return names.order ? names.order(order) : bare_orders({order}).substr(1);
+}
 
 std::string input_name(const Names& names, unsigned input) {
     return names.inputs[input].empty() ? fmt::format("IN{}", input) : names.inputs[input];

@@ -86,6 +86,11 @@ Json course_object(const verify::Course& course, const verify::Names& names) {
         added["dt_ms"] = scan.dt_ms;
         added["step"] = verify::step_name(names, scan.after.step);
         added["outputs"] = scan.after.outputs;
+        added["timer"] = scan.after.timer;
+        added["counter"] = scan.after.counter;
+        Json& orders = added["orders"] = Json::array();
+        for (const sequencer::MotorOrder& order : scan.orders)
+            orders.push_back(verify::order_text(order, names));
     }
     return scans;
 }

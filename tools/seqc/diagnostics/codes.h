@@ -88,6 +88,7 @@ constexpr auto kCodes = std::to_array<CodeRow>({
     {"W034", Severity::warning, Phase::names},      {"W035", Severity::warning, Phase::motion},
     {"W036", Severity::warning, Phase::motion},     {"W037", Severity::warning, Phase::motion},
     {"W038", Severity::warning, Phase::motion},     {"W039", Severity::warning, Phase::motor},
+    {"W040", Severity::warning, Phase::motion},     {"W041", Severity::warning, Phase::motion},
 });
 
 constexpr const CodeRow* find_code(std::string_view code) {
@@ -98,7 +99,7 @@ constexpr const CodeRow* find_code(std::string_view code) {
 
 /// Warnings of what may be meant: a step can ALLOW them, as what `seqc verify` finds by itself.
 constexpr bool is_advice(std::string_view code) {
-    return code >= "W035" && code <= "W038";
+    return code == "W019" || code == "W022" || (code >= "W035" && code != "W039" && code <= "W041");
 }
 
 /// A code of the table: any other literal does not compile.

@@ -55,6 +55,9 @@ void check_arrivals(const Plan& plan, Report& report);
 /// Waits for an INPOS that stands already.
 void check_standing_in_position(const Plan& plan, Report& report);
 
+/// Moves to where the axis stands, and time limits that end before the move can.
+void check_known_places(const Plan& plan, const Symbols& symbols, std::string_view source, Report& report);
+
 /// Limits of the motor that a program sets, although reaching them does not show in ERROR (001 §5.2.1.6).
 void check_invisible_limits(const Plan& plan, registers::Model model, Report& report);
 

@@ -114,12 +114,12 @@ std::string list_or_none(std::uint8_t outputs, const Symbols* symbols) {
 }
 
 /// One of the two tables.
-struct Side {
+struct ComparedTable {
     Machine machine;
     const Symbols* symbols;
     std::array<Entry, kStepNumbers> entries;
 
-    explicit Side(const NamedTable& table) : machine(machine_of(table.table)), symbols(table.symbols) {
+    explicit ComparedTable(const NamedTable& table) : machine(machine_of(table.table)), symbols(table.symbols) {
         for (std::uint8_t step = 0; step < kStepNumbers; ++step) {
             if (machine.used.test(step)) entries[step] = entry_of(machine, step);
         }
@@ -298,8 +298,8 @@ class Differ {
                                  list_or_none(before.value & both, names_)});
     }
 
-    Side before_;
-    Side now_;
+    ComparedTable before_;
+    ComparedTable now_;
     const Symbols* names_;  ///< of signals
     StepMatch match_;
     PowerUpValues values_;

@@ -14,6 +14,9 @@ std::string step_name(const Names& names, std::uint8_t step);
 /// Those that are on; - for none.
 std::string outputs_text(std::uint8_t outputs, const Names& names);
 
+/// With names and units where `names` has them: "POSITION(Near)", "Near := 52 mm"; else "14h", "49=0".
+std::string order_text(const sequencer::MotorOrder& order, const Names& names);
+
 /// A line for each scan that did something or saw something new: time, image, step, what it did; where it
 /// breaks, and the helper steps on the way. The result must have a course.
 std::string story_of(const Result& result, const Names& names);
