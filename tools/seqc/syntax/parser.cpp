@@ -433,9 +433,10 @@ void Parser::parse_allowance(ast::Step& step) {
     ++at_;
     const CodeRow* row = find_code(upper(allowance.code.text));
     if (row == nullptr || (row->phase != Phase::courses && !is_advice(row->code))) {
-        report_.add("E021", allowance.code.span, fmt::format("there is no check '{}'", allowance.code.text),
-                    "ALLOW takes what seqc verify finds by itself, V001 and on, and of the warnings W019, W022, W035 "
-                    "to W038, W040 and W041");
+        report_.add(
+            "E021", allowance.code.span, fmt::format("there is no check '{}'", allowance.code.text),
+            "ALLOW takes what seqc verify finds by itself, V001 and on, and of the warnings W019, W022, W035 "
+            "to W038, W040 and on");
     } else {
         step.allowances.push_back(allowance);
     }

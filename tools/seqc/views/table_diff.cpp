@@ -119,7 +119,8 @@ struct ComparedTable {
     const Symbols* symbols;
     std::array<Entry, kStepNumbers> entries;
 
-    explicit ComparedTable(const NamedTable& table) : machine(machine_of(table.table)), symbols(table.symbols) {
+    explicit ComparedTable(const NamedTable& table)
+        : machine(machine_of(table.table)), symbols(table.symbols) {
         for (std::uint8_t step = 0; step < kStepNumbers; ++step) {
             if (machine.used.test(step)) entries[step] = entry_of(machine, step);
         }
