@@ -119,11 +119,11 @@ class Restart {
         Images guarded;
         for (const ast::OnCondition& on : program_.on_conditions)
             for_each_entry(on, [&](const Truth& when, std::uint8_t) { guarded |= images_of(when, false); });
-        if (guarded.all() || steps_.front() == nullptr) return;
+        if (steps_.front() == nullptr) return;
         here_ = {};
         Exit exit{};
         exit.next = 0;
-        exit.held = ~guarded;
+        exit.held = guarded.all() ? guarded : ~guarded;
         const Moved motion = motion_behind(exit);
         if (motion.images != exit.held) return;
         report_.add(
@@ -243,7 +243,8 @@ class Restart {
     /// `guard`: what is over; empty: a fault.
     void judge(const Exit& exit, const Moved& motion, Span guard) {
         const Rule& rule = *exit.rule;
-        const Span place = rule.condition.length != 0 ? rule.condition : rule.action.next_span;
+        const Span written = rule.condition.length != 0 ? rule.condition : rule.action.next_span;
+        const Span place = is_guard(program_, written) ? here_ : written;  // a step can ALLOW it
         const bool by_guard = guard.length != 0;
         if (motion.first == nullptr || report_.has("W037", place) || is_acknowledged(rule, by_guard)) return;
         Diagnostic& d = report_.add(
